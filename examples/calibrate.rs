@@ -9,7 +9,7 @@ use std::error::Error;
 pub fn main() -> Result<(), Box<dyn Error>> {
     let (nominal, measured) = support::nominal_and_measured("")?;
     let rows = Rows::read(&[measured], &Said::default(), &nominal.profile)?;
-    let found = calibrate(&nominal, rows, &Options::default())?;
+    let found = calibrate(&nominal, rows, &Options::default(), &mut || ())?;
     let (before, after) = (&found.found.frames_only_quality, &found.found.after);
     let (before, after) = (before.position, after.position);
     let (Some(before), Some(after)) = (before, after) else {

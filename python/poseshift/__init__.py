@@ -27,7 +27,23 @@ from poseshift.errors import (
     RegisterError,
 )
 from poseshift.inputs import Files, Measurements, read_files, read_one
-from poseshift.results import Calibration, Check, Compensation, Diagnosis, Fit, HandEye, Plan, Result, Status, Validation
+from poseshift.results import (
+    Axes,
+    Calibration,
+    Change,
+    Check,
+    Compensation,
+    Diagnosis,
+    Fit,
+    HandEye,
+    Hexapod,
+    Plan,
+    Program,
+    Result,
+    Status,
+    SurfaceFit,
+    Validation,
+)
 from poseshift.table import Table
 
 if TYPE_CHECKING:
@@ -36,13 +52,16 @@ if TYPE_CHECKING:
 __all__ = [
     "Arm",
     "ArmError",
+    "Axes",
     "Calibration",
+    "Change",
     "Check",
     "CheckError",
     "Compensation",
     "Diagnosis",
     "Fit",
     "HandEye",
+    "Hexapod",
     "IdentifyError",
     "InternalError",
     "MeasurementError",
@@ -53,23 +72,30 @@ __all__ = [
     "Problem",
     "Profile",
     "ProfileError",
+    "Program",
     "ProgramError",
     "Refused",
     "RegisterError",
     "Result",
     "Solutions",
     "Status",
+    "SurfaceFit",
     "Table",
     "Validation",
     "__version__",
+    "axes",
     "calibrate",
+    "changes",
     "check",
     "compensate",
     "diagnose",
     "diff",
     "effects",
     "hand_eye",
+    "hexapod",
+    "icp",
     "plan",
+    "read_program",
     "register",
     "set_threads",
     "simulate",
@@ -199,6 +225,16 @@ def check(
     return Check(document, refused, junit)
 
 
+def read_program(
+    files: Files, profile: Profile | None = None, *, context: Files = (), language: str | None = None
+) -> Program:
+    """What programs say: their targets with the bytes where the numbers stand, and their moves.
+
+    A profile knows what programs do not: pulses of a degree, what external axes carry.
+    """
+    return Program(json.loads(_poseshift.read_program(read_files(files), read_files(context), profile, language=language)))
+
+
 def calibrate(
     profile: Profile,
     measurements: Measurements,
@@ -239,8 +275,13 @@ def validate(
     level: str | None = None,
     priors: bool = False,
     all_sets: bool = False,
+    as_calibrated: bool = False,
 ) -> Validation:
-    """Errors of a profile's models on measurements that it has not seen. `level` and `priors` are of the `folds`."""
+    """Errors of a profile's models on measurements that it has not seen. `level` and `priors` are of the `folds`.
+
+    `as_calibrated` says whether the arm errs as it did when it was calibrated, and what would have been seen: ten poses are
+    enough.
+    """
     document = _poseshift.validate(
         profile,
         measurements._tables,
@@ -249,6 +290,7 @@ def validate(
         level=level,
         priors=priors,
         all_sets=all_sets,
+        as_calibrated=as_calibrated,
     )
     return Validation(document)
 
@@ -261,13 +303,23 @@ def diagnose(
     reject: Sequence[str] = (),
     quick: bool = False,
     steps: bool = False,
+    runs: bool = False,
 ) -> Diagnosis:
-    """Names the effects that a profile lacks. `steps` has the page show the way there."""
+    """Names the effects that a profile lacks. `steps` has the page show the way there.
+
+    With `runs` the tables are runs, the oldest first: `drift` says since which the arm errs otherwise, and the rows since are
+    diagnosed.
+    """
     document, is_sure, text, poses = _poseshift.diagnose(
-        profile, measurements._tables, accept=",".join(accept), reject=",".join(reject), quick=quick, steps=steps
+        profile, measurements._tables, accept=",".join(accept), reject=",".join(reject), quick=quick, steps=steps, runs=runs
     )
     better = None if text is None else Profile.from_yaml(text, "better.yaml")
     return Diagnosis(document, is_sure, better, poses)
+
+
+def changes(errors: ArrayLike) -> list[Change]:
+    """Since which run an error (n,) is another one, by a change-point test; the oldest change first."""
+    return [Change(*found) for found in _poseshift.changes(errors)]
 
 
 def plan(profile: Profile, count: int, **options: Any) -> Plan:
@@ -330,6 +382,38 @@ def hand_eye(robot: ArrayLike, board: ArrayLike, *, setup: str) -> HandEye:
     """
     camera, of_board, by_method, metres, radians = _poseshift.hand_eye(robot, board, setup=setup)
     return HandEye(camera, of_board, dict(by_method), metres, radians)
+
+
+def icp(
+    from_m: ArrayLike,
+    to_m: ArrayLike,
+    *,
+    normals: ArrayLike | None = None,
+    metric: str = "plane",
+    start: ArrayLike | None = None,
+    keep: float = 0.9,
+    min_overlap: float = 0.6,
+    sigma_m: float | None = None,
+) -> SurfaceFit:
+    """The rigid motion that lays points (n, 3) of a surface on others (m, 3): which belongs to which is not known.
+
+    `normals` (m, 3) are those of the second surface, where they are known; `metric` is `plane` or `point`; `start` is
+    to_from_from (4, 4).
+    """
+    found = _poseshift.icp(
+        from_m, to_m, normals=normals, metric=metric, start=start, keep=keep, min_overlap=min_overlap, sigma_m=sigma_m
+    )
+    return SurfaceFit(*found)
+
+
+def hexapod(lengths: bytes | str | os.PathLike[str], *, sigma_m: float = 1e-6) -> Hexapod:
+    """Tool poses from the lengths of a ballbar hexapod: a table as the command reads it. `sigma_m` is that of a length."""
+    return Hexapod(*_poseshift.hexapod(read_one(lengths, "lengths.csv"), sigma_m=sigma_m))
+
+
+def axes(profile: Profile, sweeps: bytes | str | os.PathLike[str], *, point: str | None = None) -> Axes:
+    """Frames from sweeps of single joints: a table as the command reads it. `point` names the rows that count."""
+    return Axes(*_poseshift.axes(profile, read_one(sweeps, "sweeps.csv"), point=point))
 
 
 class Problem:

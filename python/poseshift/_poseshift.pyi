@@ -15,14 +15,19 @@ __all__ = [
     "Profile",
     "Solutions",
     "__version__",
+    "axes",
     "calibrate",
+    "changes",
     "check",
     "compensate",
     "diagnose",
     "hand_eye",
+    "hexapod",
+    "icp",
     "main",
     "measurements_of_arrays",
     "plan",
+    "read_program",
     "register",
     "set_threads",
     "simulate",
@@ -201,9 +206,19 @@ def validate(
     level: str | None = None,
     priors: bool = False,
     all_sets: bool = False,
+    as_calibrated: bool = False,
 ) -> Document: ...
+def changes(errors: ArrayLike) -> list[tuple[int, int, float, float]]: ...
+def read_program(files: _Files, context: _Files, profile: Profile | None, *, language: str | None = None) -> str: ...
 def diagnose(
-    profile: Profile, tables: _Tables, *, accept: str = "", reject: str = "", quick: bool = False, steps: bool = False
+    profile: Profile,
+    tables: _Tables,
+    *,
+    accept: str = "",
+    reject: str = "",
+    quick: bool = False,
+    steps: bool = False,
+    runs: bool = False,
 ) -> tuple[Document, bool, str | None, str | None]: ...
 def plan(
     profile: Profile,
@@ -261,5 +276,18 @@ def register(
 def hand_eye(
     robot: ArrayLike, board: ArrayLike, *, setup: str
 ) -> tuple[_Floats, _Floats, list[tuple[str, _Floats | None]], _Floats, _Floats]: ...
+def icp(
+    from_m: ArrayLike,
+    to_m: ArrayLike,
+    *,
+    normals: ArrayLike | None = None,
+    metric: str = "plane",
+    start: ArrayLike | None = None,
+    keep: float = 0.9,
+    min_overlap: float = 0.6,
+    sigma_m: float | None = None,
+) -> tuple[_Floats, float, float, float, _Floats | None, list[str]]: ...
+def hexapod(lengths: tuple[str, bytes], *, sigma_m: float = ...) -> tuple[Document, _Floats, _Floats]: ...
+def axes(profile: Profile, sweeps: tuple[str, bytes], *, point: str | None = None) -> tuple[Document, _Floats | None, _Floats | None]: ...
 def main(arguments: Sequence[str]) -> int: ...
 def set_threads(count: int | None = None) -> None: ...

@@ -24,15 +24,20 @@ if TYPE_CHECKING:
     from poseshift._poseshift import Document, Profile
 
 __all__ = [
+    "Axes",
     "Calibration",
+    "Change",
     "Check",
     "Compensation",
     "Diagnosis",
     "Fit",
     "HandEye",
+    "Hexapod",
     "Plan",
+    "Program",
     "Result",
     "Status",
+    "SurfaceFit",
     "Validation",
 ]
 
@@ -191,6 +196,11 @@ class Calibration(Result):
 class Validation(Result):
     """Errors of a profile's models on measurements."""
 
+    @property
+    def as_calibrated(self) -> dict[str, Any] | None:
+        """Whether the arm errs as it did when it was calibrated, and what would have been seen, where that was asked."""
+        return self.document.get("as_calibrated")
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Diagnosis(Result):
@@ -212,6 +222,11 @@ class Diagnosis(Result):
     def effects(self) -> Table:
         """The effects that were found."""
         return self._table("effects")
+
+    @property
+    def drift(self) -> dict[str, Any] | None:
+        """The errors run by run and their changes, where the tables are runs."""
+        return self.document.get("drift")
 
     @property
     def rivals(self) -> Table:
@@ -259,6 +274,98 @@ class HandEye:
     """(n,)"""
     residuals_rad: NDArray[np.float64]
     """(n,)"""
+
+
+@dataclass(frozen=True)
+class SurfaceFit:
+    """The rigid motion that lays one surface on another."""
+
+    to_from_from: NDArray[np.float64]
+    """(4, 4)"""
+    rms_m: float
+    """Of the pairs that are kept, in the metric."""
+    expected_m: float
+    """What the roughness of both explains."""
+    overlap: float
+    """Share of the first that lies on the second."""
+    covariance: NDArray[np.float64] | None
+    """(6, 6) as that of `Fit`."""
+    concerns: list[str]
+    """Why it is no success; none where it is."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Hexapod(Result):
+    """Poses of the tool in the frame of the base balls: one a row and assembly mode."""
+
+    base_from_tool: NDArray[np.float64]
+    """(n, 4, 4)"""
+    tool_points_m: NDArray[np.float64]
+    """(n, 3, 3) the balls T1, T2, T3."""
+
+    @property
+    def poses(self) -> Table:
+        """They with their uncertainty."""
+        return self._table("poses")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Axes(Result):
+    """Frames from sweeps of single joints."""
+
+    world_from_base: NDArray[np.float64] | None
+    """(4, 4); of sweeps of joints 1 and 2."""
+    flange_from_tool: NDArray[np.float64] | None
+    """(4, 4); of sweeps of joints 5 and 6."""
+
+    @property
+    def joints(self) -> Table:
+        """The joints that were swept."""
+        return self._table("joints")
+
+
+@dataclass(frozen=True, repr=False)
+class Program:
+    """What programs say; `document` has the names and units of the command's JSON."""
+
+    document: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return f"<Program {self.language}: {self.targets.rows} targets, {self.moves.rows} moves>"
+
+    @property
+    def language(self) -> str:
+        """Which language they are in."""
+        return str(self.document["language"])
+
+    @property
+    def targets(self) -> Table:
+        """Targets: name, place, pose or joints, `spans` with first byte and length of each number."""
+        return Table.of_rows(self.document["targets"])
+
+    @property
+    def moves(self) -> Table:
+        """Moves to them: kind, tool, frame, speed, corner; `target` is the row in `targets`."""
+        return Table.of_rows(self.document["moves"])
+
+    @property
+    def findings(self) -> Table:
+        """What a person should look at."""
+        return Table.of_rows(self.document["findings"])
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of an error from run to run."""
+
+    since: int
+    """The first run with it, from 0."""
+    noticed: int
+    """The run in which it was noticed."""
+    before: float
+    """Geometric mean of the error before, back to the change before that."""
+    after: float
+    """And since, up to the next."""
 
 
 def write_all(files: Mapping[str, bytes], folder: Path) -> list[Path]:

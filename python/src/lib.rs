@@ -11,6 +11,7 @@
     clippy::unnecessary_wraps,
     clippy::too_many_arguments,
     clippy::type_complexity,
+    clippy::fn_params_excessive_bools,
     reason = "what the interpreter calls has these forms"
 )]
 
@@ -48,15 +49,17 @@ mod _poseshift {
     #[pymodule_export]
     use super::document::Document;
     #[pymodule_export]
-    use super::measuring::{calibrate, diagnose, measurements_of_arrays, plan, simulate, validate};
+    use super::measuring::{
+        calibrate, changes, diagnose, measurements_of_arrays, plan, simulate, validate,
+    };
     #[pymodule_export]
     use super::problem::Problem;
     #[pymodule_export]
     use super::profile::Profile;
     #[pymodule_export]
-    use super::programs::{check, compensate};
+    use super::programs::{check, compensate, read_program};
     #[pymodule_export]
-    use super::registering::{hand_eye, register};
+    use super::registering::{axes, hand_eye, hexapod, icp, register};
     #[pymodule_export]
     use super::{main, set_threads};
     use pyo3::prelude::*;

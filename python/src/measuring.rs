@@ -23,6 +23,7 @@ use poseshift::task::simulate::{measurements_csv, simulate_at};
 use poseshift::task::{self, Failure, ProfileFile, Rows, Said};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Tables of measurements and what is said of their columns: files, columns, units, euler, driven
 /// in order, and whether the two files are joints and points to be joined.
@@ -134,11 +135,11 @@ pub(crate) fn calibrate<'py>(
     date: Option<String>,
 ) -> PyResult<(Document, String, Vec<String>, Array<'py>, Array<'py>)> {
     let options = options(selection(level, identify, fix, priors)?, loss, base)?;
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |_| {
-        let found = task::calibrate::calibrate(file, rows, &options)?;
-        let text = found.profile_text(file, date.as_deref())?;
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
+        let found = task::calibrate::calibrate(&file, rows, &options, &mut || stop.here())?;
+        let text = found.profile_text(&file, date.as_deref())?;
         Ok((found, text))
     })?;
     let (found, text) = identified(py, found)?;
@@ -162,7 +163,7 @@ pub(crate) fn calibrate<'py>(
 
 /// Errors of a profile's models on measurements.
 #[pyfunction]
-#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, level=None, priors=false, all_sets=false))]
+#[pyo3(signature = (profile, tables, *, refit_frames=false, folds=None, level=None, priors=false, all_sets=false, as_calibrated=false))]
 pub(crate) fn validate(
     py: Python<'_>,
     profile: &Profile,
@@ -172,6 +173,7 @@ pub(crate) fn validate(
     level: Option<&str>,
     priors: bool,
     all_sets: bool,
+    as_calibrated: bool,
 ) -> PyResult<Document> {
     if folds.is_some_and(|folds| !(2..=1000).contains(&folds)) {
         return Err(PyValueError::new_err("folds must be from 2 to 1000"));
@@ -189,11 +191,12 @@ pub(crate) fn validate(
         refit_frames,
         folds,
         all_sets,
+        as_calibrated,
     };
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |stop| {
-        task::validate::validate(file, rows, &options, &mut |_, _| stop.here())
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
+        task::validate::validate(&file, rows, &options, &mut |_, _| stop.here())
     })?;
     Ok(Document::new(identified(py, found)?))
 }
@@ -201,7 +204,7 @@ pub(crate) fn validate(
 /// The effects that a profile lacks: the document, whether it is sure, the better profile where it
 /// is, and the configurations that would tell alternatives apart.
 #[pyfunction]
-#[pyo3(signature = (profile, tables, *, accept="", reject="", quick=false, steps=false))]
+#[pyo3(signature = (profile, tables, *, accept="", reject="", quick=false, steps=false, runs=false))]
 pub(crate) fn diagnose(
     py: Python<'_>,
     profile: &Profile,
@@ -210,6 +213,7 @@ pub(crate) fn diagnose(
     reject: &str,
     quick: bool,
     steps: bool,
+    runs: bool,
 ) -> PyResult<(Document, bool, Option<String>, Option<String>)> {
     let options = engine::Options {
         accept: picks("accept", accept)?,
@@ -217,19 +221,39 @@ pub(crate) fn diagnose(
         quick,
         steps,
     };
-    let file = &*profile.file;
-    let rows = read(py, file, tables)?;
-    let found = long(py, |stop| {
-        let found = task::diagnose::diagnose(file, rows, &options, &mut |_| stop.here())?;
+    let file = Arc::clone(&profile.file);
+    let rows = read(py, &file, tables)?;
+    let found = long(py, move |stop| {
+        let hear = &mut |_: &str| stop.here();
+        let found = if runs {
+            task::drift::diagnose_runs(&file, rows, &options, hear)?
+        } else {
+            task::diagnose::diagnose(&file, rows, &options, hear)?
+        };
         let better = found
             .is_sure()
-            .then(|| found.profile_text(file))
+            .then(|| found.profile_text(&file))
             .transpose()?;
         Ok((found, better))
     })?;
     let (found, better) = identified(py, found)?;
     let (is_sure, poses) = (found.is_sure(), found.poses_csv());
     Ok((Document::new(found), is_sure, better, poses))
+}
+
+/// Changes of an error run by run: the first run with each and the one in which it was noticed,
+/// from 0, and the error before and since.
+#[pyfunction]
+pub(crate) fn changes(errors: Numbers<'_>) -> PyResult<Vec<(usize, usize, f64, f64)>> {
+    let errors = column("errors", &errors)?;
+    if let Some(wrong) = errors.iter().find(|e| **e < 0.0) {
+        let message = format!("an error is {wrong}; none is below 0");
+        return Err(PyValueError::new_err(message));
+    }
+    let found = engine::drift::changes(&errors).into_iter();
+    Ok(found
+        .map(|c| (c.since, c.noticed, c.before, c.after))
+        .collect())
 }
 
 /// A box of the world from two corners.
@@ -300,14 +324,18 @@ pub(crate) fn plan<'py>(
         },
     };
     let selection = selection(level, identify, fix, false)?;
-    let wanted = program.map(|name| Wanted { name, language });
-    let file = &*profile.file;
-    let found = long(py, |stop| {
+    let [tool, program, language] = [tool, program, language].map(|text| text.map(str::to_owned));
+    let file = Arc::clone(&profile.file);
+    let found = long(py, move |stop| {
+        let wanted = program.as_deref().map(|name| Wanted {
+            name,
+            language: language.as_deref(),
+        });
         let read = |path: &std::path::Path| std::fs::read(path);
         let tell = &mut |_, _| stop.here();
         task::plan::plan(
-            file,
-            tool,
+            &file,
+            tool.as_deref(),
             &selection,
             &request,
             wanted.as_ref(),

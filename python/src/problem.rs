@@ -9,6 +9,7 @@ use poseshift::identify::residuals::Residuals;
 use poseshift::task::{self, Failure};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 /// Residuals of measurements and their exact Jacobian, for solvers such as
 /// `scipy.optimize.least_squares`.
@@ -49,10 +50,11 @@ impl Problem {
             "squares",
             "controller",
         )?;
-        let file = &*profile.file;
-        let rows = read(py, file, tables)?;
-        let found = long(py, |_| -> Result<_, Failure> {
-            let found = task::calibrate::calibrate(file, rows, &options)?;
+        let file = Arc::clone(&profile.file);
+        let rows = read(py, &file, tables)?;
+        let found = long(py, move |stop| -> Result<_, Failure> {
+            let hear = &mut || stop.here();
+            let found = task::calibrate::calibrate(&file, rows, &options, hear)?;
             let residuals = Residuals::of(&found.found);
             let x0 = residuals.start(&file.profile);
             Ok(Self { residuals, x0 })

@@ -17,7 +17,7 @@ use poseshift::report::{Drawing, check_html, check_junit, check_words, compensat
 use poseshift::task::check as checking;
 use poseshift::task::compensate::{Compensated, DespiteErrors, Header, Prepared, Request, prepare};
 use poseshift::task::programs::{LeftOut, acceptance, language_by_id};
-use poseshift::task::{Document as _, Failure, ProfileFile};
+use poseshift::task::{Document as _, Failure, ProfileFile, reading};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -270,30 +270,33 @@ pub(crate) fn compensate<'py>(
         json: String::new(),
         words: String::new(),
     };
-    let found = long(py, |_| -> Result<_, Failure> {
-        let (request, left_out) = (all.request(), LeftOut::default());
-        let prepared = prepare(&request)?;
-        let refused = prepared.is_refused();
-        let header = all.header(&prepared, &left_out);
-        let document = Compensated::new(&header, &prepared.compensation);
-        let told = (
-            document.json(),
-            compensation_words(&document, prepared.language),
-        );
-        let mut made = Vec::new();
-        if header.written.contains(&true) {
-            let written = prepared.written()?;
-            let files = written.sources.into_iter().zip(written.is_written);
-            made.extend(
-                files
-                    .filter(|(_, is_written)| *is_written)
-                    .map(|(source, _)| source),
+    let found = long(py, move |_| -> Result<_, Failure> {
+        let (told, refused, made) = {
+            let (request, left_out) = (all.request(), LeftOut::default());
+            let prepared = prepare(&request)?;
+            let refused = prepared.is_refused();
+            let header = all.header(&prepared, &left_out);
+            let document = Compensated::new(&header, &prepared.compensation);
+            let told = (
+                document.json(),
+                compensation_words(&document, prepared.language),
             );
-        }
-        Ok((told, refused, made))
+            let mut made = Vec::new();
+            if header.written.contains(&true) {
+                let written = prepared.written()?;
+                let files = written.sources.into_iter().zip(written.is_written);
+                made.extend(
+                    files
+                        .filter(|(_, is_written)| *is_written)
+                        .map(|(source, _)| source),
+                );
+            }
+            (told, refused, made)
+        };
+        (all.json, all.words) = told;
+        Ok((all, refused, made))
     })?;
-    let (told, refused, made) = found.map_err(|failure| Kind::Program.raise(py, &failure))?;
-    (all.json, all.words) = told;
+    let (all, refused, made) = found.map_err(|failure| Kind::Program.raise(py, &failure))?;
     let made = made
         .into_iter()
         .map(|source| (source.name, PyBytes::new(py, &source.bytes)));
@@ -415,23 +418,43 @@ pub(crate) fn check(
         json: String::new(),
         words: String::new(),
     };
-    let found = long(py, |stop: &Stop| -> Result<_, Failure> {
-        let request = all.request();
-        let found = checking::check(&request, &mut |_, _| stop.here())?;
-        let left_out = LeftOut::default();
-        let header = found.header(&left_out);
-        let run = checking::Checked::new(&header, &found.check, None);
-        let comparison = baseline.map(|(name, text)| {
-            let compared = run.compare(&text, tolerance);
-            compared.map_err(|error| Failure::new(format!("{name}: {error}")))
-        });
-        let comparison = comparison.transpose()?;
-        let worse = comparison.as_ref().is_some_and(|c| !c.worse.is_empty());
-        let run = checking::Checked::new(&header, &found.check, comparison.as_ref());
-        let told = (run.json(), check_words(&run));
-        Ok((told, found.check.is_refused() || worse, check_junit(&run)))
+    let found = long(py, move |stop: &Stop| -> Result<_, Failure> {
+        let (told, refused, junit) = {
+            let request = all.request();
+            let found = checking::check(&request, &mut |_, _| stop.here())?;
+            let left_out = LeftOut::default();
+            let header = found.header(&left_out);
+            let run = checking::Checked::new(&header, &found.check, None);
+            let comparison = baseline.map(|(name, text)| {
+                let compared = run.compare(&text, tolerance);
+                compared.map_err(|error| Failure::new(format!("{name}: {error}")))
+            });
+            let comparison = comparison.transpose()?;
+            let worse = comparison.as_ref().is_some_and(|c| !c.worse.is_empty());
+            let run = checking::Checked::new(&header, &found.check, comparison.as_ref());
+            let told = (run.json(), check_words(&run));
+            (told, found.check.is_refused() || worse, check_junit(&run))
+        };
+        (all.json, all.words) = told;
+        Ok((all, refused, junit))
     })?;
-    let (told, refused, junit) = found.map_err(|failure| Kind::Check.raise(py, &failure))?;
-    (all.json, all.words) = told;
+    let (all, refused, junit) = found.map_err(|failure| Kind::Check.raise(py, &failure))?;
     Ok((Document::new(all), refused, junit))
+}
+
+/// What programs say: the document's text.
+#[pyfunction]
+#[pyo3(signature = (files, context, profile, *, language=None))]
+pub(crate) fn read_program(
+    py: Python<'_>,
+    files: Files,
+    context: Files,
+    profile: Option<&Profile>,
+    language: Option<&str>,
+) -> PyResult<String> {
+    let sources = with_context(&files, &context);
+    let language = self::language(py, language)?;
+    let robot = profile.map(|profile| &profile.file.profile);
+    let found = py.detach(|| reading::read(&sources, robot, language).map(|found| found.json()));
+    found.map_err(|failure| Kind::Program.raise(py, &failure))
 }

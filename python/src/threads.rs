@@ -91,34 +91,35 @@ fn signals(py: Python<'_>) -> PyResult<()> {
     py.check_signals()
 }
 
-/// Long work without the interpreter's lock; a signal stops it at its next [`Stop::here`].
-pub(crate) fn long<T: Send>(py: Python<'_>, work: impl FnOnce(&Stop) -> T + Send) -> PyResult<T> {
+/// Long work without the interpreter's lock; a signal ends the call within a tick. The work itself
+/// ends at its next [`Stop::here`], on threads that no other call waits for.
+pub(crate) fn long<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Stop) -> T + Send + 'static,
+) -> PyResult<T> {
     let pool = pool()?;
-    let stop = Stop::default();
-    py.detach(|| {
-        std::thread::scope(|scope| {
-            let (done, waiting) = channel::<()>();
-            let (pool, stop) = (&pool, &stop);
-            let worker = scope.spawn(move || {
-                let found = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(stop))));
-                drop(done);
-                found
-            });
-            let mut signal = None;
-            while waiting.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-                if signal.is_none()
-                    && let Err(error) = Python::attach(signals)
-                {
-                    stop.0.store(true, Ordering::Relaxed);
-                    signal = Some(error);
+    let stop = Arc::new(Stop::default());
+    let (send, receive) = channel();
+    let heard = Arc::clone(&stop);
+    std::thread::spawn(move || {
+        let found = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&heard))));
+        // nobody waits for what was stopped
+        let _ = send.send(found);
+    });
+    py.detach(move || {
+        loop {
+            match receive.recv_timeout(TICK) {
+                Ok(Ok(found)) => return Ok(found),
+                Ok(Err(panic)) => resume_unwind(panic),
+                Err(RecvTimeoutError::Disconnected) => {
+                    let message = "the thread that computes has ended without an answer";
+                    return Err(pyo3::exceptions::PyRuntimeError::new_err(message));
                 }
+                Err(RecvTimeoutError::Timeout) => Python::attach(signals).inspect_err(|_| {
+                    stop.0.store(true, Ordering::Relaxed);
+                    *POOL.lock().unwrap_or_else(PoisonError::into_inner) = None;
+                })?,
             }
-            let found = worker.join().unwrap_or_else(Err);
-            match (signal, found) {
-                (Some(signal), _) => Err(signal),
-                (None, Ok(found)) => Ok(found),
-                (None, Err(panic)) => resume_unwind(panic),
-            }
-        })
+        }
     })
 }

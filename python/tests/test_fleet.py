@@ -236,3 +236,60 @@ def test_plan_lists_what_is_missing(backups: Path, capsys: pytest.CaptureFixture
     units = plan(read(backups / "fleet.yaml"), Store(store))
     assert [unit.key for unit in units] == [entry["key"] for entry in listed["missing"]]
     assert os.fspath(backups) not in "".join(unit.options + str(unit.inputs) for unit in units)
+
+
+def test_what_changes_is_said_with_the_night(backups: Path, profile: ps.Profile, capsys: pytest.CaptureFixture[str]) -> None:
+    """Nightly rows; the gear of one robot goes in the sixth night."""
+    q = np.random.default_rng(3).uniform([-2, -1, -1, -2, 0.2, -3], [2, 1, 0.8, 2, 1.8, 3], (60, 6))
+    gear = "{effect: joint_harmonic, joint: 3, order: 1, cos_deg: 0.05, sin_deg: 0}"
+    worn = ps.Profile.from_yaml(profile.to_yaml().replace("effects:\n", f"effects:\n    - {gear}\n", 1))
+    for night in range(8):
+        for number in range(ROBOTS):
+            real = worn if number == 1 and night >= 5 else profile
+            measured = ps.simulate(real, q, noise_m=2e-5, seed=100 * night + number)
+            (backups / f"r{number}/measured.csv").write_bytes(measured.to_csv())
+        status, store = run(backups, "--date", f"2026-03-{night + 1:02}")
+        # a night without new rows says nothing new
+        run(backups, "--date", f"2026-03-{night + 1:02}")
+    by_robot = {row["robot_id"]: row for row in _robots(store)}
+    row = by_robot["r1"]
+    assert status == 1
+    assert row["status"] == "changed"
+    assert (row["nights"], row["changed_since"]) == (8, "2026-03-06")
+    assert row["changed_noticed"] >= row["changed_since"]
+    assert row["changed_before_mm"] < 0.04 < row["changed_after_mm"]
+    assert "joint_harmonic joint 3" in row["changed_effect"]
+    for name in ("r0", "r2", "r3"):
+        assert (by_robot[name]["status"], by_robot[name]["changed_since"]) == ("done", None)
+    assert (store / "pages/r1/since.html").is_file()
+    assert "its error has changed" in (store / "junit.xml").read_text()
+    # the next night without new rows: the same answer, nothing is made
+    first = tables(store)
+    capsys.readouterr()
+    run(backups, "--date", "2026-03-20")
+    assert made(capsys) == 0
+    later = tables(store)
+    assert {name: data for name, data in later.items() if "2026-03-20" not in name} == first
+    # with the profile that was found the robot begins anew
+    (backups / "r1/profile.yaml").write_bytes((store / "out/r1/better.yaml").read_bytes())
+    assert run(backups, "--date", "2026-03-21")[0] == 0
+    row = {row["robot_id"]: row for row in _robots(store)}["r1"]
+    assert (row["status"], row["nights"], row["changed_since"]) == ("done", 1, None)
+
+
+def test_a_plant_to_try(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The two commands of the README, with fewer robots."""
+    plant, store = tmp_path / "plant", tmp_path / "store"
+    assert main(["demo", str(plant), "--robots", "20"]) == 0
+    assert main(["run", str(plant / "fleet.yaml"), "--store", str(store), "--workers", "2"]) == 0
+    rows = _robots(store)
+    assert len(rows) == 20
+    assert all(row["status"] == "done" and row["compensated"] > 0 for row in rows)
+    assert [row["robot_id"] for row in rows if "joint_harmonic joint 3" in row["effect"]] == ["r00019"]
+    assert main(["demo", str(plant)]) == 2
+    assert "is there already" in capsys.readouterr().err
+    again = tmp_path / "again"
+    assert main(["demo", str(again), "--robots", "20"]) == 0
+    assert {p.relative_to(again): p.read_bytes() for p in again.rglob("*") if p.is_file()} == {
+        p.relative_to(plant): p.read_bytes() for p in plant.rglob("*") if p.is_file()
+    }

@@ -184,16 +184,27 @@ def test_a_fork_after_use_does_not_hang(profile: ps.Profile, q_rad: Floats) -> N
         child.join()
 
 
+LONG = {
+    "plan": "ps.plan(profile, 100, candidates=100000, starts=1000)",
+    "calibrate": "ps.calibrate(profile, measured)",
+    "diagnose": "ps.diagnose(profile, measured)",
+}
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are sent otherwise there")
-def test_ctrl_c_stops_long_work(tmp_path: Path, root: Path) -> None:
+@pytest.mark.parametrize("name", LONG)
+def test_ctrl_c_stops_long_work(tmp_path: Path, root: Path, name: str) -> None:
+    """It ends by an exception, long before it would have ended by itself."""
     robot = root / "robots/abb_irb120_thesis.yaml"
     script = tmp_path / "long.py"
     script.write_text(
-        "import sys, poseshift as ps\n"
+        "import numpy as np, poseshift as ps\n"
         f"profile = ps.Profile.load({str(robot)!r})\n"
+        "q = np.random.default_rng(1).uniform([-2, -1, -1, -2, 0.2, -3], [2, 1, 0.8, 2, 1.8, 3], (100000, 6))\n"
+        "measured = ps.simulate(profile, q, noise_m=2e-5)\n"
         "print('begun', flush=True)\n"
         "try:\n"
-        "    ps.plan(profile, 100, candidates=100000, starts=1000)\n"
+        f"    {LONG[name]}\n"
         "except KeyboardInterrupt:\n"
         "    print('stopped', flush=True)\n"
     )
@@ -201,11 +212,13 @@ def test_ctrl_c_stops_long_work(tmp_path: Path, root: Path) -> None:
     assert child.stdout is not None
     assert child.stdout.readline() == "begun\n"
     time.sleep(1.0)
+    sent = time.monotonic()
     child.send_signal(signal.SIGINT)
     try:
         out, _ = child.communicate(timeout=120)
     finally:
         child.kill()
+    print(f"{name}: stopped after {time.monotonic() - sent:.2f} s")
     assert out == "stopped\n"
 
 

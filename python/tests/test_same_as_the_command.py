@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -202,3 +203,117 @@ def test_diff(run: Run, nominal: ps.Profile, profile: ps.Profile) -> None:
     by_command = run("profile", "diff", nominal.name, profile.name, status=1)
     assert json.loads(nominal.diff_json(profile)) == by_command
     assert ps.diff(nominal, profile).rows == len(by_command["differences"])
+
+
+def test_icp(run: Run, root: Path) -> None:
+    drawing, scan = (root / f"docs/measuring/{name}.csv" for name in ("drawing", "scan"))
+    by_command = run("register", drawing, scan, "--icp")
+    a, b = (np.array(list(_points(path).values())) for path in (drawing, scan))
+    fit = ps.icp(a, b, normals=_normals(scan))
+    assert fit.to_from_from[:3, :3].tolist() == by_command["rotation"]
+    assert (fit.to_from_from[:3, 3] * 1000.0).tolist() == by_command["translation_mm"]
+    assert fit.rms_m * 1000.0 == by_command["rmsd_mm"]
+    assert fit.overlap == by_command["overlap"]
+    assert fit.concerns == [finding["message"] for finding in by_command["findings"]]
+
+
+def _normals(path: Path) -> NDArray[np.float64] | None:
+    head, *lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    names = head.split(",")
+    if "nx" not in names:
+        return None
+    return np.array([[float(line.split(",")[names.index(name)]) for name in ("nx", "ny", "nz")] for line in lines])
+
+
+def test_hexapod(run: Run, root: Path) -> None:
+    lengths = root / "docs/measuring/lengths.csv"
+    by_command = run("hexapod", lengths)
+    found = ps.hexapod(lengths)
+    assert by_command == found.document
+    assert found.poses.rows == len(found.base_from_tool) > 0
+    for points, row in zip(found.tool_points_m, by_command["poses"], strict=True):
+        assert np.allclose(points * 1000.0, row["tool_points_mm"], rtol=0, atol=1e-9)
+    for pose, row in zip(found.base_from_tool, by_command["poses"], strict=True):
+        assert np.allclose(pose[:3, 3] * 1000.0, [row["pose"][f"{axis}_mm"] for axis in "xyz"], rtol=0, atol=1e-9)
+    with pytest.raises(ps.RegisterError, match="columns are missing"):
+        ps.hexapod(b"b12_mm\n1\n")
+
+
+def test_axes(run: Run, root: Path, profile: ps.Profile) -> None:
+    sweeps = root / "docs/measuring/sweeps.csv"
+    by_command = run("axes", sweeps, "--profile", root / "robots/abb_irb120_thesis.yaml")
+    found = ps.axes(profile, sweeps)
+    assert by_command == found.document
+    assert found.joints.rows == len(by_command["joints"])
+    for frame, name in ((found.world_from_base, "base"), (found.flange_from_tool, "tool")):
+        assert frame is not None
+        assert np.allclose(frame[:3, 3] * 1000.0, [by_command[name][f"{axis}_mm"] for axis in "xyz"], rtol=0, atol=1e-9)
+
+
+SAMPLES = sorted(path for path in (Path(__file__).resolve().parents[2] / "programs").glob("*/*/case.yaml"))
+
+
+@pytest.mark.parametrize("case", SAMPLES, ids=lambda path: f"{path.parts[-3]}-{path.parts[-2]}")
+def test_read_program(case: Path) -> None:
+    """The spans hold the numbers, and moves name their targets."""
+    yaml = pytest.importorskip("yaml")
+    said = yaml.safe_load(case.read_text())
+    files, context = (sorted(p for p in (case.parent / name).rglob("*") if p.is_file()) for name in ("in", "context"))
+    profile = ps.Profile.load(case.parent / said["profile"])
+    language = case.parts[-3]
+    read = ps.read_program(files, profile, context=context, language=language)
+    assert read.language == language
+    data = {str(path): path.read_bytes() for path in files + context}
+    compared = 0
+    for row in read.targets.iter_rows():
+        assert (row["pose"] is None) or (row["joints_deg"] is None)
+        for (start, length), value in zip(row["spans"], row["values"], strict=True):
+            text = data[row["file"]][start : start + length].decode("ascii").strip() or "0"
+            # words of configurations, and bits
+            if text[0] not in "'\"" and not text.isalpha():
+                assert float(text.lower().replace("d", "e")) == value
+                compared += 1
+    assert compared >= 6 * len(read.targets["pose"]) > 0
+    targets = list(read.targets.iter_rows())
+    for row in read.moves.iter_rows():
+        assert row["target"] is None or row["target"] < len(targets)
+
+
+def test_read_program_as_compensate(run: Run, root: Path, profile: ps.Profile) -> None:
+    program = root / "programs/rapid/olp/in/Deburr.mod"
+    by_command = run("compensate", program, "--profile", root / "robots/abb_irb120_thesis.yaml", "-o", "out.mod")
+    read = ps.read_program(program, profile)
+    by_line: dict[int, list[Any]] = {}
+    for row in read.targets.iter_rows():
+        by_line.setdefault(row["line"], []).append(row["pose"])
+    wanted = [target for target in by_command["targets"] if target["wanted"] is not None]
+    assert len(wanted) > 20
+    assert all(target["wanted"] in by_line[target["line"]] for target in wanted)
+    assert read.moves["kind"].count("linear") > 20
+    assert ps.read_program(program).document["targets"] == read.document["targets"]
+
+
+def test_validate_as_calibrated(run: Run, nominal: ps.Profile, measured: Path, joints: Path, tmp_path: Path) -> None:
+    run("calibrate", "--profile", nominal.name, "--measurements", measured, "-o", "calibrated.yaml")
+    calibrated = ps.Profile.load(tmp_path / "calibrated.yaml")
+    real = ps.Profile.load(tmp_path / "real.yaml")
+    ten = q_of_csv(joints.read_text())[:10] + 0.05
+    (tmp_path / "ten.csv").write_bytes(ps.simulate(real, ten, noise_m=0.02 / 1000, seed=9).to_csv())
+    words = ["validate", "--profile", "calibrated.yaml", "--measurements", "ten.csv", "--as-calibrated"]
+    by_command = run(*words)
+    ours = ps.Measurements.from_csv(tmp_path / "ten.csv").named("ten.csv")
+    assert by_command == ps.validate(calibrated, ours, as_calibrated=True).document
+    # another arm: the answer is no
+    (tmp_path / "ten.csv").write_bytes(ps.simulate(nominal, ten, noise_m=0.02 / 1000, seed=9).to_csv())
+    by_command = run(*words, status=1)
+    assert by_command["as_calibrated"]["answer"] == "measure again"
+    assert "not-as-calibrated" in [finding["id"] for finding in by_command["findings"]]
+
+
+def test_effects(run: Run, root: Path, profile: ps.Profile) -> None:
+    facts = run("profile", "show", root / "robots/abb_irb120_thesis.yaml")
+    of_profile = {name.removeprefix("effect "): text for name, text in facts["facts"].items() if name.startswith("effect ")}
+    told: dict[str, list[str]] = {}
+    for row in ps.effects(profile).iter_rows():
+        told.setdefault(row["effect"], []).append(f"{row['parameter']} {row['value']!r}".replace("e-05", "e-5"))
+    assert told["base_frame"] == re.findall(r"\S+ \S+", of_profile["base_frame"])

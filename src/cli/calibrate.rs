@@ -123,7 +123,7 @@ impl Calibrate {
         let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, self.output.as_deref())?;
         let progress = Progress::new(output, "identifying");
-        let mut found = calibrate(&profile, measurements, &options)?;
+        let mut found = calibrate(&profile, measurements, &options, &mut || ())?;
         drop(progress);
         let (mut written, mut also) = (Vec::new(), String::new());
         if let Some(path) = &self.output {

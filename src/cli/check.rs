@@ -126,7 +126,7 @@ impl Check {
             read_context(&files, &self.with, asked, &self.ignored, programs)
         };
         sources.extend(with(asked, &paths)?);
-        let language = asked.map_or_else(|| common_language(&sources, &file.profile), Ok)?;
+        let language = asked.map_or_else(|| common_language(&sources, Some(&file.profile)), Ok)?;
         let nominal = if self.nominal.is_empty() {
             None
         } else {

@@ -9,6 +9,7 @@ use crate::diagnose::Options;
 use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::diagnose::diagnose;
+use crate::task::drift::diagnose_runs;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -36,6 +37,10 @@ pub(super) struct Diagnose {
     /// Leave out the check on rows not used
     #[arg(long)]
     quick: bool,
+    /// The files of --measurements are runs, the oldest first: say since which the arm errs
+    /// otherwise, and diagnose the rows since
+    #[arg(long, conflicts_with = "joints")]
+    runs: bool,
     #[command(flatten)]
     report: ReportFile,
 }
@@ -54,9 +59,12 @@ impl Diagnose {
         let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
         self.report.refuse_over(&files, outputs)?;
         let progress = Progress::new(output, "diagnosing");
-        let mut found = diagnose(&profile, measurements, &options, &mut |what| {
-            progress.say(what);
-        })?;
+        let hear = &mut |what: &str| progress.say(what);
+        let mut found = if self.runs {
+            diagnose_runs(&profile, measurements, &options, hear)?
+        } else {
+            diagnose(&profile, measurements, &options, hear)?
+        };
         drop(progress);
         let is_sure = found.is_sure();
         let (mut written, mut also) = (Vec::new(), String::new());

@@ -36,6 +36,10 @@ pub(super) struct Validate {
     /// Use rows of every set, not only those for `validate`
     #[arg(long)]
     all_sets: bool,
+    /// Say whether the arm errs as it did when it was calibrated (`as calibrated` or `measure
+    /// again`), and what would have been seen: ten poses are enough
+    #[arg(long)]
+    as_calibrated: bool,
     #[command(flatten)]
     report: ReportFile,
 }
@@ -52,6 +56,7 @@ impl Validate {
                 priors: self.priors,
             }),
             all_sets: self.all_sets,
+            as_calibrated: self.as_calibrated,
         };
         let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, [])?;
@@ -63,6 +68,10 @@ impl Validate {
         let ending = Ending {
             report: Some(&self.report),
             shown: Shown::All,
+            answer: match &found.as_calibrated {
+                Some(standing) if !standing.is_so() => Answer::No,
+                _ => Answer::Yes,
+            },
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

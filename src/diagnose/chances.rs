@@ -1,6 +1,7 @@
 //! Tail probabilities.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor, Normal, StudentsT};
+use statrs::function::beta::beta_reg;
 
 /// Probability that chi-squared with `k` degrees of freedom exceeds `x`.
 #[must_use]
@@ -26,6 +27,57 @@ pub fn f_tail(x: f64, a: f64, b: f64) -> f64 {
         _ => 1.0,
     }
 }
+
+/// What this ratio stays below with probability `p`.
+#[must_use]
+pub fn f_quantile(p: f64, a: f64, b: f64) -> f64 {
+    FisherSnedecor::new(a, b).map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(p))
+}
+
+/// Probability that this ratio exceeds `x` where the first mean square has the noncentrality
+/// `lambda`: F by Poisson's numbers of more degrees of freedom.
+///
+/// # Source
+/// N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous Univariate Distributions* 2 (1995), 30.10.
+#[must_use]
+pub fn f_power(x: f64, a: f64, b: f64, lambda: f64) -> f64 {
+    let (half, part) = (0.5 * lambda, a * x / (a * x + b));
+    if !(x > 0.0 && half.is_finite()) {
+        return 1.0;
+    }
+    let mut below = 0.0;
+    let (mut log_weight, mut sum) = (-half, 0.0);
+    let mut j = 0.0;
+    // terms grow up to the mean `half`, then fall
+    while j < half || 1.0 - sum > 1e-12 && j < half + 1e5 {
+        let weight = log_weight.exp();
+        sum += weight;
+        below += weight * beta_reg(0.5 * a + j, 0.5 * b, part);
+        j += 1.0;
+        log_weight += half.ln() - j.ln();
+        if half == 0.0 {
+            break;
+        }
+    }
+    (1.0 - below).clamp(0.0, 1.0)
+}
+
+/// The standard normal number that is as rare as `t` is by Student's distribution.
+#[must_use]
+pub fn normal_score(t: f64, k: f64) -> f64 {
+    let Ok(student) = StudentsT::new(0.0, 1.0, k) else {
+        return 0.0;
+    };
+    let tail = student.sf(t.abs());
+    if tail <= 0.0 {
+        return t.signum() * MOST_SCORE;
+    }
+    let score = -Normal::standard().inverse_cdf(tail);
+    t.signum() * score.clamp(0.0, MOST_SCORE)
+}
+
+/// Rarer than this is as rare, for every purpose.
+const MOST_SCORE: f64 = 8.0;
 
 /// Probability that a standard normal exceeds `z`.
 #[must_use]

@@ -41,11 +41,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod as_calibrated;
 mod attempt;
 pub mod candidates;
 pub mod chances;
 mod conclusion;
 pub mod diagnosis;
+pub mod drift;
 pub mod fit;
 mod functions;
 pub mod given;

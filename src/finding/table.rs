@@ -157,6 +157,7 @@ pub const TABLE: &[Kind] = &[
     row("nominal-collision", Warning, "the nominal arm touches a body", "look at the simulation: it had that already", &["check"], &[]),
     row("not-checked", Warning, "whether the arm touches itself on its path is not looked at", "drive it by hand the first time", &["plan"], &[]),
     row("not-converged", Error, "the search for the fake target did not come to an end", "report the program: this should not happen where the arm reaches the pose", &["compensate"], &[]).never_accepted(),
+    row("not-as-calibrated", Error, "the arm errs by more than it did when it was calibrated (--as-calibrated)", "measure as for a calibration, and let `diagnose` say what has changed", &["validate"], &[]),
     row("not-finite", Error, "a pose, joint or number is not finite: nothing is written for the target", "look for a number out of all bounds in the profile and in the tool", &["compensate"], &[]).never_accepted(),
     row("not-measured", Note, "poses of --joints have no row in --points: they are left out", "see that both files name their rows alike", &["calibrate", "validate", "diagnose"], &[]),
     row("number-inserted", Note, "a target leaves out numbers that are zero, and the correction needs them: they are put in, in the order of the format", "nothing: the text of each is in the message", &["compensate"], &[]),

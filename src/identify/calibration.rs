@@ -10,7 +10,7 @@ use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
-use super::solver::{Solution, Stop, absorb_base, belongs, solve};
+use super::solver::{Solution, Stop, absorb_base, belongs, solve, solve_telling};
 use super::start::{self, Start, base_gap};
 use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
@@ -251,13 +251,26 @@ pub fn calibrate(
     measurements: &Measurements,
     options: &Options,
 ) -> Result<Calibration, IdentifyError> {
+    calibrate_telling(profile, measurements, options, &mut || ())
+}
+
+/// As [`calibrate`]; `tell` is called before each pass over the rows.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn calibrate_telling(
+    profile: &Profile,
+    measurements: &Measurements,
+    options: &Options,
+    tell: &mut dyn FnMut(),
+) -> Result<Calibration, IdentifyError> {
     let measurements = &*measurements.in_world_of(profile)?;
-    let found = identify(profile, measurements, options)?;
+    let found = identify(profile, measurements, options, tell)?;
     let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
     plausibility::check_touches(measurements, &missed(&found), |other| {
-        Ok(missed(&identify(profile, other, options)?))
+        Ok(missed(&identify(profile, other, options, tell)?))
     })?;
-    by_the_device(profile, measurements, options, found)
+    by_the_device(profile, measurements, options, found, tell)
 }
 
 /// The calibration with gravity along the device's z where axis 1 is tilted from where the profile
@@ -268,6 +281,7 @@ fn by_the_device(
     measurements: &Measurements,
     options: &Options,
     found: Calibration,
+    tell: &mut dyn FnMut(),
 ) -> Result<Calibration, IdentifyError> {
     let size = norm(profile.gravity_m_s2);
     let along = |found: &Calibration| {
@@ -285,12 +299,12 @@ fn by_the_device(
     if !(TILTED_RAD..MOST_TILTED_RAD).contains(&tilt) {
         return Ok(found);
     }
-    let with = |gravity_m_s2| {
+    let mut with = |gravity_m_s2| {
         let levelled = Profile {
             gravity_m_s2,
             ..profile.clone()
         };
-        identify(&levelled, measurements, options)
+        identify(&levelled, measurements, options, tell)
     };
     // where the device stands follows from how the arm bends, by a little
     let mut other = with(first)?;
@@ -324,6 +338,7 @@ fn identify(
     profile: &Profile,
     measurements: &Measurements,
     options: &Options,
+    tell: &mut dyn FnMut(),
 ) -> Result<Calibration, IdentifyError> {
     let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
     if fit.rows.is_empty() {
@@ -410,16 +425,17 @@ fn identify(
             .filter(|p| frames.parameters.iter().any(|f| f.key == p.key))
             .cloned()
             .collect();
-        solve(&frames, start, options.shape, sought)
+        solve_telling(&frames, start, options.shape, sought, tell)
             .map_err(|error| screening::check_rest(error, &guess))?
     };
     let frames_only_misses = misses(&problem, &frames_only.estimate);
     let frames_only_quality = Quality::of(&problem.rows, &frames_only_misses);
-    let mut solution = solve(
+    let mut solution = solve_telling(
         &problem,
         frames_only.estimate.clone(),
         options.shape,
         sought,
+        tell,
     )
     .map_err(|error| screening::check_rest(error, &guess))?;
     let counts: Vec<usize> = problem

@@ -107,11 +107,14 @@ struct Iteration<'a> {
     passes: usize,
     /// Whether the base's deviation may be moved into its place.
     free_base: bool,
+    /// Called before each pass.
+    tell: &'a mut dyn FnMut(),
 }
 
 impl Iteration<'_> {
     fn normal(&mut self, estimate: &Estimate) -> Normal {
         self.passes += 1;
+        (self.tell)();
         Normal::of(self.problem, estimate, self.parameters, self.loss)
     }
 
@@ -259,6 +262,20 @@ pub fn solve(
     shape: Shape,
     free_base: bool,
 ) -> Result<Solution, IdentifyError> {
+    solve_telling(problem, start, shape, free_base, &mut || ())
+}
+
+/// As [`solve`]; `tell` is called before each pass.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_telling(
+    problem: &Problem,
+    start: Estimate,
+    shape: Shape,
+    free_base: bool,
+    tell: &mut dyn FnMut(),
+) -> Result<Solution, IdentifyError> {
     let mut estimate = start.clone();
     let origin = start;
     if free_base {
@@ -276,6 +293,7 @@ pub fn solve(
             loss,
             passes: 0,
             free_base,
+            tell,
         };
         // what the sample cannot settle, all rows may
         let _ = iteration.run(&mut estimate, &mut chosen.normal, FIRST_PASSES);
@@ -304,6 +322,7 @@ pub fn solve(
             loss,
             passes,
             free_base,
+            tell,
         };
         let own = if rounds == 0 {
             FIRST_PASSES

@@ -81,6 +81,8 @@ pub struct Validation {
     pub measurements: Measurements,
     /// The same rows for the real model.
     pub problem: Problem,
+    /// Its values.
+    pub estimate: Estimate,
     /// The controller's model; where frames are fitted, with fitted ones, which is `frames_only`.
     pub controller: Judged,
     /// The controller's model with base, tool and points fitted to these rows.
@@ -253,6 +255,7 @@ pub fn validate_telling(
         refit,
         normalised_rms: given.then_some(normalised),
         problem: real_problem,
+        estimate: real,
         measurements: judged_rows,
         folds,
     })

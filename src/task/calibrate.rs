@@ -9,7 +9,8 @@ use crate::finding::Finding;
 use crate::geometry::add;
 use crate::geometry::units::mm_from_m;
 use crate::identify::calibration::{
-    Calibration as Found, Options as Identification, STRONG_CORRELATION, calibrate as identify,
+    Calibration as Found, Options as Identification, STRONG_CORRELATION,
+    calibrate_telling as identify,
 };
 use crate::identify::statistics::misses;
 use crate::model::profile::Tables;
@@ -173,7 +174,7 @@ impl Document for Calibration {
     const KIND: &'static str = "calibration/1";
 }
 
-/// Identifies a robot's effects from measurements.
+/// Identifies a robot's effects from measurements; `hear` is called before each pass over the rows.
 ///
 /// # Errors
 /// Measurements that do not determine anything, contradict the robot or themselves.
@@ -181,6 +182,7 @@ pub fn calibrate(
     profile: &ProfileFile,
     measurements: Rows,
     options: &Identification,
+    hear: &mut dyn FnMut(),
 ) -> Result<Calibration, Failure> {
     let Rows {
         all,
@@ -189,7 +191,7 @@ pub fn calibrate(
         findings: mut reported,
         tables,
     } = measurements;
-    let found = identify(&profile.profile, &all, options)
+    let found = identify(&profile.profile, &all, options, hear)
         .map_err(|error| identify_failure(&name, &error))?;
     reported.extend(findings(&found.remarks, &name));
     let device = found.device.filter(|_| !found.base_replaced);

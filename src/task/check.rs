@@ -85,7 +85,7 @@ pub fn check<'a>(
     let scene = Scene::new(&profile, cell.as_ref(), &meshes)
         .map_err(|missing| Failure::new(missing.to_string()))?;
     let asked = request.language;
-    let language = asked.map_or_else(|| common_language(sources, &profile), Ok)?;
+    let language = asked.map_or_else(|| common_language(sources, Some(&profile)), Ok)?;
     if let Some(originals) = request.nominal.filter(|_| !request.force) {
         refuse_other_origin(sources, originals, file)?;
     }
@@ -271,7 +271,7 @@ pub struct Move {
     pub max_joint_speed_deg_s: Option<f64>,
 }
 
-fn kind(motion: Motion) -> &'static str {
+pub(super) fn kind(motion: Motion) -> &'static str {
     match motion {
         Motion::Joint => "joint",
         Motion::Linear => "linear",

@@ -71,7 +71,7 @@ pub fn prepare<'a>(request: &'a Request<'a>) -> Result<Prepared<'a>, Failure> {
     refuse_unlikely(profile)?;
     let language = match request.language {
         Some(language) => language,
-        None => common_language(sources, &profile.profile)?,
+        None => common_language(sources, Some(&profile.profile))?,
     };
     let mut options = request.options.clone();
     options.accept_absolutely_accurate = request.force;

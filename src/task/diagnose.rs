@@ -1,5 +1,6 @@
 //! `diagnose`: where model and measurement disagree, and which effect is missing.
 
+use super::drift::Drift;
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::parts::{File, SpreadMm, WorstRow, findings, finite};
@@ -281,6 +282,9 @@ pub struct Diagnosis {
     pub verdict: &'static str,
     /// Why, one sentence each.
     pub reasons: Vec<String>,
+    /// The errors run by run, where the files are runs: the rows are those since the last change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift: Option<Drift>,
     /// Rows looked at.
     pub rows: usize,
     /// Effects in the order found; the first ones explain most.
@@ -372,6 +376,7 @@ pub fn diagnose(
     Ok(Diagnosis {
         verdict: d.verdict.id(),
         reasons: d.reasons.clone(),
+        drift: None,
         rows: d.problem.rows.len(),
         effects: d.found.iter().map(Into::into).collect(),
         spots: d.spots.iter().map(Into::into).collect(),

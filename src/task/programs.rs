@@ -68,7 +68,7 @@ pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
 /// no file.
 pub fn common_language(
     sources: &[Source],
-    profile: &Profile,
+    profile: Option<&Profile>,
 ) -> Result<&'static dyn Language, Failure> {
     let mut common: Option<(&'static dyn Language, &str)> = None;
     for source in sources {
@@ -92,7 +92,7 @@ pub fn common_language(
         }
     }
     let (language, name) = common.ok_or_else(|| Failure::new("no program files"))?;
-    match &profile.language {
+    match profile.and_then(|profile| profile.language.as_ref()) {
         Some(of_profile)
             if of_profile != language.about().id
                 && of_profile != "csv"

@@ -5,7 +5,9 @@ use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, WorstRow, findings};
 use super::profile_file::ProfileFile;
+use crate::diagnose::as_calibrated::{self as standing, as_calibrated};
 use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
 use crate::identify::measurements::{Measurement, Purpose};
 
@@ -25,6 +27,8 @@ pub struct Options {
     pub folds: Option<Leaving>,
     /// Use rows of every set, not only those for `validate`.
     pub all_sets: bool,
+    /// Say whether the arm errs as it did when it was calibrated.
+    pub as_calibrated: bool,
 }
 
 /// One number a model.
@@ -126,6 +130,78 @@ pub struct Folds {
     pub frames_only: Quality,
 }
 
+/// Whether the arm errs as it did when it was calibrated.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct AsCalibrated {
+    /// `as calibrated` or `measure again`.
+    pub answer: &'static str,
+    /// Root mean square of the errors.
+    pub rms_mm: f64,
+    /// Their mean square over that which is expected of an arm as it was calibrated: one, about.
+    pub ratio: f64,
+    /// Beyond this the answer is `measure again`.
+    pub limit: f64,
+    /// Probability of such an error, or a larger one, of an arm as it was calibrated.
+    pub p_value: f64,
+    /// Probability that such an arm is measured again.
+    pub significance: f64,
+    /// Probability with which the changes below are seen.
+    pub power: f64,
+    /// A change that moves these poses by so much, root mean square.
+    pub sees_mm: f64,
+    /// A joint that stands off by so much; `null` where these poses do not show it.
+    pub sees_joints_deg: [Option<f64>; 6],
+}
+
+impl AsCalibrated {
+    fn of(found: &standing::AsCalibrated) -> Self {
+        Self {
+            answer: if found.is_so {
+                "as calibrated"
+            } else {
+                "measure again"
+            },
+            rms_mm: mm_from_m(found.rms_m),
+            ratio: found.ratio,
+            limit: found.limit,
+            p_value: found.p_value,
+            significance: standing::SIGNIFICANCE,
+            power: standing::POWER,
+            sees_mm: mm_from_m(found.sees_m),
+            sees_joints_deg: found.sees_rad.map(|angle| angle.map(|a| a / DEG)),
+        }
+    }
+
+    /// Whether it does.
+    #[must_use]
+    pub fn is_so(&self) -> bool {
+        self.answer == "as calibrated"
+    }
+
+    /// The answer with its numbers, and what would have been seen.
+    #[must_use]
+    pub fn sentences(&self) -> [String; 2] {
+        let joints = self.sees_joints_deg.iter().enumerate();
+        let joints = joints.filter_map(|(k, deg)| Some(format!("J{} {:.3}°", k + 1, (*deg)?)));
+        [
+            format!(
+                "{}: {:.3} mm rms, {:.2} times the mean square expected; {:.0} % of arms as calibrated exceed {:.2}",
+                self.answer,
+                self.rms_mm,
+                self.ratio,
+                100.0 * self.significance,
+                self.limit
+            ),
+            format!(
+                "seen with {:.0} % probability: {:.3} mm rms at these poses, or one joint off by {}",
+                100.0 * self.power,
+                self.sees_mm,
+                joints.collect::<Vec<_>>().join(", ")
+            ),
+        ]
+    }
+}
+
 /// What a validation found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Validation {
@@ -156,6 +232,9 @@ pub struct Validation {
     /// Errors by models identified without the rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folds: Option<Folds>,
+    /// Whether the arm errs as it did when it was calibrated, where that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub as_calibrated: Option<AsCalibrated>,
     /// The row with the largest error of the real model.
     pub worst_row: Option<WorstRow>,
     /// SHA-256 of the profile.
@@ -214,6 +293,18 @@ pub fn validate(
         .collect();
     reported.extend(read);
     reported.extend(findings(&found.remarks, &name));
+    let standing = if options.as_calibrated {
+        Some(standing_of(file, &found)?)
+    } else {
+        None
+    };
+    if let Some(standing) = standing.as_ref().filter(|standing| !standing.is_so()) {
+        let [message, _] = standing.sentences();
+        reported.push(
+            Finding::of_file("not-as-calibrated", Severity::Error, &name, message)
+                .hint("measure as for a calibration, and let `diagnose` say what has changed"),
+        );
+    }
     Ok(Validation {
         rows: found.problem.rows.len(),
         frames_refitted: found.refit != Refit::No,
@@ -242,6 +333,7 @@ pub fn validate(
             real: full.into(),
             frames_only: alone.into(),
         }),
+        as_calibrated: standing,
         worst_row: WorstRow::of(
             &found.problem.rows,
             &found.measurements,
@@ -254,6 +346,25 @@ pub fn validate(
         profile: file.profile.clone(),
         name,
     })
+}
+
+/// Whether the arm errs as it did when it was calibrated.
+fn standing_of(file: &ProfileFile, found: &Found) -> Result<AsCalibrated, Failure> {
+    let name = &file.name;
+    match as_calibrated(&file.profile, found) {
+        Some(standing) => Ok(AsCalibrated::of(&standing)),
+        None if file.profile.quality.is_some() => Err(Failure::with_hint(
+            format!(
+                "{} rows are too few for the frames that are fitted to them",
+                found.problem.rows.len()
+            ),
+            "measure more poses, or leave --refit-frames out where the device stands as it did",
+        )),
+        None => Err(Failure::with_hint(
+            format!("{name} does not say how well its arm was calibrated"),
+            "`calibrate` writes that into the profile, under quality",
+        )),
+    }
 }
 
 fn too_few(name: &str, error: &IdentifyError) -> Failure {

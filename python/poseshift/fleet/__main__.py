@@ -10,24 +10,31 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from poseshift.errors import PoseshiftError
+from poseshift.fleet import demo
 from poseshift.fleet.collect import collect
 from poseshift.fleet.config import keep_off, read
+from poseshift.fleet.drift import drifts, since
 from poseshift.fleet.executors import Ran, missing, run_local, run_ray
 from poseshift.fleet.store import Store
-from poseshift.fleet.units import plan
+from poseshift.fleet.units import Unit, plan
 
 
 def main(words: Sequence[str] | None = None) -> int:
     """Runs the command; 0: every answer is yes, 1: some is no, 2: some robot has no answer."""
     parser = argparse.ArgumentParser(prog="poseshift-fleet", description="Compensates, checks and diagnoses many robots")
-    parser.add_argument("step", choices=("plan", "run", "collect"), help="list what is missing; make it and collect; collect alone")
-    parser.add_argument("fleet", type=Path, help="fleet.yaml")
-    parser.add_argument("--store", type=Path, required=True, help="folder of results, tables and pages")
+    steps = "list what is missing; make it and collect; collect alone; write a plant of simulated robots into a new folder"
+    parser.add_argument("step", choices=("plan", "run", "collect", "demo"), help=steps)
+    parser.add_argument("fleet", type=Path, help="fleet.yaml; of demo the new folder")
+    parser.add_argument("--store", type=Path, help="folder of results, tables and pages")
+    parser.add_argument("--robots", type=int, default=200, help="of demo (default: 200)")
+    parser.add_argument("--seed", type=int, default=1, help="of demo")
     parser.add_argument("--executor", choices=("local", "ray"), default="local")
     parser.add_argument("--address", help="of the Ray cluster; without it, one of this machine")
     parser.add_argument("--workers", type=int, help="processes of this machine (default: one a core)")
     parser.add_argument("--date", help="day of the history, YYYY-MM-DD (default: today)")
     given = parser.parse_args(words)
+    if given.store is None and given.step != "demo":
+        parser.error("--store is missing")
     try:
         return _run(given)
     except (PoseshiftError, OSError) as error:
@@ -36,6 +43,10 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _run(given: argparse.Namespace) -> int:
+    if given.step == "demo":
+        demo.write(given.fleet, given.robots, given.seed)
+        print(f"{given.robots} robots: {given.fleet / 'fleet.yaml'}")
+        return 0
     store = Store(given.store)
     date = given.date or datetime.date.today().isoformat()
     datetime.date.fromisoformat(date)
@@ -47,20 +58,28 @@ def _run(given: argparse.Namespace) -> int:
         listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]
         print(json.dumps({"poseshift": "fleet-plan/1", "units": len(units), "missing": listed}, indent=2))
         return 0
-    ran = Ran()
-    if given.step == "run" and wanted:
-        if given.executor == "ray":
-            import ray  # noqa: PLC0415
-
-            ray.init(address=given.address, log_to_driver=False, logging_level="ERROR")
-            ran = run_ray(units, store)
-        else:
-            ran = run_local(units, store, given.workers)
-    summary = collect(units, store, ran.failed, date)
+    ran = _make(units, store, given)
+    found = drifts(units, store, date)
+    later = since(units, store, found)
+    also = _make(later, store, given)
+    failed = ran.failed | also.failed
+    summary = collect([*units, *later], store, failed, date, found)
     counts = ", ".join(f"{count} {status}" for status, count in summary.by_status.items() if count)
     print(f"{summary.robots} robots: {counts}; {ran.made} of {len(units)} units made, {len(units) - len(wanted)} kept")
     print(f"{given.store / 'fleet.html'}")
     return summary.status
+
+
+def _make(units: Sequence[Unit], store: Store, given: argparse.Namespace) -> Ran:
+    """Makes what is missing of units, where that is asked for."""
+    if given.step != "run" or not missing(units, store):
+        return Ran()
+    if given.executor == "local":
+        return run_local(units, store, given.workers)
+    import ray  # noqa: PLC0415
+
+    ray.init(address=given.address, log_to_driver=False, logging_level="ERROR", ignore_reinit_error=True)
+    return run_ray(units, store)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
+from poseshift.fleet.drift import Drift
 from poseshift.fleet.store import Store, sha256, write_whole
 from poseshift.fleet.units import Unit
 
@@ -21,7 +22,9 @@ TABLES: Mapping[str, Mapping[str, str]] = {
         "robot_id": _TEXT, "run_id": _TEXT, "profile_sha256": _TEXT, "status": _TEXT, "programs": _COUNT, "targets": _COUNT,
         "compensated": _COUNT, "mean_shift_mm": _NUMBER, "max_shift_mm": _NUMBER, "max_path_error_mm": _NUMBER,
         "collisions": _COUNT, "verdict": _TEXT, "effect": _TEXT, "held_out_before_mm": _NUMBER, "held_out_after_mm": _NUMBER,
-        "noise_mm": _NUMBER, "message": _TEXT,
+        "noise_mm": _NUMBER, "message": _TEXT, "nights": _COUNT, "measured_key": _TEXT, "error_mm": _NUMBER,
+        "changed_since": _TEXT, "changed_noticed": _TEXT, "changed_before_mm": _NUMBER, "changed_after_mm": _NUMBER,
+        "changed_effect": _TEXT,
     },
     "programs": {
         "robot_id": _TEXT, "result_key": _TEXT, "program": _TEXT, "status": _TEXT, "targets": _COUNT, "mean_before_mm": _NUMBER,
@@ -37,7 +40,7 @@ TABLES: Mapping[str, Mapping[str, str]] = {
     },
 }
 # the worst first
-ORDER = ("none", "crashed", "error", "refused", "done")
+ORDER = ("none", "crashed", "error", "refused", "changed", "done")
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,13 @@ class Summary:
     """0: every answer is yes; 1: some is no; 2: some robot has none."""
 
 
-def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date: str | None = None) -> Summary:
+def collect(
+    units: Sequence[Unit],
+    store: Store,
+    failed: Mapping[str, str],
+    date: str | None = None,
+    drifts: Mapping[str, Drift] | None = None,
+) -> Summary:
     """Writes `tables`, `out`, `pages`, `fleet.html` and `junit.xml` into the store's folder, from its results."""
     store.sweep()
     found = {unit.key: store.result(unit.key) for unit in units}
@@ -61,7 +70,10 @@ def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date
         by_robot.setdefault(unit.robot, []).append((unit, found[unit.key]))
     rows: dict[str, list[dict[str, Any]]] = {name: [] for name in TABLES}
     for robot, of_robot in by_robot.items():
-        rows["robots"].append(_robot(robot, run_id, of_robot, failed))
+        row = _robot(robot, run_id, of_robot, failed)
+        if drifts and robot in drifts:
+            row |= drifts[robot].row()
+        rows["robots"].append(row)
         for unit, result in of_robot:
             _rows(unit, result, rows)
     _write_tables(store.folder / "tables", rows, date)
@@ -71,7 +83,7 @@ def collect(units: Sequence[Unit], store: Store, failed: Mapping[str, str], date
     write_whole(store.folder / "junit.xml", _junit(by_robot, failed).encode())
     by_status = {status: sum(row["status"] == status for row in rows["robots"]) for status in ORDER}
     no_answer = by_status["none"] + by_status["crashed"] + by_status["error"]
-    return Summary(len(by_robot), by_status, 2 if no_answer else 1 if by_status["refused"] else 0)
+    return Summary(len(by_robot), by_status, 2 if no_answer else 1 if by_status["refused"] + by_status["changed"] else 0)
 
 
 def _status(result: dict[str, Any] | None) -> str:
@@ -81,7 +93,7 @@ def _status(result: dict[str, Any] | None) -> str:
 def _robot(robot: str, run_id: str, of_robot: Iterable[tuple[Unit, dict[str, Any] | None]], failed: Mapping[str, str]) -> dict[str, Any]:
     row: dict[str, Any] = {"robot_id": robot, "run_id": run_id, "status": "done", "message": ""}
     for unit, result in of_robot:
-        row["profile_sha256"] = next(digest for role, _, digest in unit.inputs if role == "profile")
+        row["profile_sha256"] = unit.digest("profile")
         row["status"] = min(row["status"], _status(result), key=ORDER.index)
         row["message"] = row["message"] or _message(unit, result, failed)
         if result is None:
@@ -95,13 +107,20 @@ def _robot(robot: str, run_id: str, of_robot: Iterable[tuple[Unit, dict[str, Any
         if "check" in documents:
             s = documents["check"]["summary"]
             row |= {key: s[key] for key in ("max_path_error_mm", "collisions")}
-        if "diagnosis" in documents:
+        if unit.job == "since":
+            row["changed_effect"] = _found(documents)
+        elif "diagnosis" in documents:
             d = documents["diagnosis"]
             row |= {"verdict": d["verdict"], "noise_mm": d["noise_mm"]}
-            row["effect"] = ", ".join(_label(effect) for effect in d["effects"])
+            row["effect"] = _found(documents)
             for key in ("before", "after"):
                 row[f"held_out_{key}_mm"] = (d["held_out"][key] or {}).get("rms_mm")
     return row
+
+
+def _found(documents: Mapping[str, Any]) -> str:
+    """The effects of a diagnosis."""
+    return ", ".join(_label(effect) for effect in documents.get("diagnosis", {"effects": []})["effects"])
 
 
 def _label(effect: Mapping[str, Any]) -> str:
@@ -114,6 +133,9 @@ def _message(unit: Unit, result: dict[str, Any] | None, failed: Mapping[str, str
         return failed.get(unit.key, "it has not been run")
     if "error" in result:
         return str(result["error"]["message"])
+    if result["status"] == "changed":
+        named = _found(result["documents"]) or result.get("message", "no effect is found in the rows since")
+        return f"its error has changed: {named}"
     errors = [f for d in result["documents"].values() for f in d["findings"] if f["severity"] == "error"]
     return str(errors[0]["message"]) if errors and result["status"] == "refused" else ""
 
@@ -203,7 +225,7 @@ _STYLE = (
     "table{border-collapse:collapse}.rows{overflow-x:auto}a{color:var(--link)}"
     "td,th{padding:.25em .7em;text-align:left;border-bottom:1px solid var(--rule)}"
     "td{overflow-wrap:break-word;max-width:40ch}td.number{text-align:right;font-variant-numeric:tabular-nums}"
-    ".none,.crashed,.error{color:var(--bad)}.refused{color:var(--no)}.done{color:var(--good)}"
+    ".none,.crashed,.error{color:var(--bad)}.refused,.changed{color:var(--no)}.done{color:var(--good)}"
 )
 
 
@@ -214,7 +236,8 @@ def _page(robots: Sequence[dict[str, Any]], run_id: str, by_robot: Mapping[str, 
         held, path = row.get("held_out_before_mm") or 0.0, row.get("max_path_error_mm") or 0.0
         return ORDER.index(row["status"]), -(row.get("collisions") or 0), -held, -path, row["robot_id"]
 
-    columns = ("status", "max_path_error_mm", "collisions", "max_shift_mm", "verdict", "effect", "held_out_before_mm", "message")
+    columns = ("status", "max_path_error_mm", "collisions", "max_shift_mm", "verdict", "effect", "held_out_before_mm", "error_mm", "changed_since",
+               "changed_before_mm", "changed_after_mm", "message")  # fmt: skip
     lines = []
     for row in sorted(robots, key=need):
         robot = row["robot_id"]

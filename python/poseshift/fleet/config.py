@@ -14,10 +14,13 @@ from poseshift.errors import PoseshiftError
 FORMAT = "fleet/1"
 KEYS = ("id", "folders", "profile", "programs", "measurements", "cell", "options")
 # what a task takes from the robot and not from its options
-_OWN = {"files", "profile", "context", "nominal", "cell", "baseline", "measurements", "despite_errors", "tool", "frame", "steps"}
+_OWN = {"files", "profile", "context", "nominal", "cell", "baseline", "measurements", "despite_errors", "tool", "frame", "steps"} | {
+    "runs", "as_calibrated", "folds", "level", "priors",
+}  # fmt: skip
 TASKS: Mapping[str, Callable[..., Any]] = {
     "compensate": poseshift.compensate,
     "check": poseshift.check,
+    "validate": poseshift.validate,
     "diagnose": poseshift.diagnose,
 }
 

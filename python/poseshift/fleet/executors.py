@@ -20,11 +20,13 @@ from poseshift.fleet.work import crashed, work
 # what a worker is given at a time, seconds
 PORTION_S = 2.0
 # what a unit is thought to take where no run says, seconds
-GUESS_S = {"programs": 0.3, "diagnose": 0.3}
+GUESS_S = {"programs": 0.3, "diagnose": 0.3, "since": 0.5}
 # batches that wait for a worker
 IN_FLIGHT = 4
 # how often a unit may end its process, with nobody else in it, before it is to blame
 ALONE = 2
+# and on a cluster, where nodes die as well
+LIVES = 3
 # how often a file that cannot be read is tried
 TRIES = 3
 
@@ -119,14 +121,15 @@ def _alone() -> None:
 def run_ray(units: Sequence[Unit], store: Store, heard: Heard = lambda done, of: None) -> Ran:
     """Makes what is missing on the Ray cluster that `ray.init` has joined; every node sees the folder of the store."""
     import ray  # noqa: PLC0415
-    from ray.exceptions import RayTaskError, WorkerCrashedError  # noqa: PLC0415
+    from ray.exceptions import NodeDiedError, ObjectLostError, OutOfMemoryError, RayTaskError, WorkerCrashedError  # noqa: PLC0415
 
+    died = (WorkerCrashedError, NodeDiedError, ObjectLostError, OutOfMemoryError)
     wanted = missing(units, store)
     cpus = max(1, int(ray.cluster_resources().get("CPU", 1)))
     ran = _Keeper(store, len(wanted), heard)
     waiting = batches(wanted, store, cpus)
     environment = {"env_vars": {"POSESHIFT_THREADS": "1"}}
-    task = ray.remote(num_cpus=1, max_retries=3, runtime_env=environment)(work)
+    task = ray.remote(num_cpus=1, max_retries=0, runtime_env=environment)(work)
     folder = str(store.folder.absolute())
     running: dict[Any, Batch] = {}
     while waiting or running:
@@ -138,12 +141,9 @@ def run_ray(units: Sequence[Unit], store: Store, heard: Heard = lambda done, of:
             batch = running.pop(reference)
             try:
                 ran.hear(batch, ray.get(reference))
-            except WorkerCrashedError:
-                if len(batch) == 1:
-                    ran.keep_crash(batch[0])
-                else:
-                    half = len(batch) // 2
-                    waiting[:0] = [batch[:half], batch[half:]]
+            except died:
+                # its worker or its node; whatever ends workers does so alone, too
+                waiting[:0] = ran.after_death(batch, LIVES)
             except RayTaskError as error:
                 if not isinstance(error.cause, OSError):
                     raise
@@ -158,6 +158,7 @@ class _Keeper:
         self._store, self._of, self._heard = store, of, heard
         self._seconds = store.notes("seconds")
         self._tries: dict[str, int] = {}
+        self._deaths: dict[str, int] = {}
         self._ran = Ran()
 
     def hear(self, batch: Batch, done: list[tuple[str, float]]) -> None:
@@ -168,6 +169,19 @@ class _Keeper:
     def keep_crash(self, unit: Unit) -> None:
         self._store.keep(unit.key, crashed(unit, "it ends the process that works on it"))
         self._made(1)
+
+    def after_death(self, batch: Batch, lives: int) -> list[Batch]:
+        """The units of a batch whose worker died, one by one, until one has died often enough alone."""
+        if len(batch) > 1:
+            left = [unit for unit in batch if self._store.result(unit.key) is None]
+            self._made(len(batch) - len(left))
+            return [[unit] for unit in left]
+        (unit,) = batch
+        self._deaths[unit.key] = self._deaths.get(unit.key, 0) + 1
+        if self._deaths[unit.key] < lives:
+            return [batch]
+        self.keep_crash(unit)
+        return []
 
     def again(self, batch: Batch, error: OSError) -> list[Batch]:
         """The units of a batch that failed one by one, until they have been tried often enough."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,9 +12,9 @@ import poseshift
 from poseshift.fleet.config import FleetError, Robot, options_of
 from poseshift.fleet.store import Hashes, Store, sha256
 
-SCHEMA = "fleet-unit/1"
+SCHEMA = "fleet-unit/2"
 # the tasks of a job
-JOBS = {"programs": ("compensate", "check"), "diagnose": ("diagnose",)}
+JOBS = {"programs": ("compensate", "check"), "diagnose": ("validate", "diagnose")}
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,20 @@ class Unit:
     inputs: tuple[tuple[str, str, str], ...]
     options: str
     key: str
+    version: str
 
     def named(self, role: str) -> list[str]:
         """The names of this role."""
         return [name for of, name, _ in self.inputs if of == role]
+
+    def digest(self, role: str) -> str:
+        """The hash of the first input of this role."""
+        return next(digest for of, _, digest in self.inputs if of == role)
+
+    def of(self, task: str) -> dict[str, Any]:
+        """The options of a task."""
+        found: dict[str, Any] = json.loads(self.options)[task]
+        return found
 
 
 def plan(robots: Sequence[Robot], store: Store, version: str = poseshift.__version__) -> list[Unit]:
@@ -57,10 +67,16 @@ def _units(robot: Robot, hashes: Hashes, version: str) -> Iterator[Unit]:
         except FileNotFoundError as error:
             raise FleetError(f"robot {robot.id}: there is no file {error.filename}") from error
         options = {task: {**options_of(task), **robot.options[task]} for task in JOBS[job]}
-        text = _canonical(options)
-        named_all = {"job": job, "schema": SCHEMA, "version": version, "options": options, "inputs": inputs}
-        key = sha256(_canonical(named_all).encode())
-        yield Unit(robot.id, job, str(robot.folder.absolute()), inputs, text, key)
+        yield unit_of(robot.id, job, str(robot.folder.absolute()), inputs, options, version)
+
+
+def unit_of(
+    robot: str, job: str, folder: str, inputs: tuple[tuple[str, str, str], ...], options: Mapping[str, Any], version: str
+) -> Unit:
+    """A unit, its key from all that the answer depends on."""
+    named = {"job": job, "schema": SCHEMA, "version": version, "options": options, "inputs": inputs}
+    key = sha256(_canonical(named).encode())
+    return Unit(robot, job, folder, inputs, _canonical(options), key, version)
 
 
 def _canonical(value: Any) -> str:

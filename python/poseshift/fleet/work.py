@@ -35,8 +35,8 @@ def answer(unit: Unit, store: Store) -> dict[str, Any]:
     # names are relative, in the result as in the backup
     os.chdir(unit.folder)
     data: dict[str, bytes] = {}
-    for _, name, digest in unit.inputs:
-        data[name] = Path(name).read_bytes()
+    for role, name, digest in unit.inputs:
+        data[name] = store.blob(digest) if role == "kept" else Path(name).read_bytes()
         if sha256(data[name]) != digest:
             raise OSError(f"{unit.folder}/{name} has changed while the fleet was read: run again")
     options = json.loads(unit.options)
@@ -77,17 +77,40 @@ def _programs(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, byt
 def _diagnose(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes], options: dict[str, Any]) -> dict[str, Any]:
     tables = tuple((name, data[name]) for name in unit.named("measurements"))
     found = ps.diagnose(profile, ps.Measurements(tables), **options["diagnose"])
-    files = {}
+    # the nights to come look back on these rows
+    files = {f"measured/{name}": store.keep_blob(data[name]) for name, _ in tables}
     if found.verdict != "nothing_missing":
         files["pages/diagnosis.html"] = store.keep_blob(found.html().encode())
     if found.profile is not None:
         files["out/better.yaml"] = store.keep_blob(found.profile.to_yaml().encode())
     status = "done" if found.is_sure else "refused"
-    return _result(unit, status) | {"documents": {"diagnosis": found.document}, "files": files}
+    error_mm = _error_mm(profile, ps.Measurements(tables), options["validate"])
+    return _result(unit, status) | {"documents": {"diagnosis": found.document}, "files": files, "error_mm": error_mm}
+
+
+def _error_mm(profile: ps.Profile, measured: ps.Measurements, options: dict[str, Any]) -> float | None:
+    """What the profile misses of rows that it was not calibrated with; none where that cannot be said of them."""
+    try:
+        document = ps.validate(profile, measured, **options).document
+    except ps.PoseshiftError:
+        return None
+    of: dict[str, float] = (document.get("position") or document.get("range") or {}).get("real", {})
+    return of.get("rms_mm")
+
+
+def _since(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes], options: dict[str, Any]) -> dict[str, Any]:
+    """The effect that came with a change. The robot has changed whatever is found."""
+    tables = tuple((name, data[name]) for name in unit.named("kept"))
+    try:
+        found = ps.diagnose(profile, ps.Measurements(tables), **options["diagnose"])
+    except ps.PoseshiftError as error:
+        return _result(unit, "changed") | {"message": error.message}
+    files = {"pages/since.html": store.keep_blob(found.html().encode())}
+    return _result(unit, "changed") | {"documents": {"diagnosis": found.document}, "files": files}
 
 
 def _result(unit: Unit, status: str) -> dict[str, Any]:
     return {"poseshift": SCHEMA, "key": unit.key, "job": unit.job, "status": status, "documents": {}, "files": {}}
 
 
-_JOBS: dict[str, Callable[..., dict[str, Any]]] = {"programs": _programs, "diagnose": _diagnose}
+_JOBS: dict[str, Callable[..., dict[str, Any]]] = {"programs": _programs, "diagnose": _diagnose, "since": _since}

@@ -112,7 +112,7 @@ fn times_sigma(misses: &[Miss]) -> Option<f64> {
 pub(crate) fn check_touches(
     measurements: &Measurements,
     after: &[Miss],
-    again: impl Fn(&Measurements) -> Result<Vec<Miss>, IdentifyError>,
+    mut again: impl FnMut(&Measurements) -> Result<Vec<Miss>, IdentifyError>,
 ) -> Result<(), IdentifyError> {
     let touches = measurements
         .rows

@@ -9,7 +9,11 @@ use crate::task::parts::Statistics;
 
 /// The answer: the verdict in one line, each effect with its standing, the residual.
 fn summary(d: &Diagnosis) -> String {
-    let mut out = verdict(d) + "\n";
+    let mut out = d
+        .drift
+        .as_ref()
+        .map_or_else(String::new, |drift| drift.sentence() + "\n");
+    out += &(verdict(d) + "\n");
     for (effect, sentence) in d.effects.iter().map(|f| (f, &f.sentence)) {
         out += &format!("{:<9} {sentence}", effect.standing);
         if let Some(first) = effect.against.first() {
@@ -181,6 +185,21 @@ fn values(f: &FoundEffect) -> String {
 /// The report for people.
 pub(super) fn text(found: &Diagnosis, style: Style) -> String {
     let mut out = summary(found);
+    if let Some(drift) = &found.drift {
+        let most = if style.every { usize::MAX } else { 30 };
+        let mut rows = vec![["run", "rows", "rms mm"].map(str::to_owned).to_vec()];
+        let skipped = drift.runs.len().saturating_sub(most);
+        for (run, number) in drift.runs.iter().zip(1..).skip(skipped) {
+            let changed = drift.changes.iter().any(|change| change.run == number);
+            let mark = if changed { " changed" } else { "" };
+            rows.push(vec![
+                run.file.clone(),
+                run.rows.to_string(),
+                format!("{:.3}{mark}", run.rms_mm),
+            ]);
+        }
+        out += &format!("\nerrors run by run\n{}", aligned(&rows, style.width));
+    }
     let steps = found.steps();
     if !steps.is_empty() {
         let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];

@@ -16,6 +16,10 @@ pub(super) fn text(found: &Validation, style: Style) -> String {
     if let Some(note) = found.found.refit.note() {
         out += &format!("{note}\n");
     }
+    if let Some(standing) = &found.as_calibrated {
+        let [answer, power] = standing.sentences();
+        out += &format!("{answer}\n{power}\n");
+    }
     out.push('\n');
     let mut rows = vec![SPREAD_HEADER.map(str::to_owned).to_vec()];
     for name in ["controller", "frames only", "real"] {

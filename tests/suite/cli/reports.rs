@@ -29,6 +29,11 @@ pub const COMMANDS: &[(&str, i32, &str)] = &[
         "validation/1",
     ),
     (
+        "validate --as-calibrated --profile calibrated.yaml --measurements measured.csv",
+        0,
+        "validation/1",
+    ),
+    (
         "diagnose --quick --profile calibrated.yaml --measurements measured.csv",
         0,
         "diagnosis/1",

@@ -247,3 +247,76 @@ fn folds_identify_the_level_and_hold_to_the_priors_that_are_asked_for() {
         "{reported}"
     );
 }
+
+#[test]
+fn ten_poses_say_whether_an_arm_is_as_calibrated() {
+    let folder = measured(60);
+    let at = folder.path();
+    let calibrate = "calibrate --profile TRUTH --measurements m.csv --level 0 -o c.yaml";
+    assert_eq!(run(at, calibrate).0, Some(0));
+    let ten = measured(10);
+    std::fs::copy(ten.path().join("m.csv"), at.join("m.csv")).expect("scratch");
+    let (status, report, _) = validate(at, "c.yaml", " --as-calibrated");
+    let said = &report["as_calibrated"];
+    assert_eq!(
+        (status, &said["answer"]),
+        (Some(0), &Value::from("as calibrated"))
+    );
+    assert!(said["ratio"].as_f64() < said["limit"].as_f64(), "{said}");
+    assert!(
+        said["rms_mm"].as_f64() == report["position"]["real"]["rms_mm"].as_f64(),
+        "{said}"
+    );
+    // a joint that stands off by twice what is said to be seen is seen
+    let off = said["sees_joints_deg"][1].as_f64().expect("joint 2 shows");
+    change(at, &["q2_deg"], |q| q + 2.0 * off);
+    let (status, report, _) = validate(at, "c.yaml", " --as-calibrated");
+    assert_eq!(status, Some(1));
+    assert_eq!(report["as_calibrated"]["answer"], "measure again");
+    assert!(ids(&report).contains(&"not-as-calibrated"), "{report}");
+    let (status, _, told) = validate(at, "TRUTH", " --as-calibrated");
+    assert!(
+        status == Some(2) && told.contains("does not say how well"),
+        "{told}"
+    );
+}
+
+#[test]
+fn runs_say_since_when_an_arm_errs_otherwise() {
+    let folder = measured(40);
+    let at = folder.path();
+    let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
+    let gear =
+        "effects:\n    - {effect: joint_harmonic, joint: 3, order: 1, cos_deg: 0.05, sin_deg: 0}\n";
+    std::fs::write(at.join("worn.yaml"), truth.replacen("effects:\n", gear, 1)).expect("scratch");
+    let mut files = String::new();
+    for night in 0..7 {
+        let robot = if night < 4 { "TRUTH" } else { "worn.yaml" };
+        let simulate = format!(
+            "simulate --profile {robot} --joints q.csv --noise-mm 0.02 --seed {night} -o n{night}.csv"
+        );
+        assert_eq!(run(at, &simulate).0, Some(0));
+        files += &format!(" --measurements n{night}.csv");
+    }
+    let (status, report, told) = run(
+        at,
+        &format!("diagnose --quick --runs --profile TRUTH{files}"),
+    );
+    assert_eq!(status, Some(0), "{told}");
+    let changes = report["drift"]["changes"].as_array().expect("changes");
+    assert_eq!(changes.len(), 1, "{report}");
+    assert_eq!(
+        (&changes[0]["since"], changes[0]["run"].as_u64()),
+        (&"n4.csv".into(), Some(5))
+    );
+    assert_eq!(
+        (report["rows"].as_u64(), &report["effects"][0]["effect"]),
+        (Some(120), &"joint_harmonic".into())
+    );
+    let few = "diagnose --runs --profile TRUTH --measurements n0.csv --measurements n1.csv";
+    let (status, _, told) = run(at, few);
+    assert!(
+        status == Some(2) && told.contains("too few for a change"),
+        "{told}"
+    );
+}

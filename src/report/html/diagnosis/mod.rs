@@ -15,6 +15,7 @@ use crate::identify::statistics::{Miss, misses};
 use crate::model::effects::Kind as EffectKind;
 use crate::report::text::fixed as decimals;
 use crate::task::diagnose::{Diagnosis, FoundEffect};
+use crate::task::drift::Drift;
 use crate::task::parts::Statistics;
 
 /// A joint whose rotation moves the measured point by less than this, metres a radian, shows
@@ -89,8 +90,9 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
             format!("{before} \u{2192} {after} mm"),
         );
     }
+    let drift = of.drift.iter().map(Drift::sentence);
     let sentences = of.effects.iter().map(|f| &f.sentence).chain(&of.reasons);
-    let sentences: Vec<String> = sentences.cloned().collect();
+    let sentences: Vec<String> = drift.chain(sentences.cloned()).collect();
     if !sentences.is_empty() {
         page.sections.push(Section::Text(super::page::Text {
             title: "What was found".into(),

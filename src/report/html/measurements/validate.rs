@@ -7,7 +7,7 @@ use crate::identify::validation::Refit;
 use crate::report::html::numbers::{Column, DIGITS, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Tone};
 use crate::task::parts::{Quality, Statistics};
-use crate::task::validate::{Repeated, RepeatedDistance, Validation};
+use crate::task::validate::{AsCalibrated, Repeated, RepeatedDistance, Validation};
 
 /// The page of `validate`.
 #[must_use]
@@ -15,14 +15,18 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     let (found, profile) = (&of.found, &of.profile);
     let mean = |q: &statistics::Quality| q.main().map_or(f64::NAN, |s| s.mean);
     let (controller, real) = (mean(&found.controller.quality), mean(&found.real.quality));
-    let level = if real <= controller {
-        Level::Good
-    } else {
-        Level::Warning
+    let standing = of.as_calibrated.as_ref();
+    let level = match standing {
+        Some(standing) if !standing.is_so() => Level::Error,
+        None if real > controller => Level::Warning,
+        _ => Level::Good,
     };
-    let answer = format!(
+    let mut answer = format!(
         "Mean error {real:.3} mm of the real model, {controller:.3} mm of the controller's"
     );
+    if let Some([sentence, _]) = standing.map(AsCalibrated::sentences) {
+        answer = sentence;
+    }
     let mut page = Page::new("Validation".into(), level, answer);
     robot_lead(&mut page, &of.name, profile);
     page.lead.extend(found.refit.note().map(Into::into));
@@ -34,6 +38,10 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     let what = "controller's model \u{2192} real model";
     let worst = of.worst_row.as_ref();
     show_improvement(&mut page, what, (&controller, &real), worst);
+    page.lead.extend(standing.map(|standing| {
+        let [_, power] = standing.sentences();
+        power
+    }));
     page.fact("rows", of.rows.to_string());
     if let Some(pairs) = of.distance.as_ref().and_then(|models| models.real) {
         page.fact("distances between points", pairs.pairs.to_string());

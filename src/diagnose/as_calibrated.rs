@@ -1,0 +1,246 @@
+//! Whether an arm still errs as it did when it was calibrated; a few poses are enough.
+//!
+//! Where nothing has changed the gaps `g` are normal with the covariance `σ²·S`: the variance that the
+//! calibration left and, common to all rows, what its parameters are not known by. Then
+//! `gᵀS⁻¹g / (n·σ²)` is F with `n` numbers and the freedom of `σ²`. Frames that are fitted to the rows are
+//! parameters of which nothing is known. What a change must be to be seen is the noncentrality at
+//! which F exceeds its limit with the power wanted.
+//!
+//! # Source
+//! H. Scheffé, *The Analysis of Variance* (1959), 2.8 and appendix IV, for F and its power; C. R. Rao,
+//! *Linear Statistical Inference* (1973), 4a, for predicted rows; M. A. Woodbury (1950) for `S⁻¹`.
+
+use super::chances::{f_power, f_quantile, f_tail};
+use crate::geometry::units::m_from_mm;
+use crate::identify::parameters::Subject;
+use crate::identify::problem::{Estimate, Problem};
+use crate::identify::statistics::misses;
+use crate::identify::validation::{Refit, Validation};
+use crate::model::Slot;
+use crate::model::profile::Profile;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use serde_json::Value;
+
+/// Probability that an arm as it was is measured again.
+pub const SIGNIFICANCE: f64 = 0.01;
+/// Probability with which a change that is called visible is seen.
+pub const POWER: f64 = 0.9;
+/// Step of derivatives, metres and radians.
+const STEP: f64 = 1e-6;
+/// A frame of which nothing is known lies within so much, metres and radians.
+const UNKNOWN: f64 = 1.0;
+/// Of a joint's effect a smaller part is not seen: frames that are fitted take it up.
+const LEAST_SEEN: f64 = 1e-5;
+
+/// The answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsCalibrated {
+    /// Whether the arm errs as it did.
+    pub is_so: bool,
+    /// Root mean square of the errors, metres.
+    pub rms_m: f64,
+    /// Mean square of the errors over that which is expected of an arm as it was: one, about.
+    pub ratio: f64,
+    /// Beyond this it is not.
+    pub limit: f64,
+    /// Probability of such an error, or a larger one, of an arm as it was.
+    pub p_value: f64,
+    /// A change that moves these poses by so much (root mean square, metres) is seen with [`POWER`].
+    pub sees_m: f64,
+    /// A joint that stands off by so much, radians, likewise; `None` where these poses do not show
+    /// it.
+    pub sees_rad: [Option<f64>; 6],
+}
+
+/// What a calibration says of its own errors.
+struct Left<'a> {
+    /// Variance of a coordinate, m².
+    variance: f64,
+    /// Its degrees of freedom.
+    freedom: f64,
+    /// The parameters identified.
+    names: Vec<&'a str>,
+    /// The lower triangle of their covariance, in the units of files.
+    covariance: Vec<Vec<f64>>,
+}
+
+/// From the block `quality` of a profile.
+fn left(profile: &Profile) -> Option<Left<'_>> {
+    let quality = profile.quality.as_ref()?;
+    let (kind, coordinates) = match quality["after"]["position"] {
+        Value::Object(_) => ("position", 3.0),
+        _ => ("range", 1.0),
+    };
+    let number = |key: &str| quality["after"][kind][key].as_f64();
+    let (n, rms_m) = (number("n")?, m_from_mm(number("rms_mm")?));
+    let freedom = quality["degrees_of_freedom"].as_f64()?;
+    let parameters = quality["parameters"].as_array()?;
+    let names = parameters.iter().map(|p| p["key"].as_str());
+    let rows = quality["covariance_lower_triangle"].as_array()?;
+    let row = |row: &Value| row.as_array()?.iter().map(Value::as_f64).collect();
+    // orientations count among the numbers, and not here
+    let part = freedom / (freedom + parameters.len() as f64);
+    let found = Left {
+        variance: rms_m * rms_m / coordinates / part,
+        freedom: part * n * coordinates,
+        names: names.collect::<Option<_>>()?,
+        covariance: rows.iter().map(row).collect::<Option<_>>()?,
+    };
+    let is_whole = found.covariance.len() == found.names.len()
+        && (found.covariance.iter().zip(1..)).all(|(row, width)| row.len() == width);
+    (is_whole && found.variance > 0.0 && found.freedom >= 1.0).then_some(found)
+}
+
+/// Gaps of the coordinates of positions and distances, metres.
+fn gaps(problem: &Problem, estimate: &Estimate) -> DVector<f64> {
+    let missed = misses(problem, estimate);
+    let rows = problem.rows.iter().zip(&missed);
+    let numbers = rows.flat_map(|(row, miss)| miss.gap[..row.observed.count().min(3)].iter());
+    DVector::from_vec(numbers.copied().collect())
+}
+
+/// How the gaps change with something, by central differences.
+fn slope(
+    problem: &Problem,
+    estimate: &Estimate,
+    change: impl Fn(&mut Problem, &mut Estimate, f64),
+) -> DVector<f64> {
+    let at = |step: f64| {
+        let (mut problem, mut estimate) = (problem.clone(), estimate.clone());
+        change(&mut problem, &mut estimate, step);
+        gaps(&problem, &estimate)
+    };
+    (at(STEP) - at(-STEP)) / (2.0 * STEP)
+}
+
+/// `S = 1 + B·Bᵀ`, by `B` and what its inverse needs.
+struct Expected {
+    factor: DMatrix<f64>,
+    inner: Cholesky<f64, Dyn>,
+}
+
+impl Expected {
+    fn of(found: &Validation, left: &Left) -> Option<Self> {
+        let (problem, estimate) = (&found.problem, &found.estimate);
+        let by = |subject| {
+            slope(problem, estimate, |_, e, step| {
+                *e.value_mut(subject) += step;
+            })
+        };
+        let known: Vec<(usize, Subject, f64)> = (left.names.iter().enumerate())
+            .filter_map(|(index, name)| {
+                let (subject, unit) = parameter(estimate, name)?;
+                Some((index, subject, unit))
+            })
+            .collect();
+        let sigma = left.variance.sqrt();
+        let covariance = DMatrix::from_fn(known.len(), known.len(), |i, j| {
+            let ((a, _, of_a), (b, _, of_b)) = (&known[i], &known[j]);
+            left.covariance[*a.max(b)][*a.min(b)] * of_a * of_b / left.variance
+        });
+        let eigen = covariance.symmetric_eigen();
+        let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
+        let slopes: Vec<_> = known.iter().map(|(_, subject, _)| by(*subject)).collect();
+        let count = problem
+            .rows
+            .iter()
+            .map(|row| row.observed.count().min(3))
+            .sum();
+        let mut factor = DMatrix::zeros(count, 0);
+        if !slopes.is_empty() {
+            let turned = eigen.eigenvectors * DMatrix::from_diagonal(&roots);
+            factor = DMatrix::from_columns(&slopes) * turned;
+        }
+        if found.refit == Refit::Judged {
+            for parameter in &problem.parameters {
+                let column = by(parameter.subject) * (UNKNOWN / sigma);
+                let last = factor.ncols();
+                factor = factor.insert_column(last, 0.0);
+                factor.column_mut(last).copy_from(&column);
+            }
+        }
+        let inner = DMatrix::identity(factor.ncols(), factor.ncols()) + factor.tr_mul(&factor);
+        let inner = inner.cholesky()?;
+        Some(Self { factor, inner })
+    }
+
+    /// `vᵀS⁻¹v`.
+    fn size(&self, v: &DVector<f64>) -> f64 {
+        let across = self.factor.tr_mul(v);
+        (v.norm_squared() - across.dot(&self.inner.solve(&across))).max(0.0)
+    }
+
+    /// The mean of `S⁻¹`'s diagonal.
+    fn mean(&self) -> f64 {
+        let (n, p) = self.factor.shape();
+        (n as f64 - p as f64 + self.inner.inverse().trace()) / n as f64
+    }
+}
+
+/// The value of a name such as `link_geometry link 2 alpha_deg`, and its unit.
+fn parameter(estimate: &Estimate, name: &str) -> Option<(Subject, f64)> {
+    let mut effects = estimate.effects.iter().enumerate();
+    effects.find_map(|(effect, known)| {
+        let key = name.strip_prefix(&known.label())?.strip_prefix(' ')?;
+        let parameters = known.definition().parameters;
+        let parameter = parameters.iter().position(|p| p.key == key)?;
+        let unit = parameters[parameter].unit.in_si();
+        Some((Subject::Effect(Slot { effect, parameter }), unit))
+    })
+}
+
+/// The noncentrality at which F exceeds `limit` with [`POWER`].
+fn visible(limit: f64, a: f64, b: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    while f_power(limit, a, b, high) < POWER && high < 1e6 {
+        high *= 2.0;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f_power(limit, a, b, middle) < POWER {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+/// Whether the rows judged are those of an arm as the profile's calibration left it; `None` where
+/// the profile does not say how well that is, or too few numbers were measured.
+#[must_use]
+pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrated> {
+    let left = left(profile)?;
+    let (problem, estimate) = (&found.problem, &found.estimate);
+    let gaps = gaps(problem, estimate);
+    let expected = Expected::of(found, &left)?;
+    let fitted = match found.refit {
+        Refit::Judged => problem.parameters.len(),
+        Refit::No | Refit::Others => 0,
+    };
+    let numbers = gaps.len() as f64 - fitted as f64;
+    if numbers < 1.0 {
+        return None;
+    }
+    let ratio = expected.size(&gaps) / numbers / left.variance;
+    let limit = f_quantile(1.0 - SIGNIFICANCE, numbers, left.freedom);
+    let noncentrality = visible(limit, numbers, left.freedom) * left.variance;
+    let rows = problem.rows.len() as f64;
+    let sees_rad = std::array::from_fn(|joint| {
+        let whole = slope(problem, estimate, |p, _, step| {
+            p.rows.iter_mut().for_each(|row| row.q[joint] += step);
+        });
+        let seen = expected.size(&whole);
+        let is_seen = seen > LEAST_SEEN * whole.norm_squared();
+        is_seen.then(|| (noncentrality / seen).sqrt())
+    });
+    Some(AsCalibrated {
+        is_so: ratio <= limit,
+        rms_m: (gaps.norm_squared() / rows).sqrt(),
+        ratio,
+        limit,
+        p_value: f_tail(ratio, numbers, left.freedom),
+        sees_m: (noncentrality / rows / expected.mean()).sqrt(),
+        sees_rad,
+    })
+}

@@ -1,0 +1,146 @@
+//! Runs of one robot in their order: since which it errs otherwise, and what `diagnose` finds in the
+//! rows since.
+
+use super::diagnose::{Diagnosis, diagnose};
+use super::failure::Failure;
+use super::measurements::{Rows, identify_failure};
+use super::profile_file::ProfileFile;
+use crate::diagnose::drift::{LEAST_RUNS, changes};
+use crate::diagnose::{Options, drift};
+use crate::identify::measurements::Measurements;
+use crate::identify::validation::{Refit, validate};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::ops::Range;
+
+/// A run: what the profile misses of rows that it was not calibrated with.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Run {
+    /// Its file.
+    pub file: String,
+    /// Rows of it.
+    pub rows: usize,
+    /// Root mean square of their errors.
+    pub rms_mm: f64,
+}
+
+/// A change of these errors.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Change {
+    /// The first run with it.
+    pub since: String,
+    /// Its number, from 1.
+    pub run: usize,
+    /// The number of the run in which it was noticed.
+    pub noticed: usize,
+    /// Geometric mean of the errors before.
+    pub before_mm: f64,
+    /// And since.
+    pub after_mm: f64,
+}
+
+/// The errors run by run.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Drift {
+    /// The runs, the oldest first.
+    pub runs: Vec<Run>,
+    /// Changes, the oldest first: the rows since the last are diagnosed.
+    pub changes: Vec<Change>,
+}
+
+impl Drift {
+    fn of(runs: Vec<Run>) -> Self {
+        let errors: Vec<f64> = runs.iter().map(|run| run.rms_mm).collect();
+        let change = |c: &drift::Change| Change {
+            since: runs[c.since].file.clone(),
+            run: c.since + 1,
+            noticed: c.noticed + 1,
+            before_mm: c.before,
+            after_mm: c.after,
+        };
+        let changes = changes(&errors).iter().map(change).collect();
+        Self { runs, changes }
+    }
+
+    /// What is to be said of it.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let count = self.runs.len();
+        match self.changes.last() {
+            Some(c) => format!(
+                "The error has changed with run {} of {count}, {}: {:.3} mm rms before, {:.3} mm since. The rows since are diagnosed.",
+                c.run, c.since, c.before_mm, c.after_mm
+            ),
+            None => format!(
+                "The error has not changed in {count} runs. Their rows are diagnosed together."
+            ),
+        }
+    }
+}
+
+/// Rows of each file, in the order of the files.
+fn by_file(all: &Measurements) -> Vec<Range<usize>> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for (index, pair) in all.rows.windows(2).enumerate() {
+        if pair[0].line.file != pair[1].line.file {
+            let start = runs.last().map_or(0, |run| run.end);
+            runs.push(start..index + 1);
+        }
+    }
+    let start = runs.last().map_or(0, |run| run.end);
+    runs.push(start..all.rows.len());
+    runs
+}
+
+/// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those since the last
+/// change of the error, of all where there is none.
+///
+/// # Errors
+/// Fewer runs than a change can be seen in; as [`diagnose`].
+pub fn diagnose_runs(
+    file: &ProfileFile,
+    mut measurements: Rows,
+    options: &Options,
+    hear: &mut dyn FnMut(&str),
+) -> Result<Diagnosis, Failure> {
+    let files = by_file(&measurements.all);
+    if files.len() < LEAST_RUNS {
+        let message = format!(
+            "{} files are too few for a change to be seen between them: --runs needs {LEAST_RUNS}",
+            files.len()
+        );
+        let hint = "give a file for each run, the oldest first, or leave --runs out";
+        return Err(Failure::with_hint(message, hint));
+    }
+    let mut runs = Vec::with_capacity(files.len());
+    for rows in &files {
+        let part = measurements.all.filtered(|row, _| rows.contains(&row));
+        let line = &measurements.all.rows[rows.start].line;
+        let name = line
+            .file
+            .as_deref()
+            .unwrap_or(&measurements.name)
+            .to_owned();
+        hear(&name);
+        let found = validate(&file.profile, &part, Refit::No, None)
+            .map_err(|error| identify_failure(&name, &error))?;
+        runs.push(Run {
+            file: name,
+            rows: rows.len(),
+            rms_mm: found.real.quality.main().map_or(0.0, |error| error.rms),
+        });
+    }
+    let drift = Drift::of(runs);
+    if let Some(change) = drift.changes.last() {
+        let from = files[change.run - 1].start;
+        measurements.all = measurements.all.filtered(|row, _| row >= from);
+    }
+    let mut found = diagnose(file, measurements, options, hear).map_err(|mut failure| {
+        if !drift.changes.is_empty() {
+            failure.message = format!("{} {}", drift.sentence(), failure.message);
+        }
+        failure
+    })?;
+    found.drift = Some(drift);
+    Ok(found)
+}
