@@ -11,6 +11,7 @@ pub(super) enum Cause {
     FrameCopied,
     Shifted,
     Coordinated,
+    Conveyor,
     Relative,
     Incremental,
     Search,
@@ -53,6 +54,11 @@ impl Cause {
                 "moving-frame",
                 "the path is relative to a station or another robot (SMOV)",
                 "coordinated moves are not compensated",
+            ),
+            Self::Conveyor => (
+                "moving-frame",
+                "the path is relative to a conveyor (SYMOV)",
+                "moves on a conveyor are not compensated",
             ),
             Self::Relative => (
                 "moving-frame",
