@@ -15,6 +15,7 @@ use crate::identify::calibration::{
 use crate::identify::parameters::Selection;
 use crate::identify::plates::calibrate_plates;
 use crate::identify::statistics::misses;
+use crate::model::effects::Kind;
 use crate::model::profile::{Profile, Tables};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -236,7 +237,7 @@ pub fn calibrate(
 /// Effects of the arm that are asked for of points on plates alone.
 fn refuse_of_tool(selection: &Selection) -> Result<(), IdentifyError> {
     let kinds = selection.identify.iter().filter_map(|pick| pick.kind);
-    let mut ids = kinds.map(|kind| kind.definition());
+    let mut ids = kinds.map(Kind::definition);
     match ids.find(|definition| !definition.of_positioner()) {
         Some(other) => Err(IdentifyError::Missing {
             id: other.id,

@@ -23,6 +23,10 @@ const SEED: u64 = 0x91a7;
 ///
 /// # Errors
 /// No reflectors; fewer numbers than parameters; parameters that cannot be determined at all.
+#[allow(
+    clippy::missing_panics_doc,
+    reason = "what is expected holds by construction"
+)]
 pub fn plan_plates(
     profile: &Profile,
     positioner: usize,

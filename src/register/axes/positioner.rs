@@ -110,9 +110,8 @@ pub enum PositionerError {
 
 /// The rotary axes of a positioner, and the place of the first among all listed.
 fn of_positioner(axes: &ExternalAxes, axis: usize) -> (&[RotaryAxis], usize) {
-    let of = match axes.listed().nth(axis) {
-        Some(Listed::Rotary(_, of, _)) => of,
-        _ => unreachable!("an axis of a positioner is swept"),
+    let Some(Listed::Rotary(_, of, _)) = axes.listed().nth(axis) else {
+        unreachable!("an axis of a positioner is swept")
     };
     (&axes.positioners[of].axes, axes.first_of(of))
 }

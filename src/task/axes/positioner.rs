@@ -64,26 +64,24 @@ pub(super) fn swept(profile: &Profile, row: &Row) -> Result<Option<usize>, Failu
     };
     let listed: Vec<Listed> = profile.external.listed().collect();
     let axis = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
-    match axis.map(|axis| (axis, listed.get(axis))) {
-        Some((axis, Some(Listed::Rotary(..)))) => Ok(Some(axis)),
-        _ => {
-            let rotary = listed
-                .iter()
-                .enumerate()
-                .filter(|(_, axis)| !axis.is_linear());
-            let names: Vec<String> = rotary
-                .map(|(k, axis)| format!("e{} ({})", k + 1, axis.name()))
-                .collect();
-            let known = if names.is_empty() {
-                "none: `poseshift profile add-positioner` describes them".to_owned()
-            } else {
-                names.join(", ")
-            };
-            Err(row.failure(format!(
-                "sweep {text} is no axis of a positioner; the profile has {known}"
-            )))
-        }
+    if let Some(axis) = axis
+        && let Some(Listed::Rotary(..)) = listed.get(axis)
+    {
+        return Ok(Some(axis));
     }
+    let rotary = listed.iter().enumerate();
+    let rotary = rotary.filter(|(_, axis)| !axis.is_linear());
+    let names: Vec<String> = rotary
+        .map(|(k, axis)| format!("e{} ({})", k + 1, axis.name()))
+        .collect();
+    let known = if names.is_empty() {
+        "none: `poseshift profile add-positioner` describes them".to_owned()
+    } else {
+        names.join(", ")
+    };
+    Err(row.failure(format!(
+        "sweep {text} is no axis of a positioner; the profile has {known}"
+    )))
 }
 
 /// Where the axes of positioners stood in a row.
