@@ -46,6 +46,7 @@ fn measured(count: usize) -> Measurements {
                 .joints
                 .map(|j| random.between(j.min_rad, j.max_rad)),
             stand: Stand::default(),
+            plate: None,
             conditions: None,
         })
         .collect();

@@ -196,7 +196,7 @@ def check(
     """Where the real robot goes with programs as they are: accuracy along the path, limits, collisions.
 
     `nominal` is what they were made from, `cell` what stands around the robot, `baseline` a stored run (a file of its JSON, or
-    another result). Meshes that profile or cell name are read from beside them.
+    another result). Meshes that profile or cell name are read from where these are.
     """
     stored: tuple[str, str] | None = None
     if isinstance(baseline, Check):

@@ -130,7 +130,7 @@ class Compensation(Result):
         return dict(self._files)
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Writes the files into a folder, all or none: into one beside it first, then each into its place."""
+        """Writes the files into a folder, all or none: into one next to it first, then each into its place."""
         return write_all(self.files, Path(folder))
 
 
@@ -229,7 +229,7 @@ class Diagnosis(Result):
         return self.document.get("drift")
 
     @property
-    def rivals(self) -> Table:
+    def alternatives(self) -> Table:
         """Effects that explain the data nearly as well."""
         return self._table("alternatives")
 

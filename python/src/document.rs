@@ -3,15 +3,15 @@
 use poseshift::report::Readable;
 use pyo3::prelude::*;
 
-/// What is told of a result.
-pub(crate) trait Told: Send + Sync {
+/// What is reported of a result.
+pub(crate) trait Reported: Send + Sync {
     fn json(&self) -> String;
     fn words(&self) -> String;
     /// `made` stands at the foot of the page.
     fn html(&self, made: &str) -> Option<String>;
 }
 
-impl<R: Readable + Send + Sync> Told for R {
+impl<R: Readable + Send + Sync> Reported for R {
     fn json(&self) -> String {
         poseshift::task::Document::json(self)
     }
@@ -27,11 +27,11 @@ impl<R: Readable + Send + Sync> Told for R {
 
 /// What a command found.
 #[pyclass(frozen, module = "poseshift._poseshift")]
-pub(crate) struct Document(Box<dyn Told>);
+pub(crate) struct Document(Box<dyn Reported>);
 
 impl Document {
-    pub(crate) fn new(told: impl Told + 'static) -> Self {
-        Self(Box::new(told))
+    pub(crate) fn new(reported: impl Reported + 'static) -> Self {
+        Self(Box::new(reported))
     }
 }
 

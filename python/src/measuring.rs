@@ -411,6 +411,7 @@ pub(crate) fn simulate(
         .map(|(i, q)| Command {
             q: *q,
             stand: Stand::default(),
+            plate: None,
             conditions: said.then(|| Conditions {
                 direction: directions.as_ref().map_or([0.0; 6], |all| all[i]),
                 force_n: forces.as_ref().map_or([0.0; 3], |all| all[i]),
@@ -506,6 +507,7 @@ pub(crate) fn measurements_of_arrays(
                 ..Conditions::default()
             },
             stand: Stand::default(),
+            plate: None,
             tool: tool.as_ref().map(|all| all[i].clone()),
             point: point.as_ref().map(|all| all[i].clone()),
             sigma_m: sigma.as_ref().map(|all| all[i]),

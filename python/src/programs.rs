@@ -1,7 +1,7 @@
 //! `compensate` and `check`.
 
 use crate::arrays::{Numbers, fixed, one_pose};
-use crate::document::{Document, Told};
+use crate::document::{Document, Reported};
 use crate::errors::Kind;
 use crate::profile::Profile;
 use crate::threads::{Stop, long};
@@ -104,7 +104,7 @@ fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     std::fs::read(path)
 }
 
-/// A compensation that can be told again.
+/// A compensation that can be reported again.
 struct Compensating {
     sources: Vec<Source>,
     profile: Arc<ProfileFile>,
@@ -164,7 +164,7 @@ impl Compensating {
     }
 }
 
-impl Told for Compensating {
+impl Reported for Compensating {
     fn json(&self) -> String {
         self.json.clone()
     }
@@ -271,13 +271,13 @@ pub(crate) fn compensate<'py>(
         words: String::new(),
     };
     let found = long(py, move |_| -> Result<_, Failure> {
-        let (told, refused, made) = {
+        let (reported, refused, made) = {
             let (request, left_out) = (all.request(), LeftOut::default());
             let prepared = prepare(&request)?;
             let refused = prepared.is_refused();
             let header = all.header(&prepared, &left_out);
             let document = Compensated::new(&header, &prepared.compensation);
-            let told = (
+            let reported = (
                 document.json(),
                 compensation_words(&document, prepared.language),
             );
@@ -291,9 +291,9 @@ pub(crate) fn compensate<'py>(
                         .map(|(source, _)| source),
                 );
             }
-            (told, refused, made)
+            (reported, refused, made)
         };
-        (all.json, all.words) = told;
+        (all.json, all.words) = reported;
         Ok((all, refused, made))
     })?;
     let (all, refused, made) = found.map_err(|failure| Kind::Program.raise(py, &failure))?;
@@ -303,7 +303,7 @@ pub(crate) fn compensate<'py>(
     Ok((Document::new(all), refused, made.collect()))
 }
 
-/// A check that can be told again.
+/// A check that can be reported again.
 struct Followed {
     sources: Vec<Source>,
     nominal: Option<Vec<Source>>,
@@ -333,7 +333,7 @@ impl Followed {
     }
 }
 
-impl Told for Followed {
+impl Reported for Followed {
     fn json(&self) -> String {
         self.json.clone()
     }
@@ -419,7 +419,7 @@ pub(crate) fn check(
         words: String::new(),
     };
     let found = long(py, move |stop: &Stop| -> Result<_, Failure> {
-        let (told, refused, junit) = {
+        let (reported, refused, junit) = {
             let request = all.request();
             let found = checking::check(&request, &mut |_, _| stop.here())?;
             let left_out = LeftOut::default();
@@ -432,10 +432,14 @@ pub(crate) fn check(
             let comparison = comparison.transpose()?;
             let worse = comparison.as_ref().is_some_and(|c| !c.worse.is_empty());
             let run = checking::Checked::new(&header, &found.check, comparison.as_ref());
-            let told = (run.json(), check_words(&run));
-            (told, found.check.is_refused() || worse, check_junit(&run))
+            let reported = (run.json(), check_words(&run));
+            (
+                reported,
+                found.check.is_refused() || worse,
+                check_junit(&run),
+            )
         };
-        (all.json, all.words) = told;
+        (all.json, all.words) = reported;
         Ok((all, refused, junit))
     })?;
     let (all, refused, junit) = found.map_err(|failure| Kind::Check.raise(py, &failure))?;

@@ -313,7 +313,7 @@ def test_validate_as_calibrated(run: Run, nominal: ps.Profile, measured: Path, j
 def test_effects(run: Run, root: Path, profile: ps.Profile) -> None:
     facts = run("profile", "show", root / "robots/abb_irb120_thesis.yaml")
     of_profile = {name.removeprefix("effect "): text for name, text in facts["facts"].items() if name.startswith("effect ")}
-    told: dict[str, list[str]] = {}
+    reported: dict[str, list[str]] = {}
     for row in ps.effects(profile).iter_rows():
-        told.setdefault(row["effect"], []).append(f"{row['parameter']} {row['value']!r}".replace("e-05", "e-5"))
-    assert told["base_frame"] == re.findall(r"\S+ \S+", of_profile["base_frame"])
+        reported.setdefault(row["effect"], []).append(f"{row['parameter']} {row['value']!r}".replace("e-05", "e-5"))
+    assert reported["base_frame"] == re.findall(r"\S+ \S+", of_profile["base_frame"])

@@ -85,7 +85,7 @@ struct CellFile {
     #[serde(default)]
     #[schemars(with = "Vec<BodyFile>")]
     bodies: Vec<Spanned<BodyFile>>,
-    /// Moving with the flange or a link.
+    /// Moving with the flange, a link, or the carriage of a track.
     #[serde(default)]
     #[schemars(with = "Vec<AttachedFile>")]
     attached: Vec<Spanned<AttachedFile>>,
@@ -108,7 +108,7 @@ with_shape! {
     AttachedFile {
         /// Its name.
         name: String,
-        /// `flange`, or `link0` to `link6`.
+        /// `flange`, `link0` to `link6`, or `track`: the carriage under the base.
         to: String,
     }
 }
@@ -227,14 +227,17 @@ fn clearance(mm: Number, at: Location) -> Result<f64, ProfileError> {
 }
 
 fn carrier(name: &str, at: Location) -> Result<Carrier, ProfileError> {
-    if name == "flange" {
-        return Ok(Carrier::Flange);
+    match name {
+        "flange" => return Ok(Carrier::Flange),
+        // what rides on the carriage rides with the base
+        "track" => return Ok(Carrier::Link(0)),
+        _ => {}
     }
     let link = LINKS.iter().position(|link| *link == name);
     link.map(Carrier::Link).ok_or_else(|| {
         Fault::UnknownBody {
             name: name.into(),
-            known: ["flange"]
+            known: ["flange", "track"]
                 .iter()
                 .chain(&LINKS)
                 .map(|name| (*name).to_owned())

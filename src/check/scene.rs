@@ -42,6 +42,24 @@ pub(crate) enum FixedForm {
     Mesh { triangles: Triangles, mesh: Mesh },
 }
 
+impl FixedForm {
+    /// Whether a body at a pose is within a distance of it.
+    fn is_within(&self, body: &Body, pose: &Pose, distance_m: f64) -> bool {
+        let near = |other: &Body| body.nearest(pose, other).distance_m <= distance_m;
+        match self {
+            Self::Convex(other) => near(other),
+            Self::Mesh { triangles, .. } => {
+                let (centre, radius) = body.ball();
+                let mut found = false;
+                triangles.near(pose.transform(centre), radius + distance_m, |t| {
+                    found |= near(&triangles.bodies[t as usize]);
+                });
+                found
+            }
+        }
+    }
+}
+
 /// Two bodies that must keep apart.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watched {
@@ -173,12 +191,12 @@ impl Scene {
             });
             scene.names.push(body.name.clone());
         }
-        scene.watch(cell);
+        scene.watch(profile, cell);
         scene.findings = super::sizes::unlikely(profile, cell, meshes);
         Ok(scene)
     }
 
-    fn watch(&mut self, cell: &Cell) {
+    fn watch(&mut self, profile: &Profile, cell: &Cell) {
         let required = |a: usize, b: usize| {
             let (a, b) = (self.names[a].as_str(), self.names[b].as_str());
             let said = cell
@@ -218,12 +236,17 @@ impl Scene {
                     });
                 }
             }
-            // the base stands where it was put
-            if one.link == 0 {
+            // the base stands where it was put, and on a track on what it is next to at home
+            let stands = one.link == 0;
+            if stands && profile.external.track.is_empty() {
                 continue;
             }
             for (k, fixed) in self.fixed.iter().enumerate() {
                 if let Some(required_m) = required(one.name, fixed.name) {
+                    let home = &profile.world_from_base;
+                    if stands && fixed.form.is_within(&one.body, home, required_m) {
+                        continue;
+                    }
                     watched.push(Watched {
                         a: i,
                         b: Other::Fixed(k),

@@ -8,13 +8,14 @@ use crate::task::axes::axes;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Find base and tool frames from single-joint sweeps (circle fits)
+/// Find base and tool frames from single-joint sweeps, and axes of positioners (circle fits)
 #[derive(Args)]
 #[command(
     after_help = "Sweeps: measurements (q1_deg…q6_deg, x_mm,y_mm,z_mm, optional qw,qx,qy,qz and \
         dir1…dir6) with a column \
 sweep, 1 to 6: the joint that moves in this row's sweep. Joints 1 and 2 give the base, 5 and 6 the \
-    tool."
+    tool. With e1, e2, … in it and columns e1_deg, e2_deg, …: a reflector on the plate of a \
+    positioner of the profile, while that axis moves."
 )]
 pub(super) struct Axes {
     /// Measurements while one joint at a time moved

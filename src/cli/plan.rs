@@ -9,7 +9,7 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::parameters::Selection;
 use crate::identify::plan::{Constraints, Request};
 use crate::printable::name_of;
-use crate::task::plan::{Wanted, given, plan};
+use crate::task::plan::{Wanted, given, plan, plan_plate};
 use crate::task::{Failure, ProfileFile};
 use clap::Args;
 use std::path::PathBuf;
@@ -65,6 +65,18 @@ pub(super) struct PlanCommand {
     /// Places along each axis of a track that configurations are chosen at, evenly over its limits
     #[arg(long, value_name = "N", default_value_t = 11)]
     stations: usize,
+    /// Choose angles of this positioner at which reflectors on its plate are measured
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["program", "language", "tool", "given", "inside_mm", "keep_out_mm", "device_mm"])]
+    plate: Option<String>,
+    /// Roughly where a reflector is on the plate: x,y,z in mm; may be given again (default: the
+    /// profile's points there)
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        allow_hyphen_values = true,
+        requires = "plate"
+    )]
+    reflector: Vec<String>,
     /// Distance from the joint limits
     #[arg(long, value_name = "DEG", default_value_t = 1.0)]
     margin_deg: f64,
@@ -155,15 +167,27 @@ impl PlanCommand {
             language: self.language.as_deref(),
         });
         let progress = Progress::new(output, "choosing");
-        let mut found = plan(
-            &profile,
-            self.tool.as_deref(),
-            &selection,
-            &request,
-            wanted.as_ref(),
-            &|path| files.mesh(path),
-            &mut |done, of| progress.tell(done, of),
-        )?;
+        let mut hear = |done, of| progress.tell(done, of);
+        let mut found = match &self.plate {
+            Some(name) => {
+                let each = self.reflector.iter();
+                let each = each.map(|t| values::numbers::<3>("--reflector", t));
+                let reflectors: Vec<[f64; 3]> = each.collect::<Result<_, _>>()?;
+                let reflectors: Vec<[f64; 3]> =
+                    reflectors.iter().map(|p| p.map(m_from_mm)).collect();
+                let on = (name.as_str(), reflectors.as_slice());
+                plan_plate(&profile, on, &selection, &request, &mut hear)?
+            }
+            None => plan(
+                &profile,
+                self.tool.as_deref(),
+                &selection,
+                &request,
+                wanted.as_ref(),
+                &|path| files.mesh(path),
+                &mut hear,
+            )?,
+        };
         drop(progress);
         let mut written = Vec::new();
         let table = self.output.iter().zip([found.csv()]);

@@ -225,7 +225,7 @@ impl Tried {
         let models = problem.models(estimate, &[]);
         let mut most = [0.0_f64; JOINTS];
         for row in &problem.rows {
-            let torques = models[row.rig].model().torques(&row.q, &row.conditions);
+            let torques = models[row.rig].torques(&row.q, &row.conditions);
             for i in 0..JOINTS {
                 most[i] = most[i].max(torques[i].abs());
             }

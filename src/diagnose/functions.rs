@@ -204,7 +204,7 @@ pub(super) fn facts(problem: &Problem, estimate: &Estimate) -> Vec<Facts> {
     let (low, high) = times.fold((f64::MAX, f64::MIN), |(l, h), t| (l.min(t), h.max(t)));
     let fact = |(number, row): (usize, &crate::identify::problem::Row)| Facts {
         angles: mechanism.commanded(&row.q),
-        torques: models[row.rig].model().torques(&row.q, &row.conditions),
+        torques: models[row.rig].torques(&row.q, &row.conditions),
         direction: row.conditions.direction,
         warmer: temperature(number) - mean,
         clocks: [

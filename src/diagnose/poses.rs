@@ -52,8 +52,8 @@ pub fn telling(
                     direction: [direction; 6],
                     ..Conditions::default()
                 };
-                let one = first[0].model().forward(&q, &conditions);
-                one.separation(&second[0].model().forward(&q, &conditions))
+                let one = first[0].evaluate(&q, &conditions, &mut []);
+                one.separation(&second[0].evaluate(&q, &conditions, &mut []))
                     .distance_m
             });
             Telling {

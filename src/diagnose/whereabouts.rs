@@ -86,7 +86,7 @@ fn groupings(problem: &Problem, estimate: &Estimate) -> Vec<Grouping> {
     let models = problem.models(estimate, &[]);
     let torques: Vec<[f64; 6]> = rows
         .iter()
-        .map(|r| models[r.rig].model().torques(&r.q, &r.conditions))
+        .map(|r| models[r.rig].torques(&r.q, &r.conditions))
         .collect();
     let mut all = Vec::new();
     for i in 0..JOINTS {

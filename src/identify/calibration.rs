@@ -526,7 +526,11 @@ fn identify(
 
 /// `R` of the Jacobian in metres and radians by the parameters in SI units, for rows of one
 /// standard deviation: their mean.
-fn in_si(mut r: DMatrix<f64>, problem: &Problem, parameters: &[Parameter]) -> DMatrix<f64> {
+pub(super) fn in_si(
+    mut r: DMatrix<f64>,
+    problem: &Problem,
+    parameters: &[Parameter],
+) -> DMatrix<f64> {
     let logs = problem.rows.iter().map(|row| row.sigma_m.ln());
     let sigma_m = (logs.sum::<f64>() / problem.rows.len().max(1) as f64).exp();
     for (i, parameter) in parameters.iter().enumerate() {
@@ -676,7 +680,7 @@ fn device_of(
     }
 }
 
-fn outliers(
+pub(super) fn outliers(
     problem: &Problem,
     measurements: &Measurements,
     solution: &Solution,
@@ -768,7 +772,11 @@ impl Calibration {
             .iter()
             .zip(&self.solution.estimate.points_m)
         {
-            profile.points.insert(point.name.clone(), *value);
+            let points = match point.plate {
+                None => &mut profile.points,
+                Some(plate) => &mut profile.external.positioners[plate].points,
+            };
+            points.insert(point.name.clone(), *value);
         }
         profile
     }

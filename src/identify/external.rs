@@ -5,6 +5,7 @@ use super::measurements::{EXTERNAL_DEG_COLUMNS, EXTERNAL_MM_COLUMNS, Measurement
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::model::external::{ExternalAxes, Listed};
 use crate::model::profile::Profile;
+use crate::nearest;
 
 /// How far beyond its limits an axis may stand: controllers round. Metres and radians.
 const BORDER: f64 = 1e-6;
@@ -71,13 +72,41 @@ fn refused(message: String, hint: &str) -> IdentifyError {
     }
 }
 
-/// Whether readings and profile speak of the same external axes. Those of a track must be read;
-/// what a positioner does, no tool of the arm shows.
+/// The positioner on whose plate a row's point is, by its index.
+///
+/// # Errors
+/// The profile has none of this name.
+pub fn plate_of(row: &Measurement, axes: &ExternalAxes) -> Result<Option<usize>, IdentifyError> {
+    let Some(name) = &row.plate else {
+        return Ok(None);
+    };
+    let all = &axes.positioners;
+    if let Some(at) = all
+        .iter()
+        .position(|own| own.name.eq_ignore_ascii_case(name))
+    {
+        return Ok(Some(at));
+    }
+    let message = format!(
+        "{}: the point is on the plate of `{name}`, and the profile has no such positioner",
+        row.line
+    );
+    let names = all.iter().map(|own| own.name.as_str());
+    let hint = nearest::hint(name, "positioners of the profile", names);
+    Err(refused(message, &hint))
+}
+
+/// Whether readings and profile speak of the same external axes. Those of a track must be read
+/// where the point is on the tool, and those of a positioner where it is on its plate: what a
+/// positioner does, no tool of the arm shows.
 ///
 /// # Errors
 /// Both sides are named: the column and the axis.
 pub fn agree(measurements: &Measurements, profile: &Profile) -> Result<(), IdentifyError> {
     let axes: Vec<Listed> = profile.external.listed().collect();
+    let rows = measurements.rows.iter();
+    let plates = rows.map(|row| plate_of(row, &profile.external));
+    let plates: Vec<Option<usize>> = plates.collect::<Result<_, _>>()?;
     let described = |k: usize| format!("{} (external axis {})", axes[k].name(), k + 1);
     let stood = |k: usize| {
         move |row: &Measurement| {
@@ -115,8 +144,13 @@ pub fn agree(measurements: &Measurements, profile: &Profile) -> Result<(), Ident
                 "columns are numbered as the profile lists its axes, those of the track first";
             return Err(refused(message, hint));
         }
-        let lacks = measurements.rows.iter().find(|row| !stood(k)(row));
-        if let Some(row) = lacks.filter(|_| axis.is_linear()) {
+        let carries = match axis {
+            Listed::Track(_) => None,
+            Listed::Rotary(_, of, _) => Some(*of),
+        };
+        let both = measurements.rows.iter().zip(&plates);
+        let mut carried = both.filter(|(_, plate)| **plate == carries);
+        if let Some((row, _)) = carried.find(|(row, _)| !stood(k)(row)) {
             let message = format!(
                 "the profile has {}, and {} of the measurements has no {own}",
                 described(k),

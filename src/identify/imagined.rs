@@ -2,6 +2,7 @@
 
 use super::error::IdentifyError;
 use super::expectation::{four_slopes, slopes};
+use super::holder::Holder;
 use super::line::Line;
 use super::measurements::{DIRECTION_COLUMNS, Measurement, Measurements, Observed};
 use super::normal::Normal;
@@ -12,7 +13,7 @@ use crate::geometry::{Pose, Vector, constant};
 use crate::model::batch::{Four, WIDTH, side_by_side};
 use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
-use crate::model::{Conditions, FourMotions, Motion, Sensitivity};
+use crate::model::{Conditions, FourMotions, Motion};
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use pulp::Arch;
 use rayon::prelude::*;
@@ -51,6 +52,7 @@ pub(super) fn imagined(
         point_in_tool_m: None,
         conditions: Conditions::default(),
         stand: stand.clone(),
+        plate: None,
         sigma_m: None,
         sigma_rad: None,
         purpose: None,
@@ -85,7 +87,7 @@ pub(super) struct Derivatives {
 struct Pass<'a> {
     problem: &'a Problem,
     estimate: &'a Estimate,
-    models: &'a [Sensitivity],
+    models: &'a [Holder],
     rows: &'a [Row],
     sigma_m: f64,
     joints: &'a [[f64; 6]],
@@ -99,7 +101,7 @@ impl pulp::NullaryFnOnce for Pass<'_> {
     fn call(self) {
         let parameters = &self.problem.parameters;
         let (models, width) = (self.models, parameters.len());
-        let four: Vec<_> = models.iter().map(Sensitivity::four).collect();
+        let four: Vec<_> = models.iter().map(Holder::four).collect();
         let effects = parameters
             .iter()
             .filter(|p| matches!(p.subject, Subject::Effect(_)))
@@ -214,6 +216,39 @@ impl Derivatives {
                     cells,
                 });
             });
+        Self {
+            height,
+            width,
+            cells,
+        }
+    }
+
+    /// Of the rows of a problem as they stand, so many of each configuration.
+    pub(super) fn of_rows(
+        problem: &Problem,
+        estimate: &Estimate,
+        each: usize,
+        sigma_m: f64,
+    ) -> Self {
+        let parameters = &problem.parameters;
+        let models = problem.models(estimate, parameters);
+        let width = parameters.len();
+        let is_effect = |p: &&Parameter| matches!(p.subject, Subject::Effect(_));
+        let mut motions = vec![Motion::default(); parameters.iter().filter(is_effect).count()];
+        let (mut cells, mut height) = (Vec::new(), 0);
+        for row in &problem.rows {
+            let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
+            let seen = problem.observe(estimate, row, pose);
+            let by = seen.weights().map(|weight| weight * row.sigma_m / sigma_m);
+            let (top, count) = (cells.len(), row.observed.count());
+            cells.resize(top + count * width, 0.0);
+            slopes(&seen, &motions, parameters, |column, slope| {
+                for k in 0..count {
+                    cells[top + k * width + column] = slope[k] * by[k];
+                }
+            });
+            height = each * count;
+        }
         Self {
             height,
             width,

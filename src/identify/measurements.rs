@@ -139,12 +139,15 @@ pub struct Measurement {
     pub tool: Option<String>,
     /// Name of the measured point.
     pub point: Option<String>,
-    /// The measured point in the tool frame, metres.
+    /// The measured point in the tool frame, or in the plate's, metres.
     pub point_in_tool_m: Option<Vector>,
     /// Direction, force, temperature, time.
     pub conditions: Conditions,
     /// Where external axes stood.
     pub stand: Stand,
+    /// Name of the positioner on whose plate the point is; else it is on the tool, and `q` says
+    /// where.
+    pub plate: Option<String>,
     /// Standard uncertainty of a coordinate or distance, metres.
     pub sigma_m: Option<f64>,
     /// Standard uncertainty of an orientation about an axis, radians.
@@ -233,6 +236,13 @@ impl Measurements {
             rows: kept.map(|(_, row)| row.clone()).collect(),
             columns: self.columns.clone(),
         }
+    }
+
+    /// The rows of the tool, and those of points on plates.
+    #[must_use]
+    pub fn split(&self) -> (Self, Self) {
+        let of = |plate: bool| self.filtered(|_, row| row.plate.is_some() == plate);
+        (of(false), of(true))
     }
 
     /// The number of the configuration of each row: rows in sequence with the same joint angles,

@@ -1,6 +1,7 @@
 //! Normal equations, gathered in one pass over the rows.
 
 use super::expectation::four_slopes;
+use super::holder::Holder;
 use super::measurements::Observed;
 use super::observation::{MOST_NUMBERS, Observation};
 use super::parameters::{Parameter, Subject};
@@ -8,7 +9,7 @@ use super::problem::{Estimate, Problem, Row};
 use super::robust::Loss;
 use crate::geometry::{Pose, Scalar};
 use crate::model::batch::{Four, WIDTH, lane_of, side_by_side};
-use crate::model::{FourMotions, Motion, Sensitivity};
+use crate::model::{FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
 use pulp::Arch;
 use rayon::prelude::*;
@@ -119,7 +120,7 @@ impl Sums {
 struct Pass<'a> {
     problem: &'a Problem,
     estimate: &'a Estimate,
-    models: &'a [Sensitivity],
+    models: &'a [Holder],
     parameters: &'a [Parameter],
     loss: Loss,
     rows: &'a [Row],
@@ -141,7 +142,7 @@ impl pulp::NullaryFnOnce for Pass<'_> {
         let mut four_motions = vec![FourMotions::none(); effects];
         let mut slopes = vec![[0.0; MOST_NUMBERS]; width - 1];
         let mut four_slopes = vec![[Four::zero(); 3]; width - 1];
-        let fours: Vec<_> = self.models.iter().map(Sensitivity::four).collect();
+        let fours: Vec<_> = self.models.iter().map(Holder::four).collect();
         let mut rest = self.rows;
         while let Some(first) = rest.first() {
             let joined = rest.get(..WIDTH).zip(fours[first.rig].as_ref());
@@ -332,6 +333,7 @@ mod tests {
             .map(|_| Command {
                 q: [0.0; 6].map(|_: f64| random.between(-1.5, 1.5)),
                 stand: Stand::default(),
+                plate: None,
                 conditions: None,
             })
             .collect();

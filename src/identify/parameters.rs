@@ -96,18 +96,44 @@ const OF_TRACK: [&str; 4] = [
     "track_rotation:1-12:x-z:1-2",
 ];
 
+/// The word for what is wrong with a positioner.
+const POSITIONER: &str = "positioner";
+/// What it means: the axes and how far they go; along them the first order, across them the second,
+/// since the first is where the plate is.
+const OF_POSITIONER: [&str; 5] = [
+    "positioner_axis",
+    "positioner_scale",
+    "positioner_runout:1-12:z:1",
+    "positioner_runout:1-12:x-y:2",
+    "positioner_ripple:1-12:1-2",
+];
+
+/// Words that are meant together.
+fn together(words: &[&str]) -> Vec<Pick> {
+    let words = words.iter().map(|word| Pick {
+        together: true,
+        ..Pick::parse(word).expect("words of effects")
+    });
+    words.collect()
+}
+
 impl Pick {
+    /// What is wrong with a positioner, as far as points on its plate usually tell it.
+    ///
+    /// # Panics
+    /// Never: the words are ours.
+    #[must_use]
+    pub fn positioner() -> Vec<Self> {
+        together(&OF_POSITIONER)
+    }
+
     /// What is wrong with a track, as far as measurements usually tell it.
     ///
     /// # Panics
     /// Never: the words are ours.
     #[must_use]
     pub fn track() -> Vec<Self> {
-        let words = OF_TRACK.iter().map(|word| Self {
-            together: true,
-            ..Self::parse(word).expect("words of effects")
-        });
-        words.collect()
+        together(&OF_TRACK)
     }
 
     /// Reads one word.
@@ -231,16 +257,16 @@ impl Pick {
         let words = text.split(',').map(str::trim).filter(|w| !w.is_empty());
         let mut all = Vec::new();
         for word in words {
-            if word == TRACK {
-                all.extend(Self::track());
-            } else {
-                all.push(Self::parse(word)?);
+            match word {
+                TRACK => all.extend(Self::track()),
+                POSITIONER => all.extend(Self::positioner()),
+                word => all.push(Self::parse(word)?),
             }
         }
         Ok(all)
     }
 
-    fn holds(&self, effect: &Effect, key: &str) -> bool {
+    pub(super) fn holds(&self, effect: &Effect, key: &str) -> bool {
         let numbers = effect
             .definition()
             .site
@@ -271,6 +297,15 @@ impl Pick {
                 .all(|((a, b), n)| (*a..=*b).contains(&n))
     }
 
+    /// Whether it names one effect, not a range of them.
+    pub(super) fn is_of_one(&self) -> bool {
+        let site = self.kind.map_or(0, |kind| kind.definition().site.len());
+        match self.places.last() {
+            Some((low, high)) if self.places.len() == site => low == high,
+            _ => false,
+        }
+    }
+
     /// Whether an effect that this means may show: of an external axis, that the profile has it,
     /// and that it stood at more places than the effect has numbers. A degree that is named
     /// alone is sought in any case.
@@ -279,10 +314,7 @@ impl Pick {
         if !effect.definition().of_external_axis() {
             return true;
         }
-        let by_name = match self.places.last() {
-            Some((low, high)) if self.places.len() == site.len() => low == high,
-            _ => false,
-        };
+        let by_name = self.is_of_one();
         let is_power = site
             .iter()
             .any(|place| matches!(place, SiteKey::Degree(..)));
@@ -420,6 +452,24 @@ impl Selection {
         }
     }
 
+    /// What of it concerns the arm, in a file with points on plates.
+    #[must_use]
+    pub fn of_tool(&self) -> Self {
+        self.with(|kind| !kind.definition().of_positioner())
+    }
+
+    /// What of it concerns positioners.
+    #[must_use]
+    pub fn of_plates(&self) -> Self {
+        self.with(|kind| kind.definition().of_positioner())
+    }
+
+    fn with(&self, keep: impl Fn(Kind) -> bool) -> Self {
+        let mut kept = self.clone();
+        kept.identify.retain(|pick| pick.kind.is_none_or(&keep));
+        kept
+    }
+
     pub(super) fn wants_points(&self) -> bool {
         self.identify.iter().any(|pick| pick.kind.is_none())
     }
@@ -447,7 +497,7 @@ fn nearly_parallel(profile: &Profile, link: usize) -> bool {
     profile.links[link].alpha_rad.sin().abs() < PARALLEL
 }
 
-fn at(kind: Kind, index: usize) -> Effect {
+pub(super) fn at(kind: Kind, index: usize) -> Effect {
     Effect {
         kind,
         site: Site {
@@ -482,7 +532,96 @@ fn rank(profile: &Profile, effect: &Effect, key: &str) -> u32 {
             "beta_deg" => 5,
             _ => 6,
         },
+        Kind::PositionerPlate => 1,
+        Kind::PositionerAxis => 2,
+        Kind::PositionerScale | Kind::PositionerZero => 3,
         _ => 7,
+    }
+}
+
+/// Effects, and which of their parameters are sought.
+pub(super) struct Wanted {
+    effects: Vec<Effect>,
+    keys: Vec<(usize, &'static str)>,
+}
+
+impl Wanted {
+    /// Nothing but what the profile has.
+    pub(super) fn of(profile: &Profile) -> Self {
+        Self {
+            effects: profile.effects.clone(),
+            keys: Vec::new(),
+        }
+    }
+
+    /// Those parameters of an effect that `keep` names.
+    pub(super) fn add(&mut self, effect: &Effect, keep: &dyn Fn(&str) -> bool) {
+        let known = self.effects.iter().position(|e| e.same_place(effect));
+        let index = known.unwrap_or_else(|| {
+            self.effects.push(effect.clone());
+            self.effects.len() - 1
+        });
+        for parameter in effect.definition().parameters {
+            if keep(parameter.key) && !self.keys.contains(&(index, parameter.key)) {
+                self.keys.push((index, parameter.key));
+            }
+        }
+    }
+
+    /// The effects, and the parameters in the order in which they are kept: features first, then
+    /// these without what is fixed, and the coordinates of unknown points, by rank.
+    pub(super) fn parameters(
+        mut self,
+        profile: &Profile,
+        selection: &Selection,
+        features: Vec<Parameter>,
+        unknown_points: &[(usize, String)],
+    ) -> (Vec<Effect>, Vec<Parameter>) {
+        self.keys.retain(|(index, key)| {
+            !selection
+                .fix
+                .iter()
+                .any(|pick| pick.holds(&self.effects[*index], key))
+        });
+        let mut parameters = features;
+        for (index, key) in self.keys {
+            let effect = &self.effects[index];
+            let all = effect.definition().parameters;
+            let number = all.iter().position(|p| p.key == key).expect("its own key");
+            let scale = all[number].prior_sigma * all[number].unit.in_si();
+            parameters.push(Parameter {
+                key: format!("{} {key}", effect.label()),
+                subject: Subject::Effect(Slot {
+                    effect: index,
+                    parameter: number,
+                }),
+                unit: all[number].unit,
+                scale,
+                rank: rank(profile, effect, key),
+                prior: (selection.priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
+                asked: (selection.identify.iter())
+                    .any(|pick| !pick.together && pick.holds(effect, key)),
+            });
+        }
+        let fixed = selection.fix.iter().any(|pick| pick.kind.is_none());
+        for (point, name) in unknown_points.iter().filter(|_| !fixed) {
+            for (axis, key) in ["x_mm", "y_mm", "z_mm"].into_iter().enumerate() {
+                parameters.push(Parameter {
+                    key: format!("point {name} {key}"),
+                    subject: Subject::Point {
+                        point: *point,
+                        axis,
+                    },
+                    unit: Unit::Millimetre,
+                    scale: POINT_SIGMA_M,
+                    rank: 0,
+                    prior: None,
+                    asked: false,
+                });
+            }
+        }
+        parameters.sort_by_key(|p| p.rank);
+        (self.effects, parameters)
     }
 }
 
@@ -493,71 +632,33 @@ pub(super) fn choose(
     selection: &Selection,
     seen: &Seen,
 ) -> (Vec<Effect>, Vec<Parameter>) {
-    let mut effects = profile.effects.clone();
-    let mut wanted: Vec<(usize, &'static str)> = Vec::new();
-    let want = |effects: &mut Vec<Effect>,
-                wanted: &mut Vec<(usize, &'static str)>,
-                effect: &Effect,
-                keep: &dyn Fn(&str) -> bool| {
-        let index = effects
-            .iter()
-            .position(|e| e.same_place(effect))
-            .unwrap_or_else(|| {
-                effects.push(effect.clone());
-                effects.len() - 1
-            });
-        for parameter in effect.definition().parameters {
-            if keep(parameter.key) && !wanted.contains(&(index, parameter.key)) {
-                wanted.push((index, parameter.key));
-            }
-        }
-    };
-    want(&mut effects, &mut wanted, &at(Kind::BaseFrame, 0), &|_| {
-        true
-    });
+    let mut wanted = Wanted::of(profile);
+    wanted.add(&at(Kind::BaseFrame, 0), &|_| true);
     for (tool, turning) in seen.tools.iter().filter(|_| seen.tool_frame) {
         let mut effect = at(Kind::ToolFrame, 0);
-        if !effects.iter().any(|e| e.same_place(&effect)) || seen.tools.len() > 1 {
+        if !wanted.effects.iter().any(|e| e.same_place(&effect)) || seen.tools.len() > 1 {
             effect.site.tool = Some(tool.clone());
         }
-        want(&mut effects, &mut wanted, &effect, &|key| {
-            *turning || key.ends_with("_mm")
-        });
+        wanted.add(&effect, &|key| *turning || key.ends_with("_mm"));
     }
     if selection.level == Level::Joints {
         for joint in 0..JOINTS {
-            want(
-                &mut effects,
-                &mut wanted,
-                &at(Kind::LinkGeometry, joint),
-                &|key| key == "theta_deg" && joint > 0,
-            );
-            want(
-                &mut effects,
-                &mut wanted,
-                &at(Kind::JointScale, joint),
-                &|_| true,
-            );
+            wanted.add(&at(Kind::LinkGeometry, joint), &|key| {
+                key == "theta_deg" && joint > 0
+            });
+            wanted.add(&at(Kind::JointScale, joint), &|_| true);
         }
     }
     if matches!(selection.level, Level::Geometry | Level::Compliance) {
         for link in 1..JOINTS {
-            want(
-                &mut effects,
-                &mut wanted,
-                &at(Kind::LinkGeometry, link),
-                &|key| minimal(profile, link, key),
-            );
+            wanted.add(&at(Kind::LinkGeometry, link), &|key| {
+                minimal(profile, link, key)
+            });
         }
     }
     if selection.level == Level::Compliance {
         for joint in (0..JOINTS).filter(|joint| seen.loaded[*joint]) {
-            want(
-                &mut effects,
-                &mut wanted,
-                &at(Kind::JointCompliance, joint),
-                &|_| true,
-            );
+            wanted.add(&at(Kind::JointCompliance, joint), &|_| true);
         }
     }
     let of_track = matches!(selection.level, Level::Geometry | Level::Compliance);
@@ -575,63 +676,20 @@ pub(super) fn choose(
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
-            want(&mut effects, &mut wanted, &effect, &|key| {
+            wanted.add(&effect, &|key| {
                 pick.holds(&effect, key) && means_something(&effect, key)
             });
         }
     }
-    wanted.retain(|(index, key)| {
-        !selection
-            .fix
-            .iter()
-            .any(|pick| pick.holds(&effects[*index], key))
-    });
-    let mut parameters = seen.features.clone();
-    for (index, key) in wanted {
-        let effect = &effects[index];
-        let all = effect.definition().parameters;
-        let number = all.iter().position(|p| p.key == key).expect("its own key");
-        let scale = all[number].prior_sigma * all[number].unit.in_si();
-        parameters.push(Parameter {
-            key: format!("{} {key}", effect.label()),
-            subject: Subject::Effect(Slot {
-                effect: index,
-                parameter: number,
-            }),
-            unit: all[number].unit,
-            scale,
-            rank: rank(profile, effect, key),
-            prior: (selection.priors && effect.kind != Kind::BaseFrame).then_some((0.0, scale)),
-            asked: (selection.identify.iter())
-                .any(|pick| !pick.together && pick.holds(effect, key)),
-        });
-    }
-    let fixed = selection.fix.iter().any(|pick| pick.kind.is_none());
-    for (point, name) in seen.unknown_points.iter().filter(|_| !fixed) {
-        for (axis, key) in ["x_mm", "y_mm", "z_mm"].into_iter().enumerate() {
-            parameters.push(Parameter {
-                key: format!("point {name} {key}"),
-                subject: Subject::Point {
-                    point: *point,
-                    axis,
-                },
-                unit: Unit::Millimetre,
-                scale: POINT_SIGMA_M,
-                rank: 0,
-                prior: None,
-                asked: false,
-            });
-        }
-    }
-    parameters.sort_by_key(|p| p.rank);
-    (effects, parameters)
+    let features = seen.features.clone();
+    wanted.parameters(profile, selection, features, &seen.unknown_points)
 }
 
 /// Every word that names parameters on the command line.
 #[must_use]
 pub fn words() -> Vec<&'static str> {
     let ids = REGISTRY.iter().map(|kind| kind.definition().id);
-    ids.chain(["points", TRACK]).collect()
+    ids.chain(["points", TRACK, POSITIONER]).collect()
 }
 
 #[cfg(test)]

@@ -145,35 +145,51 @@ pub fn plan_telling(
         .collect();
     let derivatives =
         Derivatives::of_places(&problem, &estimate, (&all, &at), &rows_of, request.sigma_m);
+    let given = request.given.len();
+    let parameters = problem.parameters;
+    let mut found = select(derivatives, parameters, (given, every), request, tell)?;
+    found.joints.clone_from(&request.given);
+    let chosen = found.chosen.iter();
+    found.joints.extend(chosen.clone().map(|i| pool[*i]));
+    let all = (0..given).chain(chosen.map(|i| given + i));
+    found.stands = all.map(|i| places[at[i]].clone()).collect();
+    found.admitted = admitted;
+    Ok(found)
+}
+
+/// The best set of some candidates by their derivatives, those that are in the set already first;
+/// every so manieth of them tells which parameters can be determined. Where the candidates are, the
+/// caller knows.
+///
+/// # Errors
+/// As [`plan`].
+pub(super) fn select(
+    derivatives: Derivatives,
+    sought: Vec<Parameter>,
+    (given, every): (usize, usize),
+    request: &Request,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Plan, IdentifyError> {
+    let pool = derivatives.count() - given;
     // standard deviations of as many configurations as are asked for
-    let planned = (request.count + request.given.len()) as f64;
+    let planned = (request.count + given) as f64;
     let noise = GIVEN_UP * request.sigma_m / DEFAULT_SIGMA_M
-        * (all.len().div_ceil(every) as f64 / planned).sqrt();
-    let normal = derivatives.normal(
-        every,
-        DEFAULT_SIGMA_M / request.sigma_m,
-        &problem.parameters,
-    );
-    let known = identifiable(&normal, &problem.parameters, Some(noise));
-    let parameters: Vec<Parameter> = known
-        .kept
-        .iter()
-        .map(|i| problem.parameters[*i].clone())
-        .collect();
+        * (derivatives.count().div_ceil(every) as f64 / planned).sqrt();
+    let normal = derivatives.normal(every, DEFAULT_SIGMA_M / request.sigma_m, &sought);
+    let known = identifiable(&normal, &sought, Some(noise));
+    let parameters: Vec<Parameter> = known.kept.iter().map(|i| sought[*i].clone()).collect();
     let per_row = derivatives.height;
-    if (request.count + request.given.len()) * per_row < parameters.len()
-        || request.count > pool.len()
-    {
+    if (request.count + given) * per_row < parameters.len() || request.count > pool {
         return Err(IdentifyError::TooFew {
-            numbers: (request.count + request.given.len()) * per_row,
-            rows: request.count.min(pool.len()) + request.given.len(),
+            numbers: (request.count + given) * per_row,
+            rows: request.count.min(pool) + given,
             parameters: parameters.len(),
         });
     }
     let derivatives = derivatives.by(&known.kept).in_fewer_rows();
     let width = parameters.len();
-    let chooser = Chooser::new(&derivatives, request.given.len());
-    let count = request.count + request.given.len();
+    let chooser = Chooser::new(&derivatives, given);
+    let count = request.count + given;
     // O1 in SI units: the scales and the standard deviation are taken out again
     let scales: f64 = parameters
         .iter()
@@ -226,22 +242,17 @@ pub fn plan_telling(
         let by = request.sigma_m / p.scale;
         r.column_mut(i).scale_mut(by);
     }
-    let mut joints = request.given.clone();
-    joints.extend(chosen.iter().map(|i| pool[*i]));
-    let given = 0..request.given.len();
-    let chosen_at = chosen.iter().map(|i| request.given.len() + i);
-    let stands = given.chain(chosen_at).map(|i| places[at[i]].clone());
     Ok(Plan {
-        joints,
-        stands: stands.collect(),
+        joints: Vec::new(),
+        stands: Vec::new(),
         chosen,
         identifiable: known,
-        parameters: problem.parameters,
+        parameters: sought,
         sigma,
         observability: observability(singular_values(&r), count),
         starts_o1,
         exchanges,
-        admitted,
+        admitted: 1.0,
     })
 }
 

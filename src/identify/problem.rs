@@ -3,9 +3,11 @@
 use super::contact::{self, Feature, MOST_VALUES};
 use super::error::IdentifyError;
 use super::external;
+use super::holder::{Holder, Plate};
 use super::measurements::{Measurement, Measurements, Observed};
 use super::observation::Observation;
 use super::parameters::{Parameter, Pick, Seen, Selection, Subject, choose};
+use super::plates::Turning;
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::{Effect, Kind, Need};
 use crate::model::external::Stand;
@@ -55,16 +57,20 @@ pub struct Row {
     pub sigma_rad: f64,
     /// Index of the arm's geometry among [`Problem::rigs`].
     pub rig: usize,
+    /// Index of the positioner on whose plate the point is; else it is on the tool.
+    pub plate: Option<usize>,
     /// Index of what was touched among [`Problem::features`] and the radius of the probe's ball,
     /// metres.
     pub touched: Option<(usize, f64)>,
 }
 
-/// A named point on a tool.
+/// A named point on a tool or a plate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPoint {
     /// Its name.
     pub name: String,
+    /// Index of the positioner on whose plate it is; else it is on the tool.
+    pub plate: Option<usize>,
     /// Whether its coordinates are given.
     pub known: bool,
 }
@@ -111,8 +117,10 @@ pub struct Rig {
     pub tool: usize,
     /// Conditions that change the geometry.
     pub conditions: Conditions,
-    /// Where external axes that carry the base stand.
+    /// Where external axes stand that carry the base, or the plate.
     pub stand: Stand,
+    /// Index of the positioner on whose plate the points are, where they are not on the tool.
+    pub plate: Option<usize>,
 }
 
 /// Measurements of one robot, its effects, and which parameters are identified.
@@ -180,6 +188,7 @@ fn named_points(
         let known = given.or_else(|| profile.points.get(name).copied());
         points.push(NamedPoint {
             name: name.to_owned(),
+            plate: None,
             known: known.is_some() && !free,
         });
         coordinates.push(known.unwrap_or_default());
@@ -218,9 +227,19 @@ fn loaded(profile: &Profile, tools: &[Mounted], rows: &[Row], gravity_known: boo
 }
 
 /// Effects that are asked for by name must be of axes that the profile has, and that the measured
-/// tool shows.
-fn refuse_others_axes(profile: &Profile, asked: &[Pick]) -> Result<(), IdentifyError> {
-    for pick in asked.iter().filter(|pick| !pick.together) {
+/// tool shows; points on a plate show nothing of the arm.
+fn refuse_others_axes(
+    profile: &Profile,
+    measurements: &Measurements,
+    asked: &[Pick],
+) -> Result<(), IdentifyError> {
+    if let Some(row) = measurements.rows.iter().find(|row| row.plate.is_some()) {
+        return Err(IdentifyError::Suspicious {
+            message: format!("{}: a point on a plate shows nothing of the arm", row.line),
+            hint: "keep rows on plates apart from rows of the tool".into(),
+        });
+    }
+    for pick in asked {
         let Some(kind) = pick
             .kind
             .filter(|kind| kind.definition().of_external_axis())
@@ -234,7 +253,7 @@ fn refuse_others_axes(profile: &Profile, asked: &[Pick]) -> Result<(), IdentifyE
             return Err(IdentifyError::Missing { id, need });
         }
         let effects = pick.effects();
-        if !effects.iter().any(|e| is_of_profile(e, &profile.external)) {
+        if !pick.together && !effects.iter().any(|e| is_of_profile(e, &profile.external)) {
             let need = "a linear axis of that number under `external_axes: track:` of the profile";
             return Err(IdentifyError::Missing { id, need });
         }
@@ -290,6 +309,7 @@ impl Problem {
                 sigma_m,
                 sigma_rad: m.sigma_rad.unwrap_or(sigma_m / LEVER_M),
                 rig: 0,
+                plate: None,
                 touched: m.contact.as_ref().and_then(|contact| {
                     let at = features.iter().position(|f| f.name == contact.feature);
                     at.map(|at| (at, contact.probe_radius_m))
@@ -331,7 +351,7 @@ impl Problem {
             features: contact::parameters(&features),
             places: external::places(&profile.external, measurements),
         };
-        refuse_others_axes(profile, &selection.identify)?;
+        refuse_others_axes(profile, measurements, &selection.identify)?;
         let (effects, parameters) = choose(profile, selection, &seen);
         if parameters.is_empty() {
             return Err(IdentifyError::NoParameters);
@@ -357,6 +377,54 @@ impl Problem {
         };
         contact::start(&mut problem, &mut start)?;
         Ok((problem, start))
+    }
+
+    /// As [`Problem::new`], of points on plates alone, in the controller's world: what is
+    /// identified is of their positioners. `of` says what the measurements show of them.
+    pub(super) fn on_plates(
+        profile: &Profile,
+        measurements: &Measurements,
+        selection: &Selection,
+        of: Turning,
+    ) -> (Self, Estimate) {
+        let (effects, parameters) = of.choose(profile, selection);
+        let rows = measurements.rows.iter().enumerate();
+        let rows = rows.zip(&of.rows).map(|((index, m), (plate, point))| {
+            let sigma_m = m.sigma_m.unwrap_or(DEFAULT_SIGMA_M);
+            Row {
+                measurement: index,
+                q: m.q,
+                observed: m.observed,
+                tool: 0,
+                point: *point,
+                conditions: m.conditions,
+                stand: m.stand.clone(),
+                sigma_m,
+                sigma_rad: m.sigma_rad.unwrap_or(sigma_m / LEVER_M),
+                rig: 0,
+                plate: Some(*plate),
+                touched: None,
+            }
+        });
+        let mut problem = Self {
+            profile: profile.clone(),
+            tools: vec![Mounted::flange()],
+            rows: rows.collect(),
+            points: of.points,
+            features: Vec::new(),
+            rigs: Vec::new(),
+            parameters,
+            sigma_assumed: measurements.rows.iter().any(|m| m.sigma_m.is_none()),
+            gravity_by_base: false,
+        };
+        problem.sort_rigs(&effects);
+        let start = Estimate {
+            world_from_base: profile.world_from_base,
+            effects,
+            points_m: of.points_m,
+            features: Vec::new(),
+        };
+        (problem, start)
     }
 
     fn check_needs(
@@ -425,7 +493,7 @@ impl Problem {
         });
         self.rigs.clear();
         let on_track = !self.profile.external.track.is_empty();
-        let mut known: BTreeMap<(usize, u64, u64, Vec<u64>), usize> = BTreeMap::new();
+        let mut known = BTreeMap::new();
         for row in &mut self.rows {
             let conditions = if varies {
                 Conditions {
@@ -438,10 +506,10 @@ impl Problem {
             };
             let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
             let key = (
-                row.tool,
+                (row.tool, row.plate),
                 bits(conditions.temperature_c),
                 bits(conditions.time_s),
-                if on_track {
+                if on_track || row.plate.is_some() {
                     row.stand.bits()
                 } else {
                     Vec::new()
@@ -452,6 +520,7 @@ impl Problem {
                     tool: row.tool,
                     conditions,
                     stand: row.stand.clone(),
+                    plate: row.plate,
                 });
                 self.rigs.len() - 1
             });
@@ -464,10 +533,10 @@ impl Problem {
         &self.profile.mechanism
     }
 
-    /// The models of every rig with the derivatives by these parameters; only effects count, points
-    /// need none.
+    /// What holds the points of every rig with the derivatives by these parameters; only effects
+    /// count, points need none.
     #[must_use]
-    pub fn models(&self, estimate: &Estimate, parameters: &[Parameter]) -> Vec<Sensitivity> {
+    pub fn models(&self, estimate: &Estimate, parameters: &[Parameter]) -> Vec<Holder> {
         let slots: Vec<Slot> = parameters
             .iter()
             .filter_map(|p| match p.subject {
@@ -480,6 +549,11 @@ impl Problem {
         self.rigs
             .iter()
             .map(|rig| {
+                if let Some(positioner) = rig.plate {
+                    let on = (positioner, &rig.stand);
+                    let axes = &self.profile.external;
+                    return Holder::Plate(Plate::of(axes, on, estimate, &slots));
+                }
                 let mut geometry = Geometry {
                     world_from_base: estimate.world_from_base,
                     carried: self.profile.carried(&rig.stand, self.gravity_by_base),
@@ -488,13 +562,13 @@ impl Problem {
                 if let Some(tilt) = tilt {
                     geometry.gravity_m_s2 = tilt * geometry.gravity_m_s2;
                 }
-                Sensitivity::build(
+                Holder::Arm(Box::new(Sensitivity::build(
                     &geometry,
                     &self.profile.mechanism,
                     &estimate.effects,
                     &slots,
                     &rig.conditions,
-                )
+                )))
             })
             .collect()
     }

@@ -209,18 +209,43 @@ impl Cells<'_> {
         )))
     }
 
+    /// The positioner on whose plate the point is; none of a point on the tool.
+    fn plate(&self) -> Result<Option<String>, MeasurementError> {
+        let on = self.name("on")?;
+        match on
+            .as_deref()
+            .map(|on| on.split_once(':').unwrap_or((on, "")))
+        {
+            None | Some(("tool", "")) => Ok(None),
+            Some(("plate", name)) if !name.is_empty() => Ok(Some(name.to_owned())),
+            Some(_) => {
+                let allowed =
+                    "tool, or plate:NAME of a positioner; a tool seen from a part is not read";
+                let found = format!("`{}`", on.unwrap_or_default());
+                Err(self.not_allowed("on", found, allowed))
+            }
+        }
+    }
+
     /// Where external axes stood.
     fn stand(&self) -> Result<Stand, MeasurementError> {
         let mut stand = Stand::default();
         let columns = EXTERNAL_MM_COLUMNS.into_iter().zip(EXTERNAL_DEG_COLUMNS);
         let columns = columns.zip(EXTERNAL_DIRECTION_COLUMNS);
         for (k, ((mm, deg), direction)) in columns.enumerate() {
-            let value = match self.optional(mm)? {
-                Some(mm) => Some(m_from_mm(mm)),
-                None => self.optional(deg)?.map(|deg| deg * DEG),
+            // an axis that does not carry the point may be left empty
+            let there =
+                |column: &'static str| Some(column).filter(|column| self.text(column).is_some());
+            let value = match (there(mm), there(deg)) {
+                (Some(mm), _) => Some(m_from_mm(self.number(mm)?)),
+                (_, Some(deg)) => Some(self.number(deg)? * DEG),
+                _ => None,
             };
             put(&mut stand.values, k, value, f64::NAN);
-            let moved = self.optional(direction)?;
+            let moved = match there(direction) {
+                Some(direction) => Some(self.number(direction)?),
+                None => None,
+            };
             if let Some(moved) = moved.filter(|moved| ![-1.0, 0.0, 1.0].contains(moved)) {
                 return Err(self.not_allowed(direction, moved.to_string(), "-1, 0 or 1"));
             }
@@ -230,7 +255,14 @@ impl Cells<'_> {
     }
 
     fn measurement(&self, number: usize, kinds: Kinds) -> Result<Measurement, MeasurementError> {
-        let q = self.numbers(JOINT_COLUMNS)?.map(|q| q * DEG);
+        let plate = self.plate()?;
+        let q = match &plate {
+            Some(_) if self.is_empty(&JOINT_COLUMNS) => [0.0; 6],
+            None if !self.reader.has(&JOINT_COLUMNS) => {
+                return Err(self.reader.missing(&JOINT_COLUMNS));
+            }
+            _ => self.numbers(JOINT_COLUMNS)?.map(|q| q * DEG),
+        };
         let own_columns = self
             .row
             .point
@@ -252,7 +284,7 @@ impl Cells<'_> {
         };
         if let Some(direction) = self.row.direction {
             conditions.direction = direction;
-        } else if kinds.directions {
+        } else if kinds.directions && plate.is_none() {
             for (slot, column) in conditions.direction.iter_mut().zip(DIRECTION_COLUMNS) {
                 *slot = self.number(column)?;
                 if ![-1.0, 0.0, 1.0].contains(slot) {
@@ -261,10 +293,10 @@ impl Cells<'_> {
                 }
             }
         }
-        if kinds.moves {
+        if kinds.moves && plate.is_none() {
             conditions.moved = self.numbers(MOVE_COLUMNS)?.map(|q| q * DEG);
         }
-        if kinds.force {
+        if kinds.force && plate.is_none() {
             conditions.force_n = self.numbers(FORCE_COLUMNS)?;
         }
         let sigma_m = self.optional("sigma_mm")?.map(m_from_mm);
@@ -297,11 +329,17 @@ impl Cells<'_> {
                 return Err(self.not_allowed(column, found, allowed));
             }
         };
-        if let Some(on) = self.name("on")?.filter(|on| on != "tool") {
-            let allowed = "tool: points on a plate, and tools seen from a part, are not read";
-            return Err(self.not_allowed("on", format!("`{on}`"), allowed));
-        }
         let contact = self.contact(kinds)?;
+        if plate.is_some() {
+            if contact.is_some() {
+                let (found, allowed) = ("a contact".into(), "points that the device sees");
+                return Err(self.not_allowed("on", found, allowed));
+            }
+            if point.is_none() && point_in_tool_m.is_none() {
+                let allowed = "the name of the point on the plate, or its px_mm,py_mm,pz_mm there";
+                return Err(self.not_allowed("point", "an empty cell".into(), allowed));
+            }
+        }
         let stand = if kinds.external {
             self.stand()?
         } else {
@@ -317,11 +355,15 @@ impl Cells<'_> {
                 Some(contact) => contact.observed(),
                 None => self.observed(kinds)?,
             },
-            tool: self.name("tool")?,
+            tool: match plate {
+                None => self.name("tool")?,
+                Some(_) => None,
+            },
             point,
             point_in_tool_m,
             conditions,
             stand,
+            plate,
             sigma_m,
             sigma_rad,
             purpose,
@@ -379,7 +421,8 @@ impl Measurements {
     /// As [`Measurements::from_csv`].
     pub fn from_table(table: &Table) -> Result<Self, MeasurementError> {
         let reader = Reader { table };
-        if !reader.group(&JOINT_COLUMNS)? {
+        // of points on a plate the arm's joints say nothing
+        if !reader.group(&JOINT_COLUMNS)? && !reader.has(&["on"]) {
             return Err(reader.missing(&JOINT_COLUMNS));
         }
         let own_columns = !table.points.is_empty();
@@ -459,8 +502,10 @@ impl Measurements {
             return Err(reader.whole_file(MeasurementFault::NoRows));
         }
         if !kinds.moves {
-            let moves = last_moves(&rows.iter().map(|row| row.q).collect::<Vec<_>>());
-            for (row, moved) in rows.iter_mut().zip(moves) {
+            let of_tool = |row: &&mut Measurement| row.plate.is_none();
+            let postures: Vec<_> = rows.iter_mut().filter(of_tool).map(|row| row.q).collect();
+            let moves = last_moves(&postures);
+            for (row, moved) in rows.iter_mut().filter(of_tool).zip(moves) {
                 row.conditions.moved = moved;
             }
         }

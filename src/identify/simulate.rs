@@ -63,6 +63,8 @@ pub struct Command {
     /// Where external axes stand; their directions are those from the configuration before where
     /// they are not given.
     pub stand: Stand,
+    /// Index of the positioner on whose plate the points are; else they are on the tool.
+    pub plate: Option<usize>,
     /// Directions and force; directions are those from the configuration before where they are not
     /// given.
     pub conditions: Option<Conditions>,
@@ -82,7 +84,7 @@ fn noise(random: &mut Random, sigma: f64) -> Vector {
 }
 
 /// Measures a robot in these configurations, all of `points` (names with places in the tool frame,
-/// metres) at each.
+/// metres) at each; where they are on a plate, those of its positioner.
 ///
 /// The same seed gives the same noise for every profile: a difference between two files is that of
 /// the robots.
@@ -98,6 +100,13 @@ pub fn simulate(
     let mut rows = Vec::new();
     let count = commands.len();
     let moves = last_moves(&commands.iter().map(|c| c.q).collect::<Vec<_>>());
+    let on_plate = |positioner: usize| {
+        let points = &profile.external.positioners[positioner].points;
+        let named = points
+            .iter()
+            .map(|(name, point)| (Some(name.clone()), *point));
+        named.collect::<Vec<_>>()
+    };
     for (i, command) in commands.iter().enumerate() {
         let mut conditions = command.conditions.unwrap_or_else(|| {
             let before = &commands[i.saturating_sub(1)].q;
@@ -120,9 +129,17 @@ pub fn simulate(
         if let Some(interval) = session.interval_s {
             conditions.time_s = Some(interval * i as f64);
         }
-        let model: Model = profile.real_model_at(tool, &conditions, &stand);
-        let pose = model.forward(&command.q, &conditions);
-        for (name, point) in points {
+        let (pose, own) = match command.plate {
+            None => {
+                let model: Model = profile.real_model_at(tool, &conditions, &stand);
+                (model.forward(&command.q, &conditions), None)
+            }
+            Some(plate) => {
+                let pose = profile.external.plate(plate, stand.at(), &profile.effects);
+                (pose, Some(on_plate(plate)))
+            }
+        };
+        for (name, point) in own.as_deref().unwrap_or(points) {
             let (shift, turn) = (
                 noise(&mut random, session.noise_m),
                 noise(&mut random, session.noise_rad),
@@ -156,11 +173,14 @@ pub fn simulate(
                 id: (rows.len() + 1).to_string(),
                 q: command.q,
                 observed,
-                tool: Some(tool.name.clone()),
+                tool: command.plate.is_none().then(|| tool.name.clone()),
                 point: name.clone(),
                 point_in_tool_m: None,
                 conditions,
                 stand: stand.clone(),
+                plate: command
+                    .plate
+                    .map(|plate| profile.external.positioners[plate].name.clone()),
                 sigma_m: (session.noise_m > 0.0).then_some(session.noise_m),
                 sigma_rad: (session.noise_rad > 0.0).then_some(session.noise_rad),
                 purpose: None,

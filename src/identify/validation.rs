@@ -5,8 +5,9 @@ pub use super::repeated::{Repeated, RepeatedDistance};
 use super::calibration::{begin, begin_frames};
 use super::contact;
 use super::error::IdentifyError;
+use super::external::{in_files, plate_of};
 use super::input_checks::{self, Remark};
-use super::measurements::{Measurements, Purpose};
+use super::measurements::{Measurement, Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::repeated::{repeated, repeated_distances};
@@ -17,6 +18,7 @@ use super::statistics::{Miss, Pairs, Quality, Spread, misses, pairs};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, norm, sub};
 use crate::model::effects::Kind;
+use crate::model::external::Listed;
 use crate::model::profile::Profile;
 use std::collections::BTreeMap;
 
@@ -37,7 +39,7 @@ pub struct Judged {
 /// Errors of a part of the rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// What divides: `point`, `tool`, `set`, `region`.
+    /// What divides: `point`, `tool`, `set`, `region`, `track`, `positioner`.
     pub by: &'static str,
     /// Which part.
     pub name: String,
@@ -107,7 +109,7 @@ pub struct Validation {
     pub folds: Option<(usize, Quality, Quality)>,
 }
 
-fn judged(problem: &Problem, estimate: &Estimate) -> Judged {
+pub(super) fn judged(problem: &Problem, estimate: &Estimate) -> Judged {
     let misses = misses(problem, estimate);
     let mut measured: Vec<Vector> = Vec::new();
     let mut expected: Vec<Vector> = Vec::new();
@@ -125,7 +127,7 @@ fn judged(problem: &Problem, estimate: &Estimate) -> Judged {
 }
 
 /// The profile with what its controller computes with.
-fn controller_profile(profile: &Profile) -> Profile {
+pub(super) fn controller_profile(profile: &Profile) -> Profile {
     let mut controller = profile.clone();
     controller.effects = profile.controller_effects();
     controller
@@ -263,7 +265,7 @@ pub fn validate_telling(
 
 /// `places`: where the rows are in the frame of the calibration's device; `None` where they were
 /// measured.
-fn parts(
+pub(super) fn parts(
     profile: &Profile,
     measurements: &Measurements,
     misses: &[Miss],
@@ -286,7 +288,14 @@ fn parts(
         .iter()
         .map(|p| norm(sub(*p, middle)))
         .fold(0.0, f64::max);
-    let track = &profile.external.track;
+    let carrying = |row: &Measurement| {
+        let plate = plate_of(row, &profile.external).ok().flatten();
+        let listed = profile.external.listed().enumerate();
+        listed.filter(move |(_, axis)| match axis {
+            Listed::Track(_) => plate.is_none(),
+            Listed::Rotary(_, of, _) => plate == Some(*of),
+        })
+    };
     for (number, (row, miss)) in rows.iter().zip(misses).enumerate() {
         let error = mm_from_m(miss.length_m);
         let mut add = |by, name: String| groups.entry((by, name)).or_default().push(error);
@@ -303,20 +312,23 @@ fn parts(
         if let Some(purpose) = row.purpose {
             add("set", purpose.id().into());
         }
-        for (k, axis) in track.iter().enumerate() {
-            let width = (axis.max_m - axis.min_m) / REGIONS as f64;
-            let along = row
-                .stand
-                .values
-                .get(k)
-                .map_or(f64::NAN, |e| (e - axis.min_m) / width);
+        for (k, axis) in carrying(row) {
+            let (low, high) = axis.limits();
+            let width = (high - low) / REGIONS as f64;
+            let values = &row.stand.values;
+            let along = values.get(k).map_or(f64::NAN, |e| (e - low) / width);
             if along.is_finite() {
                 let part = along.floor().clamp(0.0, (REGIONS - 1) as f64);
-                let [from, to] = [part, part + 1.0].map(|n| mm_from_m(axis.min_m + width * n));
-                let name = &axis.axis;
+                let [from, to] = [part, part + 1.0].map(|n| in_files(&axis, low + width * n));
+                let (by, unit) = if axis.is_linear() {
+                    ("track", "mm")
+                } else {
+                    ("positioner", "deg")
+                };
+                let name = axis.name();
                 add(
-                    "track",
-                    format!("{name} {}: {from:.0} to {to:.0} mm", part + 1.0),
+                    by,
+                    format!("{name} {}: {from:.0} to {to:.0} {unit}", part + 1.0),
                 );
             }
         }

@@ -39,7 +39,7 @@ pub use conditions::Conditions;
 pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
 pub use real::Model;
 pub use rows::{Axes, RowsError};
-pub(crate) use sensitivity::FourMotions;
+pub(crate) use sensitivity::{FourMotions, FourSensitivities};
 pub use sensitivity::{Motion, Sensitivity, Slot};
 
 /// Number of joints of every robot here.

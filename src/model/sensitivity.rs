@@ -8,7 +8,7 @@
 
 mod four;
 
-pub(crate) use four::FourMotions;
+pub(crate) use four::{FourMotions, FourSensitivities};
 
 use super::chain::{Chain, Hanging, Loads};
 use super::effects::{Deflection, Effect, State};

@@ -18,6 +18,7 @@ use crate::model::profile::Profile;
 use nalgebra::{DMatrix, DVector};
 
 pub mod outliers;
+pub mod positioner;
 pub mod relations;
 pub mod sag;
 

@@ -8,12 +8,16 @@ use super::{Document, PROGRAM};
 use crate::finding::Finding;
 use crate::geometry::add;
 use crate::geometry::units::mm_from_m;
+use crate::identify::IdentifyError;
 use crate::identify::calibration::{
     Calibration as Found, Options as Identification, STRONG_CORRELATION,
     calibrate_telling as identify,
 };
+use crate::identify::parameters::Selection;
+use crate::identify::plates::calibrate_plates;
 use crate::identify::statistics::misses;
-use crate::model::profile::Tables;
+use crate::model::effects::Kind;
+use crate::model::profile::{Profile, Tables};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -152,6 +156,10 @@ pub struct Calibration {
     pub held_out: Option<HeldOut>,
     /// The row with the largest error with everything.
     pub worst_row: Option<WorstRow>,
+    /// What points on the plates of positioners found, in a file that has rows of the tool too: with
+    /// the device where those put it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plates: Option<Box<Calibration>>,
     /// SHA-256 of the profile.
     pub profile_sha256: String,
     /// SHA-256 of each file of measurements.
@@ -174,7 +182,9 @@ impl Document for Calibration {
     const KIND: &'static str = "calibration/1";
 }
 
-/// Identifies a robot's effects from measurements; `hear` is called before each pass over the rows.
+/// Identifies a robot's effects from measurements, and those of positioners from rows on their
+/// plates: of both, the arm's and the place of the device first. `hear` is called before each pass
+/// over the rows of the tool.
 ///
 /// # Errors
 /// Measurements that do not determine anything, contradict the robot or themselves.
@@ -188,15 +198,70 @@ pub fn calibrate(
         all,
         name,
         sha256,
-        findings: mut reported,
+        findings,
         tables,
     } = measurements;
-    let found = identify(&profile.profile, &all, options, hear)
-        .map_err(|error| identify_failure(&name, &error))?;
+    let failed = |error| identify_failure(&name, &error);
+    let whole = |found: Found, findings: Vec<Finding>| {
+        let tables = tables.clone();
+        of_found(
+            found,
+            findings,
+            (profile, name.clone(), sha256.clone(), tables),
+        )
+    };
+    let (tool, plates) = all.split();
+    let identify_plates = |profile: &Profile| {
+        let options = Identification {
+            selection: options.selection.of_plates(),
+            ..options.clone()
+        };
+        calibrate_plates(profile, &plates, &options).map_err(failed)
+    };
+    if tool.rows.is_empty() {
+        refuse_of_tool(&options.selection).map_err(failed)?;
+        return Ok(whole(identify_plates(&profile.profile)?, findings));
+    }
+    if plates.rows.is_empty() {
+        let found = identify(&profile.profile, &tool, options, hear).map_err(failed)?;
+        return Ok(whole(found, findings));
+    }
+    let of_tool = Identification {
+        selection: options.selection.of_tool(),
+        ..options.clone()
+    };
+    let found = identify(&profile.profile, &tool, &of_tool, hear).map_err(failed)?;
+    let on_plates = identify_plates(&found.profile())?;
+    let mut both = whole(found, findings);
+    both.plates = Some(Box::new(whole(on_plates, Vec::new())));
+    Ok(both)
+}
+
+/// Effects of the arm that are asked for of points on plates alone.
+fn refuse_of_tool(selection: &Selection) -> Result<(), IdentifyError> {
+    let kinds = selection.identify.iter().filter_map(|pick| pick.kind);
+    let mut ids = kinds.map(Kind::definition);
+    match ids.find(|definition| !definition.of_positioner()) {
+        Some(other) => Err(IdentifyError::Missing {
+            id: other.id,
+            need: "rows of the tool: points on a plate show nothing of the arm",
+        }),
+        None => Ok(()),
+    }
+}
+
+/// What was found, as the command reports it.
+fn of_found(
+    found: Found,
+    mut reported: Vec<Finding>,
+    (profile, name, sha256, tables): (&ProfileFile, String, Vec<String>, Option<Tables>),
+) -> Calibration {
     reported.extend(findings(&found.remarks, &name));
-    let device = found.device.filter(|_| !found.base_replaced);
+    let device = found
+        .device
+        .filter(|_| !found.base_replaced && !is_of_plates(&found));
     let u = &found.uncertainty;
-    Ok(Calibration {
+    Calibration {
         parameters: parameters(&found),
         observability: (&found.observability).into(),
         correlations: correlations(&found),
@@ -224,13 +289,19 @@ pub fn calibrate(
             after: full.into(),
         }),
         worst_row: worst_row(&found),
+        plates: None,
         profile_sha256: profile.sha256.clone(),
         measurements_sha256: sha256,
         output: None,
         tables,
         found,
         name,
-    })
+    }
+}
+
+/// Whether it is of points on plates.
+fn is_of_plates(found: &Found) -> bool {
+    found.problem.rows.iter().any(|row| row.plate.is_some())
 }
 
 fn worst_row(found: &Found) -> Option<WorstRow> {
@@ -250,12 +321,24 @@ impl Calibration {
         profile: &ProfileFile,
         date: Option<&str>,
     ) -> Result<String, Failure> {
-        let mut calibrated = self.found.profile();
+        let last = self.plates.as_deref().unwrap_or(self);
+        let mut calibrated = last.found.profile();
         if let Some(tables) = &self.tables {
             calibrated.tables.clone_from(tables);
         }
-        calibrated.quality = Some(self.quality());
-        calibrated.provenance = Some(self.provenance(date));
+        let old = &profile.profile;
+        let (mut quality, mut provenance) = if is_of_plates(&self.found) {
+            let known = |block: &Option<Value>| block.clone().unwrap_or_else(|| json!({}));
+            (known(&old.quality), known(&old.provenance))
+        } else {
+            (self.quality(), self.provenance(date))
+        };
+        if is_of_plates(&last.found) {
+            quality["plates"] = last.quality();
+            provenance["plates"] = last.provenance(date);
+        }
+        calibrated.quality = Some(quality);
+        calibrated.provenance = Some(provenance);
         profile.rewritten(&calibrated)
     }
 
@@ -290,7 +373,7 @@ impl Calibration {
             "strong_correlations": self.correlations,
         });
         let track = &self.found.problem.profile.external.track;
-        if !track.is_empty() {
+        if !track.is_empty() && !is_of_plates(&self.found) {
             let span = |k: usize| {
                 let values = rows.iter().filter_map(|row| row.stand.values.get(k));
                 values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| {

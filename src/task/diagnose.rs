@@ -11,8 +11,9 @@ use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
     self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::measurements::Measurements;
 use crate::model::effects::Effect as ModelEffect;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -351,6 +352,20 @@ impl Document for Diagnosis {
     const KIND: &'static str = "diagnosis/1";
 }
 
+/// Rows of points on plates are left to `calibrate`.
+fn not_of_the_arm(plates: &Measurements, name: &str) -> Option<Finding> {
+    let first = plates.rows.first()?;
+    let message = format!(
+        "{} rows, from {} on, are of points on plates and show nothing of the arm",
+        plates.rows.len(),
+        first.line
+    );
+    Some(
+        Finding::of_file("plate-rows-left-out", Severity::Note, name, message)
+            .hint("`poseshift calibrate` identifies the positioner with them"),
+    )
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -365,10 +380,18 @@ pub fn diagnose(
         all,
         name,
         sha256,
-        findings: read,
+        findings: mut read,
         ..
     } = measurements;
-    let d = search(&file.profile, &all, options, hear)
+    let (tool, plates) = all.split();
+    if tool.rows.is_empty() {
+        return Err(Failure::with_hint(
+            format!("{name}: every row is of a point on a plate, which shows nothing of the arm"),
+            "`poseshift calibrate` identifies the positioner with them",
+        ));
+    }
+    read.extend(not_of_the_arm(&plates, &name));
+    let d = search(&file.profile, &tool, options, hear)
         .map_err(|error| identify_failure(&name, &error))?;
     let label = |i: usize| d.found[i].effect.label();
     let labels = |which: &[usize]| which.iter().map(|i| label(*i)).collect::<Vec<_>>();

@@ -86,7 +86,7 @@ pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<P
         }
         let q = row.joints()?;
         let pose = if is_carried {
-            let stand = stand(profile, &table, &row)?;
+            let stand = stand(profile, &row)?;
             if is_real {
                 let model = profile.real_model_at(&tool, &conditions, &stand);
                 model.forward(&q, &conditions)

@@ -48,11 +48,23 @@ pub fn simulate(
 ) -> Result<Simulation, Failure> {
     let tool = file.tool(tool)?;
     let table = Table::read(joints)?;
-    table.require(&JOINTS)?;
+    if !table.has("on") {
+        table.require(&JOINTS)?;
+    }
     let directions = DIRECTION_COLUMNS.iter().all(|c| table.has(c));
     let forces = FORCE_COLUMNS.iter().all(|c| table.has(c));
     let command = |row: Row| {
         let mut conditions = Conditions::default();
+        let plate = plate(&file.profile, &row)?;
+        if plate.is_some() {
+            return Ok(Command {
+                q: [0.0; 6],
+                stand: stand(&file.profile, &row)?,
+                plate,
+                conditions: None,
+            });
+        }
+        table.require(&JOINTS)?;
         if directions {
             conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
         }
@@ -61,7 +73,8 @@ pub fn simulate(
         }
         Ok(Command {
             q: row.joints()?,
-            stand: stand(&file.profile, &table, &row)?,
+            stand: stand(&file.profile, &row)?,
+            plate,
             conditions: (directions || forces).then_some(conditions),
         })
     };
@@ -69,21 +82,47 @@ pub fn simulate(
     simulate_at(file, &commands, forces, &tool, session)
 }
 
+/// The positioner whose plate is measured in a row of a table; none where it is the tool.
+fn plate(profile: &Profile, row: &Row) -> Result<Option<usize>, Failure> {
+    let on = row.text("on").unwrap_or("tool");
+    let Some(name) = on.strip_prefix("plate:") else {
+        return match on {
+            "tool" => Ok(None),
+            _ => Err(row.failure(format!(
+                "`{on}` is neither tool nor plate:NAME of a positioner"
+            ))),
+        };
+    };
+    let all = &profile.external.positioners;
+    let known = all
+        .iter()
+        .position(|own| own.name.eq_ignore_ascii_case(name));
+    match known {
+        None => Err(row.failure(format!("the profile has no positioner `{name}`"))),
+        Some(plate) if all[plate].points.is_empty() => Err(row.failure(format!(
+            "positioner {name} of the profile has no `points` to measure"
+        ))),
+        Some(plate) => Ok(Some(plate)),
+    }
+}
+
 /// Where the external axes of a profile stand in a row of a table.
 ///
 /// # Errors
 /// A cell that is no number.
-pub(super) fn stand(profile: &Profile, table: &Table, row: &Row) -> Result<Stand, Failure> {
+pub(super) fn stand(profile: &Profile, row: &Row) -> Result<Stand, Failure> {
     let mut stand = Stand::default();
     for (k, axis) in profile.external.listed().enumerate() {
         let column = column_of(&axis, k);
-        stand.values.push(if table.has(column) {
+        // an axis that does not carry the point may be left empty
+        let there = row.text(column).is_some_and(|text| !text.is_empty());
+        stand.values.push(if there {
             from_files(&axis, row.number(column)?)
         } else {
             f64::NAN
         });
         let direction = EXTERNAL_DIRECTION_COLUMNS[k];
-        if table.has(direction) {
+        if row.text(direction).is_some_and(|text| !text.is_empty()) {
             stand.directions.resize(k, 0.0);
             stand.directions.push(row.number(direction)?);
         }
@@ -185,26 +224,36 @@ pub fn measurements_csv(
     let Some(first) = rows.first() else {
         return format!("{}\n", JOINTS.join(","));
     };
+    let of_tool = rows.iter().any(|row| row.plate.is_none());
+    let on_plates = rows.iter().any(|row| row.plate.is_some());
     let mut header: Vec<&str> = vec!["id"];
-    header.extend(JOINTS);
+    header.extend(JOINTS.iter().filter(|_| of_tool));
     match first.observed {
         Observed::Position(_) => header.extend(POSITION_COLUMNS),
         Observed::Pose(_) => header.extend(POSITION_COLUMNS.iter().chain(&QUATERNION_COLUMNS)),
         Observed::Distance { .. } => header.extend(DISTANCE_COLUMNS),
         Observed::Contact(_) => {}
     }
-    let stood = &first.stand;
-    let given = |k: &usize| stood.values.get(*k).is_some_and(|value| value.is_finite());
-    let given: Vec<usize> = (0..axes.len()).filter(given).collect();
+    let value = |row: &Measurement, k: usize| {
+        let value = row.stand.values.get(k).copied();
+        value.filter(|value| value.is_finite())
+    };
+    let given: Vec<usize> = (0..axes.len())
+        .filter(|k| rows.iter().any(|row| value(row, *k).is_some()))
+        .collect();
     header.extend(given.iter().map(|k| column_of(&axes[*k], *k)));
-    let came: Vec<usize> = (0..stood.directions.len().min(axes.len())).collect();
+    let came: Vec<usize> = (0..first.stand.directions.len().min(axes.len())).collect();
     let came = if directions { came } else { Vec::new() };
     header.extend(came.iter().map(|k| EXTERNAL_DIRECTION_COLUMNS[*k]));
+    let (directions, forces) = (directions && of_tool, forces && of_tool);
+    let named_tool = named_tool && of_tool;
     header.extend(DIRECTION_COLUMNS.iter().filter(|_| directions));
     header.extend(FORCE_COLUMNS.iter().filter(|_| forces));
+    let named = rows.iter().any(|row| row.point.is_some());
     let optional = [
         (named_tool, "tool"),
-        (first.point.is_some(), "point"),
+        (on_plates, "on"),
+        (named, "point"),
         (first.conditions.temperature_c.is_some(), "temperature_c"),
         (first.conditions.time_s.is_some(), "time_s"),
         (first.sigma_m.is_some(), "sigma_mm"),
@@ -220,7 +269,12 @@ pub fn measurements_csv(
     let text = |text: &str| text_cell(text).into_owned();
     for row in rows {
         let mut cells = vec![text_cell(&row.id).into_owned()];
-        cells.extend(row.q.map(|q| cell(q / DEG)));
+        // of a point on a plate the arm's joints say nothing
+        let of_arm = |number: f64| match row.plate {
+            None => cell(number),
+            Some(_) => String::new(),
+        };
+        cells.extend(row.q.iter().filter(|_| of_tool).map(|q| of_arm(q / DEG)));
         match row.observed {
             Observed::Position(p) => cells.extend(p.map(|x| cell(mm_from_m(x)))),
             Observed::Pose(pose) => {
@@ -235,20 +289,31 @@ pub fn measurements_csv(
             Observed::Contact(_) => {}
         }
         for k in &given {
-            let value = row.stand.values.get(*k).copied().unwrap_or(f64::NAN);
-            cells.push(cell(in_files(&axes[*k], value)));
+            let there = value(row, *k).map(|value| cell(in_files(&axes[*k], value)));
+            cells.push(there.unwrap_or_default());
         }
         for k in &came {
             cells.push(cell(row.stand.directions.get(*k).copied().unwrap_or(0.0)));
         }
         if directions {
-            cells.extend(row.conditions.direction.map(cell));
+            cells.extend(row.conditions.direction.map(of_arm));
         }
         if forces {
-            cells.extend(row.conditions.force_n.map(cell));
+            cells.extend(row.conditions.force_n.map(of_arm));
         }
-        cells.extend(row.tool.as_deref().filter(|_| named_tool).map(text));
-        cells.extend(row.point.as_deref().map(text));
+        if named_tool {
+            cells.push(row.tool.as_deref().map(text).unwrap_or_default());
+        }
+        if on_plates {
+            let plate = row
+                .plate
+                .as_ref()
+                .map(|name| text(&format!("plate:{name}")));
+            cells.push(plate.unwrap_or_else(|| "tool".into()));
+        }
+        if named {
+            cells.push(row.point.as_deref().map(text).unwrap_or_default());
+        }
         cells.extend(row.conditions.temperature_c.map(cell));
         cells.extend(row.conditions.time_s.map(cell));
         cells.extend(row.sigma_m.map(|s| cell(mm_from_m(s))));

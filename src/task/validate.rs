@@ -9,8 +9,8 @@ use crate::diagnose::as_calibrated::{self as standing, as_calibrated};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
-use crate::identify::measurements::{Measurement, Purpose};
-
+use crate::identify::measurements::{Measurement, Measurements, Purpose};
+use crate::identify::plates::validate_plates;
 use crate::identify::validation::{
     self, Folds as Leaving, Refit, Validation as Found, validate_telling,
 };
@@ -71,7 +71,7 @@ impl<T> Models<T> {
 /// Errors of the real model on a part of the rows.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Part {
-    /// What divides: `point`, `tool`, `set`, `region`, `track`.
+    /// What divides: `point`, `tool`, `set`, `region`, `track`, `positioner`.
     pub by: &'static str,
     /// Which part.
     pub name: String,
@@ -237,6 +237,9 @@ pub struct Validation {
     pub as_calibrated: Option<AsCalibrated>,
     /// The row with the largest error of the real model.
     pub worst_row: Option<WorstRow>,
+    /// The same of points on plates of positioners, in a file that has rows of the tool too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plates: Option<Box<Validation>>,
     /// SHA-256 of the profile.
     pub profile_sha256: String,
     /// SHA-256 of each file of measurements.
@@ -286,26 +289,72 @@ pub fn validate(
     if some && refit != Refit::Others {
         all = all.filtered(|_, row| is_for(row));
     }
-    let found = validate_telling(&file.profile, &all, refit, options.folds, hear)
+    let (tool, plates) = all.split();
+    let judged = (!plates.rows.is_empty())
+        .then(|| of_plates(file, &plates, refit, options.folds.is_some(), &name));
+    let on_plates = judged.transpose()?;
+    let judge = |found: Found, read: Vec<Finding>| {
+        let mut reported: Vec<Finding> = seen_before(file, &found, &sha256, &name)
+            .into_iter()
+            .collect();
+        reported.extend(read);
+        reported.extend(findings(&found.remarks, &name));
+        of_found(found, reported, (file, &name, &sha256))
+    };
+    if let (true, Some(found)) = (tool.rows.is_empty(), &on_plates) {
+        if options.as_calibrated {
+            return Err(Failure::with_hint(
+                format!("{name} has points on plates alone, which show nothing of the arm"),
+                "measure poses of the tool for --as-calibrated",
+            ));
+        }
+        return Ok(judge(found.clone(), read));
+    }
+    let found = validate_telling(&file.profile, &tool, refit, options.folds, hear)
         .map_err(|error| too_few(&name, &error))?;
-    let mut reported: Vec<Finding> = seen_before(file, &found, &sha256, &name)
-        .into_iter()
-        .collect();
-    reported.extend(read);
-    reported.extend(findings(&found.remarks, &name));
     let standing = if options.as_calibrated {
         Some(standing_of(file, &found)?)
     } else {
         None
     };
+    let mut both = judge(found, read);
     if let Some(standing) = standing.as_ref().filter(|standing| !standing.is_so()) {
         let [message, _] = standing.sentences();
-        reported.push(
+        both.findings.push(
             Finding::of_file("not-as-calibrated", Severity::Error, &name, message)
                 .hint("measure as for a calibration, and let `diagnose` say what has changed"),
         );
     }
-    Ok(Validation {
+    both.as_calibrated = standing;
+    both.plates = on_plates.map(|found| Box::new(judge(found, Vec::new())));
+    Ok(both)
+}
+
+/// Points on plates by the profile's positioners.
+fn of_plates(
+    file: &ProfileFile,
+    plates: &Measurements,
+    refit: Refit,
+    folds: bool,
+    name: &str,
+) -> Result<Found, Failure> {
+    if folds {
+        return Err(Failure::with_hint(
+            format!("{name}: --folds identifies the arm anew; the file has points on plates"),
+            "leave --folds out and mark rows `validate` in the column `set`, or take the rows on \
+             plates out",
+        ));
+    }
+    validate_plates(&file.profile, plates, refit).map_err(|error| identify_failure(name, &error))
+}
+
+/// What was found, as the command reports it.
+fn of_found(
+    found: Found,
+    findings: Vec<Finding>,
+    (file, name, sha256): (&ProfileFile, &str, &[String]),
+) -> Validation {
+    Validation {
         rows: found.problem.rows.len(),
         frames_refitted: found.refit != Refit::No,
         normalised_rms: found.normalised_rms,
@@ -333,19 +382,20 @@ pub fn validate(
             real: full.into(),
             frames_only: alone.into(),
         }),
-        as_calibrated: standing,
+        as_calibrated: None,
         worst_row: WorstRow::of(
             &found.problem.rows,
             &found.measurements,
             found.real.misses.iter().map(|miss| miss.length_m),
         ),
         profile_sha256: file.sha256.clone(),
-        measurements_sha256: sha256,
-        findings: reported,
+        plates: None,
+        measurements_sha256: sha256.to_vec(),
+        findings,
         found,
         profile: file.profile.clone(),
-        name,
-    })
+        name: name.to_owned(),
+    }
 }
 
 /// Whether the arm errs as it did when it was calibrated.

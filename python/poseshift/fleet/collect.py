@@ -149,8 +149,8 @@ def _rows(unit: Unit, result: dict[str, Any] | None, rows: dict[str, list[dict[s
         rows["findings"] += [own | {"job": unit.job} | finding for finding in document["findings"]]
     for effect in documents.get("diagnosis", {}).get("effects", []):
         errors = {f"{key}_mm": (effect[key] or {}).get("rms_mm") for key in ("before", "after")}
-        told = {"effect": _label(effect), "sentence": effect["sentence"], "p_value": effect["evidence"]["p_value"]}
-        rows["effects"].append(own | told | errors)
+        named = {"effect": _label(effect), "sentence": effect["sentence"], "p_value": effect["evidence"]["p_value"]}
+        rows["effects"].append(own | named | errors)
     if unit.job != "programs":
         return
     targets, moves = documents.get("compensation", {}).get("targets", []), documents.get("check", {}).get("moves", [])

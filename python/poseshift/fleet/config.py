@@ -53,7 +53,7 @@ def keep_off(robots: Iterable[Robot], store: Path) -> None:
     for robot in robots:
         for file in robot.inputs():
             if own.is_relative_to(file.resolve().parent) or file.resolve().is_relative_to(own):
-                raise FleetError(f"the store {store} lies among the files of robot {robot.id}", "choose a folder beside the backups")
+                raise FleetError(f"the store {store} lies among the files of robot {robot.id}", "choose a folder apart from the backups")
 
 
 def options_of(task: str) -> dict[str, Any]:

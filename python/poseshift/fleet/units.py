@@ -84,7 +84,7 @@ def _canonical(value: Any) -> str:
 
 
 def _meshes(folder: Path, name: str) -> Iterator[str]:
-    """The meshes that a profile or a cell names, beside it."""
+    """The meshes that a profile or a cell names, next to it."""
     data = (folder / name).read_bytes()
     if b"mesh" not in data:
         return

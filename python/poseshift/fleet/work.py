@@ -44,8 +44,8 @@ def answer(unit: Unit, store: Store) -> dict[str, Any]:
         profile = ps.Profile.from_yaml(data[unit.named("profile")[0]].decode(), unit.named("profile")[0])
         return _JOBS[unit.job](unit, store, profile, data, options)
     except (ps.PoseshiftError, ValueError, TypeError) as error:
-        told = error if isinstance(error, ps.PoseshiftError) else ps.PoseshiftError(str(error))
-        error_of = {"class": type(error).__name__, "message": told.message, "hint": told.hint, "file": told.file, "line": told.line}
+        reported = error if isinstance(error, ps.PoseshiftError) else ps.PoseshiftError(str(error))
+        error_of = {"class": type(error).__name__, "message": reported.message, "hint": reported.hint, "file": reported.file, "line": reported.line}
         return _result(unit, "error") | {"error": error_of}
     except BaseException as error:
         # a panic of the library is no Exception

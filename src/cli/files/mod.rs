@@ -366,13 +366,13 @@ impl Files {
     }
 }
 
-/// That a profile which is made is not written over another.
-pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
-    if path.exists() && !is_standard_output(path) {
-        return Err(Failure::new(format!(
-            "{} exists; profiles are not written over",
-            name_of(path)
-        )));
+/// That a profile which is made is not written over another, but by force.
+pub(super) fn refuse_existing(path: &Path, force: bool) -> Result<(), Failure> {
+    if force || !path.exists() || is_standard_output(path) {
+        return Ok(());
     }
-    Ok(())
+    Err(Failure::with_hint(
+        format!("{} exists; profiles are not written over", name_of(path)),
+        "another name, or --force",
+    ))
 }

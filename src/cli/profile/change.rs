@@ -4,6 +4,7 @@ use super::super::ending::{Ending, finish};
 use super::super::files::{Files, refuse_existing};
 use super::super::values::{numbers, pose};
 use super::super::{Answer, Output};
+use super::Over;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::model::external::{Coordinates, Follows, Positioner, RotaryAxis, TrackAxis};
@@ -32,6 +33,8 @@ struct Target {
     /// Change the profile itself
     #[arg(long)]
     in_place: bool,
+    #[command(flatten)]
+    over: Over,
 }
 
 impl Target {
@@ -48,7 +51,7 @@ impl Target {
         change: impl FnOnce(&ProfileFile, &str) -> Result<Changed, Failure>,
     ) -> Result<Answer, Failure> {
         if let Some(path) = &self.output {
-            refuse_existing(path)?;
+            refuse_existing(path, self.over.force)?;
         }
         let path = self.path();
         let found = change(&files.profile(&self.profile)?, &name_of(path))?;
@@ -223,6 +226,7 @@ impl AddPositioner {
             },
             axes: axes.collect::<Result<_, _>>()?,
             plate: plate.transpose()?.unwrap_or(Pose::identity()),
+            points: std::collections::BTreeMap::new(),
         })
     }
 
@@ -289,6 +293,8 @@ pub(super) struct ImportMoc {
     /// Where to write the profile
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    #[command(flatten)]
+    over: Over,
     /// The robot of the file (default: its only one)
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
@@ -305,6 +311,7 @@ impl ImportMoc {
             profile: self.profile.clone(),
             output: Some(self.output.clone()),
             in_place: false,
+            over: self.over,
         };
         target.change(files, output, |file, name| {
             import_moc(&moc, file, chosen, name)
@@ -323,6 +330,8 @@ pub(super) struct ImportKrc {
     /// Where to write the profile
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    #[command(flatten)]
+    over: Over,
 }
 
 /// Folders within folders of an archive.
@@ -377,6 +386,7 @@ impl ImportKrc {
             profile: self.profile.clone(),
             output: Some(self.output.clone()),
             in_place: false,
+            over: self.over,
         };
         target.change(files, output, |file, name| import_krc(&sources, file, name))
     }

@@ -3,7 +3,7 @@
 use super::super::ending::{Ending, finish, print_table};
 use super::super::files::Files;
 use super::super::{Answer, Output};
-use super::make;
+use super::{Over, make};
 use crate::printable::name_of;
 use crate::task::Failure;
 use crate::task::profile::{Form, export};
@@ -25,6 +25,8 @@ pub(super) struct Export {
     /// Where to write it (default: standard output)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    over: Over,
 }
 
 #[derive(Args)]
@@ -76,6 +78,6 @@ impl Export {
         };
         found.output = Some(name_of(path));
         let text = found.text.take().unwrap_or_default();
-        make(files, path, &text, &found, output)
+        make(files, (path, self.over), &text, &found, output)
     }
 }

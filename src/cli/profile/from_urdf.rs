@@ -3,7 +3,7 @@
 use super::super::ending::print_table;
 use super::super::files::Files;
 use super::super::{Answer, Output};
-use super::make;
+use super::{Over, make};
 use crate::printable::name_of;
 use crate::program::Source;
 use crate::task::profile::{Inputs, from_urdf, tool};
@@ -61,6 +61,8 @@ pub(super) struct FromUrdf {
     /// Where to write it (default: standard output)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    over: Over,
 }
 
 impl FromUrdf {
@@ -90,7 +92,7 @@ impl FromUrdf {
             return print_table(&found, output, Answer::Yes);
         };
         found.output = Some(name_of(path));
-        make(files, path, &found.profile, &found, output)
+        make(files, (path, self.over), &found.profile, &found, output)
     }
 
     /// The URDF, macros expanded where there is a program for it.

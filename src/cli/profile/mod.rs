@@ -25,6 +25,14 @@ pub(super) struct ProfileCommand {
     command: Sub,
 }
 
+/// Whether a file that exists is written over.
+#[derive(Args, Clone, Copy)]
+struct Over {
+    /// Write over a file that exists
+    #[arg(long)]
+    force: bool,
+}
+
 #[derive(Subcommand)]
 enum Sub {
     /// Start a profile from a built-in robot
@@ -35,6 +43,8 @@ enum Sub {
         /// Where to write it (default: standard output)
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        over: Over,
     },
     /// Print what a person wants to know of a profile
     Show {
@@ -74,6 +84,8 @@ struct ImportUr {
     /// Where to write the profile
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    #[command(flatten)]
+    over: Over,
 }
 
 impl ProfileCommand {
@@ -83,6 +95,7 @@ impl ProfileCommand {
             Sub::New {
                 robot,
                 output: file,
+                over,
             } => {
                 let mut found = new(robot)?;
                 let Some(path) = file else {
@@ -90,7 +103,7 @@ impl ProfileCommand {
                 };
                 let text = found.profile.take().unwrap_or_default();
                 found.output = Some(name_of(path));
-                make(&files, path, &text, &found, output)
+                make(&files, (path, *over), &text, &found, output)
             }
             Sub::Show { profile } => {
                 let found = show(&files.profile(profile)?.profile);
@@ -122,15 +135,15 @@ impl ProfileCommand {
     }
 }
 
-/// Writes a profile that is made, over none.
+/// Writes a profile that is made, over none but by force.
 fn make(
     files: &Files,
-    path: &Path,
+    (path, over): (&Path, Over),
     text: &str,
     found: &impl Report,
     output: Output,
 ) -> Result<Answer, Failure> {
-    refuse_existing(path)?;
+    refuse_existing(path, over.force)?;
     let ending = Ending {
         written: vec![(path.to_owned(), text.as_bytes().to_vec())],
         ..Ending::default()
@@ -140,11 +153,17 @@ fn make(
 
 impl ImportUr {
     fn run(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
-        refuse_existing(&self.output)?;
+        refuse_existing(&self.output, self.over.force)?;
         let profile = files.profile(&self.profile)?;
         let calibration = files.source(&self.calibration)?;
         let name = name_of(&self.output);
         let found = import_ur(&calibration, &profile, &name)?;
-        make(files, &self.output, &found.text, &found, output)
+        make(
+            files,
+            (&self.output, self.over),
+            &found.text,
+            &found,
+            output,
+        )
     }
 }

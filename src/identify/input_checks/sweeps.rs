@@ -148,6 +148,7 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
         point_in_tool_m: None,
         conditions: Conditions::default(),
         stand: Stand::default(),
+        plate: None,
         sigma_m: None,
         sigma_rad: None,
         purpose: None,

@@ -45,6 +45,12 @@ impl Definition {
         self.site.contains(&SiteKey::Axis)
     }
 
+    /// Whether it belongs to an axis of a positioner.
+    #[must_use]
+    pub fn of_positioner(&self) -> bool {
+        self.of_external_axis() && self.id.starts_with("positioner_")
+    }
+
     /// Whether torques or moments enter.
     #[must_use]
     pub fn needs_masses(&self) -> bool {

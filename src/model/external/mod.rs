@@ -19,6 +19,7 @@
 
 use super::effects::{AxisError, AxisState, Effect};
 use crate::geometry::{Pose, Rotation, Scalar, Vector, add, cross, norm, scale};
+use std::collections::BTreeMap;
 
 /// What stands around an arm and moves: see the head of this file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,6 +74,8 @@ pub struct Positioner {
     pub axes: Vec<RotaryAxis>,
     /// The plate on the last axis.
     pub plate: Pose,
+    /// Measured points by name, in the plate's frame, metres.
+    pub points: BTreeMap<String, Vector>,
 }
 
 /// Which work frames a positioner carries.

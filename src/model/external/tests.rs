@@ -38,6 +38,7 @@ fn axes() -> ExternalAxes {
                 rotary("E4", [0.1, 0.0, 0.2, -1.5, 0.2, 0.0], -1.0),
             ],
             plate: Pose::from_xyz_rxryrz([0.0, 0.1, 0.2, 0.1, 0.2, 0.3]),
+            points: BTreeMap::new(),
         }],
         other: Vec::new(),
     }

@@ -13,6 +13,7 @@ use crate::model::external::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::{Location, Spanned};
+use std::collections::BTreeMap;
 
 /// Most linear axes of a track, and rotary axes of a positioner.
 const MOST_TRACK: usize = 3;
@@ -100,6 +101,9 @@ pub struct PositionerFile {
     #[serde(default)]
     #[schemars(with = "Option<PoseFile>")]
     pub plate: Option<Spanned<PoseFile>>,
+    /// Measured points in the plate's frame by name.
+    #[serde(default)]
+    pub points: BTreeMap<String, [Number; 3]>,
 }
 
 /// Which work frames a positioner carries.
@@ -219,6 +223,7 @@ impl ExternalFile {
                 },
                 axes,
                 plate: file.plate.as_ref().map_or(Ok(Pose::identity()), pose)?,
+                points: points(&file.points, at)?,
             });
         }
         names.extend(
@@ -246,6 +251,19 @@ impl ExternalFile {
         }
         Ok(axes)
     }
+}
+
+fn points(
+    file: &BTreeMap<String, [Number; 3]>,
+    at: Location,
+) -> Result<BTreeMap<String, Vector>, ProfileError> {
+    let each = file.iter().map(|(name, point)| {
+        for number in point {
+            within("points", number.0, MOST_MM, at)?;
+        }
+        Ok((name.clone(), point.map(|n| m_from_mm(n.0))))
+    });
+    each.collect()
 }
 
 fn linear(file: TrackAxisFile, at: Location) -> Result<TrackAxis, ProfileError> {
@@ -409,6 +427,13 @@ pub(crate) fn section(axes: &ExternalAxes) -> String {
             out += "}\n";
         }
         out += &format!("      plate: {}\n", flow_pose(&positioner.plate));
+        if !positioner.points.is_empty() {
+            out += "      points:\n";
+        }
+        for (name, point) in &positioner.points {
+            let numbers = numbers(point.map(mm_from_m));
+            out += &format!("        {}: [{numbers}]\n", quoted(name));
+        }
     }
     if !axes.other.is_empty() {
         let names: Vec<String> = axes.other.iter().map(|name| quoted(name)).collect();

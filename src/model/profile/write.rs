@@ -224,6 +224,9 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
                 had_measurement = true;
                 out += &measurement(profile);
             }
+            "external_axes" if original.external != profile.external => {
+                out += &super::external::section(&profile.external);
+            }
             "calibration" => {
                 had_calibration = true;
                 out += &calibration(profile);
@@ -282,6 +285,13 @@ pub fn rewritten(text: &str, profile: &Profile) -> Result<String, WriteError> {
     }
     if back.tables != profile.tables {
         return differs("measurement");
+    }
+    let on_plates = |profile: &Profile| -> usize {
+        let positioners = profile.external.positioners.iter();
+        positioners.map(|positioner| positioner.points.len()).sum()
+    };
+    if on_plates(&back) != on_plates(profile) {
+        return differs("external_axes");
     }
     if back.points.len() != profile.points.len() {
         return differs("points");

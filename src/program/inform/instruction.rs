@@ -49,6 +49,8 @@ pub(super) enum Kind {
     Circular,
     /// `SMOVL`: the path is relative to a station or another robot.
     Coordinated,
+    /// `SYMOVL`: the path is relative to a conveyor.
+    Conveyor,
     /// `IMOV`
     Incremental,
     /// `... SRCH RIN#(1)=ON`
@@ -67,6 +69,7 @@ impl Kind {
             b"MOVC" => Self::Circular,
             b"IMOV" => Self::Incremental,
             [b'S', b'M', b'O', b'V', ..] => Self::Coordinated,
+            [b'S', b'Y', b'M', b'O', b'V', ..] => Self::Conveyor,
             _ => Self::Other,
         }
     }
@@ -179,7 +182,8 @@ mod tests {
             ("MOVC", Kind::Circular),
             ("SMOVL", Kind::Coordinated),
             ("IMOV", Kind::Incremental),
-            ("SYMOVL", Kind::Other),
+            ("SYMOVL", Kind::Conveyor),
+            ("EIMOVL", Kind::Other),
         ] {
             assert!(is_move(verb.as_bytes()));
             assert_eq!(Kind::of(verb.as_bytes()), kind, "{verb}");

@@ -363,6 +363,7 @@ fn cause_of(kind: Kind) -> Option<Cause> {
     match kind {
         Kind::Joint | Kind::Linear | Kind::Circular | Kind::Incremental => None,
         Kind::Coordinated => Some(Cause::Coordinated),
+        Kind::Conveyor => Some(Cause::Conveyor),
         Kind::Search => Some(Cause::Search),
         Kind::SecondRobot => Some(Cause::SecondRobot),
         Kind::Other => Some(Cause::OtherMove),

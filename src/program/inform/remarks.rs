@@ -11,6 +11,7 @@ pub(super) enum Cause {
     FrameCopied,
     Shifted,
     Coordinated,
+    Conveyor,
     Relative,
     Incremental,
     Search,
@@ -54,6 +55,11 @@ impl Cause {
                 "the path is relative to a station or another robot (SMOV)",
                 "describe the station under `external_axes` of the profile, with `follows: \
                  always`; moves relative to another robot are not compensated",
+            ),
+            Self::Conveyor => (
+                "moving-frame",
+                "the path is relative to a conveyor (SYMOV)",
+                "moves on a conveyor are not compensated",
             ),
             Self::Relative => (
                 "moving-frame",

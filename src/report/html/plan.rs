@@ -22,7 +22,7 @@ fn named(list: &[NotDetermined]) -> String {
 #[must_use]
 pub(crate) fn plan_page(found: &Plan) -> Page {
     let (o, (profile, tool)) = (&found.observability, &found.drawn);
-    let (count, dropped) = (found.joints_deg.len(), found.not_determined.len());
+    let (count, dropped) = (found.count(), found.not_determined.len());
     let all = found.expected_sigma.len() + dropped;
     let (level, answer) = if dropped == 0 {
         (
@@ -52,7 +52,16 @@ pub(crate) fn plan_page(found: &Plan) -> Page {
         format!("{:.1} %", 100.0 * found.admitted),
     );
     let mut columns = vec![Column::counts("configuration", 1..=count)];
-    for joint in 0..6 {
+    let of_arm = found.plate.is_none();
+    for (axis, name) in found
+        .plate
+        .iter()
+        .flat_map(|plate| plate.columns.iter().enumerate())
+    {
+        let angles = found.plate.iter().flat_map(|plate| &plate.angles_deg);
+        columns.push(Column::numbers(name, "deg", angles.map(|e| fixed(e[axis], 3))).to(3));
+    }
+    for joint in (0..6).filter(|_| of_arm) {
         columns.push(
             Column::numbers(
                 &format!("joint {}", joint + 1),
@@ -79,8 +88,9 @@ pub(crate) fn plan_page(found: &Plan) -> Page {
         title: "Configurations".into(),
         ..Points::default()
     };
-    for (q, place) in found.joints_deg.iter().zip(&found.places_mm) {
-        points.push(Some(place.map(m_from_mm)), Some(q.map(|q| q * DEG)));
+    for (n, place) in found.places_mm.iter().enumerate() {
+        let q = found.joints_deg.get(n).map(|q| q.map(|q| q * DEG));
+        points.push(Some(place.map(m_from_mm)), q);
     }
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "In the cell".into(),
@@ -98,7 +108,7 @@ pub(crate) fn plan_page(found: &Plan) -> Page {
         ellipsoids: Vec::new(),
         along: Along::No(false),
     })));
-    for (a, b) in [(1, 2), (3, 4), (5, 6)] {
+    for (a, b) in [(1, 2), (3, 4), (5, 6)].into_iter().filter(|_| of_arm) {
         let axis = |joint: usize| Axis::new(&format!("joint {joint}"), "deg");
         let mut chart = Chart::new(
             &format!("Joints {a} and {b}"),

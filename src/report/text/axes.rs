@@ -2,6 +2,7 @@
 
 use crate::report::Style;
 use crate::report::layout::{aligned, row};
+use crate::task::axes::positioner::PositionerAxis;
 use crate::task::axes::{Axes, Joint};
 use crate::task::parts::{Pose, Sigma};
 
@@ -27,23 +28,28 @@ pub(super) fn text(found: &Axes, style: Style) -> String {
         ]),
     ];
     rows.extend(found.joints.iter().map(joint));
+    rows.extend(found.positioner_axes.iter().map(turned));
     let mut text = aligned(&rows, style.width);
     text += &format!("{}\n", world(found));
+    for axis in &found.positioner_axes {
+        text += &positioner(axis);
+    }
     for frame in frames(found) {
         let Some(pose) = frame.pose else {
+            if found.joints.is_empty() {
+                continue;
+            }
             text += &format!(
                 "{}: needs the sweeps of joints {}\n",
                 frame.key, frame.joints
             );
             continue;
         };
-        let [x, y, z] = pose.xyz_mm();
-        // a zero has no sign
-        let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e5).round() / 1e5 + 0.0);
         text += &format!(
-            "{}\n  {{x_mm:\u{a0}{x:.4}, y_mm:\u{a0}{y:.4}, z_mm:\u{a0}{z:.4}, \
-             rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}\n  sigma {}\n",
-            frame.key, frame.sigma
+            "{}\n  {}\n  sigma {}\n",
+            frame.key,
+            entry(pose),
+            frame.sigma
         );
         text += &match &frame.sag {
             Some((typical, sag)) => {
@@ -68,13 +74,69 @@ pub(super) fn text(found: &Axes, style: Style) -> String {
     text
 }
 
+/// A frame as profiles have it.
+fn entry(pose: &Pose) -> String {
+    let [x, y, z] = pose.xyz_mm();
+    // a zero has no sign
+    let [rx, ry, rz] = pose.rxryrz_deg().map(|r| (r * 1e5).round() / 1e5 + 0.0);
+    format!(
+        "{{x_mm:\u{a0}{x:.4}, y_mm:\u{a0}{y:.4}, z_mm:\u{a0}{z:.4}, \
+         rx_deg:\u{a0}{rx:.5}, ry_deg:\u{a0}{ry:.5}, rz_deg:\u{a0}{rz:.5}}}"
+    )
+}
+
+/// An axis of a positioner: where it is, and how far from where the profile has it.
+fn positioner(of: &PositionerAxis) -> String {
+    let [x, y, z] = of.direction;
+    let [a, b, c] = of.centre_mm;
+    let sigma = of.at_sigma.as_ref().map_or_else(
+        || NO_NOISE.to_owned(),
+        |sigma| {
+            let ([x, y, z], [rx, ry, _]) = (sigma.xyz_mm(), sigma.rxryrz_deg());
+            format!("{x:.4} {y:.4} {z:.4} mm; about x and y {rx:.5} {ry:.5} deg")
+        },
+    );
+    format!(
+        "axis {} of {} (e{})\n  along ({x:.6} {y:.6} {z:.6}) through ({a:.4}, {b:.4}, {c:.4}) \
+         mm\n  \
+         at: {}\n  sigma {sigma}\n  {:.4} mm and {:.4} deg from where the profile has it\n",
+        of.axis,
+        of.positioner,
+        of.external_axis,
+        entry(&of.at),
+        of.moved_mm,
+        of.turned_deg
+    )
+}
+
 /// What the world is in which frames are given.
-pub(in crate::report) const fn world(found: &Axes) -> &'static str {
-    if found.device_known {
+pub(in crate::report) fn world(found: &Axes) -> &'static str {
+    if !found.device_known && found.base.is_some() && !found.positioner_axes.is_empty() {
+        "the world is the measuring device's frame; axes of positioners are in the controller's, \
+         by the base"
+    } else if found.device_known {
         "the world is the controller's (the profile's calibration.world_from_device)"
     } else {
         "the world is the measuring device's frame"
     }
+}
+
+/// The row of an axis of a positioner; of its backlash nothing is said.
+fn turned(of: &PositionerAxis) -> Vec<String> {
+    let mdeg = |angle: f64| format!("{:.2}", 1e3 * angle);
+    let mm = |length: f64| format!("{length:.4}");
+    vec![
+        format!("e{}", of.external_axis),
+        format!("{:.2}", of.radius_mm),
+        mdeg(of.tangential_deg),
+        mdeg(of.max_tangential_deg),
+        mm(of.radial_mm),
+        mm(of.max_radial_mm),
+        mm(of.axial_mm),
+        mm(of.max_axial_mm),
+        "-".into(),
+        "-".into(),
+    ]
 }
 
 fn joint(of: &Joint) -> Vec<String> {

@@ -183,5 +183,9 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
         }
         out += &aligned(&rows, style.width);
     }
+    if let Some(plates) = &found.plates {
+        out += "\nPoints on plates\n";
+        out += &text(plates, style);
+    }
     out
 }

@@ -9,7 +9,7 @@ pub(super) fn text(found: &Plan, style: Style) -> String {
     let o = &found.observability;
     let mut out = format!(
         "{} configurations; {:.1} % of random ones meet the constraints\n",
-        found.joints_deg.len(),
+        found.count(),
         100.0 * found.admitted
     );
     out += &format!(

@@ -12,6 +12,15 @@ fn of<'a, T>(models: Option<&'a Models<T>>, name: &str) -> Option<&'a T> {
 }
 
 pub(super) fn text(found: &Validation, style: Style) -> String {
+    let mut out = own(found, style);
+    if let Some(plates) = &found.plates {
+        out += "\nPoints on plates\n";
+        out += &own(plates, style);
+    }
+    out
+}
+
+fn own(found: &Validation, style: Style) -> String {
     let mut out = format!("{} rows\n", found.rows);
     if let Some(note) = found.found.refit.note() {
         out += &format!("{note}\n");

@@ -10,16 +10,18 @@ use super::meshes::Reader;
 use super::parts::Observability;
 use super::profile_file::ProfileFile;
 use super::simulate::stand;
-use super::table::{JOINTS, Table, cell};
+use super::table::{JOINTS, Table, cell, text_cell};
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::identify::external::track_columns;
+use crate::identify::external::{column_of, track_columns};
 use crate::identify::measurements::{DIRECTION_COLUMNS, EXTERNAL_MM_COLUMNS};
 use crate::identify::parameters::Selection;
 use crate::identify::plan::{Plan as Found, Request, plan_telling};
+use crate::identify::plates::plan_plates;
 use crate::model::Conditions;
 use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
+use crate::nearest;
 use crate::program::{Settings, Source};
 use approach::Stop;
 use driving::Driving;
@@ -54,6 +56,17 @@ pub struct NotDetermined {
     pub confounded_with: Vec<String>,
 }
 
+/// Angles at which a plate is measured.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PlateAngles {
+    /// The positioner.
+    pub positioner: String,
+    /// The columns of its axes in measurements, `e1_deg`, ….
+    pub columns: Vec<&'static str>,
+    /// The angles at each configuration.
+    pub angles_deg: Vec<Vec<f64>>,
+}
+
 /// Configurations to measure.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Plan {
@@ -69,7 +82,12 @@ pub struct Plan {
     /// Where the axes of a track stand at each, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub track_mm: Vec<Vec<f64>>,
-    /// Where the tool is at each, in the world, by the controller's model.
+    /// The positioner whose plate is measured, and the angles of its axes at each; then there are no
+    /// joint angles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateAngles>,
+    /// Where the tool is at each, in the world, by the controller's model; of a plate, its first
+    /// reflector.
     pub places_mm: Vec<[f64; 3]>,
     /// O1 of each start.
     pub starts_o1: Vec<f64>,
@@ -118,7 +136,7 @@ pub fn given(source: &Source, profile: &Profile) -> Result<(Vec<[f64; 6]>, Vec<S
         return Ok((joints, Vec::new()));
     }
     table.require(&columns)?;
-    let stands = table.rows().map(|row| stand(profile, &table, &row));
+    let stands = table.rows().map(|row| stand(profile, &row));
     Ok((joints, stands.collect::<Result<_, _>>()?))
 }
 
@@ -192,28 +210,118 @@ pub fn plan(
         let each = found
             .stands
             .iter()
-            .map(|stand| stand.values.iter().map(|e| mm_from_m(*e)));
+            .map(|stand| stand.values.iter().map(|e| decimals(mm_from_m(*e))));
         track_mm.extend(each.map(Iterator::collect));
     }
-    Ok(Plan {
+    let mut plan = of_found(&found, request, (profile, tool, &file.name));
+    plan.joints_deg = found.joints.iter().map(|q| q.map(|q| q / DEG)).collect();
+    plan.places_mm = found.joints.iter().zip(&found.stands).map(place).collect();
+    plan.track_mm = track_mm;
+    plan.poses_between = poses_between;
+    plan.findings = findings;
+    plan.program = program;
+    plan.approached = approach_rad > 0.0;
+    Ok(plan)
+}
+
+/// Chooses angles of a positioner at which reflectors on its plate are measured: roughly there on
+/// it, metres, or the profile's points; `hear` as [`plan`].
+///
+/// # Errors
+/// No such positioner, no reflectors, fewer numbers than parameters.
+pub fn plan_plate(
+    file: &ProfileFile,
+    (name, reflectors): (&str, &[[f64; 3]]),
+    selection: &Selection,
+    request: &Request,
+    hear: &mut dyn FnMut(usize, usize),
+) -> Result<Plan, Failure> {
+    refuse_nonsense(request)?;
+    let axes = &file.profile.external;
+    let all = &axes.positioners;
+    let known = all
+        .iter()
+        .position(|own| own.name.eq_ignore_ascii_case(name));
+    let Some(positioner) = known else {
+        let names = all.iter().map(|own| own.name.as_str());
+        return Err(Failure::with_hint(
+            format!("--plate {name}: the profile has no such positioner"),
+            nearest::hint(name, "positioners of the profile", names),
+        ));
+    };
+    let mut heard = |done, of| hear(done, of);
+    let found = plan_plates(
+        &file.profile,
+        positioner,
+        reflectors,
+        selection,
+        request,
+        &mut heard,
+    )
+    .map_err(|error| identify_failure(&file.name, &error))?;
+    let own = &all[positioner];
+    let range = axes.first_of(positioner)..axes.first_of(positioner) + own.axes.len();
+    let listed: Vec<_> = axes.listed().collect();
+    let first = reflectors.first().or_else(|| own.points.values().next());
+    let first = first.copied().unwrap_or_default();
+    let mut plan = of_found(
+        &found,
+        request,
+        (&file.profile, Mounted::flange(), &file.name),
+    );
+    plan.places_mm = (found.stands.iter())
+        .map(|stand| {
+            axes.plate(positioner, stand.at(), &[])
+                .transform(first)
+                .map(mm_from_m)
+        })
+        .collect();
+    plan.plate = Some(PlateAngles {
+        positioner: own.name.clone(),
+        columns: range.clone().map(|k| column_of(&listed[k], k)).collect(),
+        angles_deg: (found.stands.iter())
+            .map(|stand| {
+                stand.values[range.clone()]
+                    .iter()
+                    .map(|e| decimals(e / DEG))
+                    .collect()
+            })
+            .collect(),
+    });
+    Ok(plan)
+}
+
+/// What is the same of a plan for an arm and of one for a plate.
+fn of_found(
+    found: &Found,
+    request: &Request,
+    (profile, tool, name): (&Profile, Mounted, &str),
+) -> Plan {
+    Plan {
         observability: (&found.observability).into(),
-        expected_sigma: expected(&found),
-        not_determined: not_determined(&found),
-        joints_deg: found.joints.iter().map(|q| q.map(|q| q / DEG)).collect(),
-        places_mm: found.joints.iter().zip(&found.stands).map(place).collect(),
-        track_mm,
-        starts_o1: found.starts_o1,
+        expected_sigma: expected(found),
+        not_determined: not_determined(found),
+        joints_deg: Vec::new(),
+        places_mm: Vec::new(),
+        track_mm: Vec::new(),
+        plate: None,
+        starts_o1: found.starts_o1.clone(),
         exchanges: found.exchanges,
         admitted: found.admitted,
         device_sigma_mm: mm_from_m(request.sigma_m),
         output: Vec::new(),
-        poses_between,
-        findings,
-        program,
-        approached: approach_rad > 0.0,
+        poses_between: 0,
+        findings: Vec::new(),
+        program: None,
+        approached: false,
         drawn: (profile.clone(), tool),
-        name: file.name.clone(),
-    })
+        name: name.to_owned(),
+    }
+}
+
+/// A place of an axis without the rounding of its unit.
+fn decimals(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
 }
 
 /// Numbers within what they can be.
@@ -291,10 +399,25 @@ fn not_determined(found: &Found) -> Vec<NotDetermined> {
 }
 
 impl Plan {
+    /// How many configurations.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.places_mm.len()
+    }
+
     /// Joint angles and, where each configuration is approached from below, the directions that the
     /// joints arrive in.
     #[must_use]
     pub fn csv(&self) -> String {
+        if let Some(plate) = &self.plate {
+            let mut table = format!("id,{},on\n", plate.columns.join(","));
+            for (angles, n) in plate.angles_deg.iter().zip(1..) {
+                let angles: Vec<String> = angles.iter().map(|e| cell(*e)).collect();
+                let on = text_cell(&format!("plate:{}", plate.positioner)).into_owned();
+                table += &format!("{n},{},{on}\n", angles.join(","));
+            }
+            return table;
+        }
         let mut header = vec!["id"];
         header.extend(JOINTS);
         let axes = self.track_mm.first().map_or(0, Vec::len);

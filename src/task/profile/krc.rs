@@ -343,6 +343,7 @@ fn positioner(
         follows: Follows::Frame,
         axes: rotary,
         plate,
+        points: BTreeMap::new(),
     });
     Ok(())
 }

@@ -338,6 +338,7 @@ pub(super) fn read(
                 pulses_per_deg: None,
             }],
             plate: Pose::identity(),
+            points: BTreeMap::new(),
         });
     }
     Ok(Read {

@@ -274,10 +274,10 @@ fn ten_poses_say_whether_an_arm_is_as_calibrated() {
     assert_eq!(status, Some(1));
     assert_eq!(report["as_calibrated"]["answer"], "measure again");
     assert!(ids(&report).contains(&"not-as-calibrated"), "{report}");
-    let (status, _, told) = validate(at, "TRUTH", " --as-calibrated");
+    let (status, _, reported) = validate(at, "TRUTH", " --as-calibrated");
     assert!(
-        status == Some(2) && told.contains("does not say how well"),
-        "{told}"
+        status == Some(2) && reported.contains("does not say how well"),
+        "{reported}"
     );
 }
 
@@ -298,11 +298,11 @@ fn runs_say_since_when_an_arm_errs_otherwise() {
         assert_eq!(run(at, &simulate).0, Some(0));
         files += &format!(" --measurements n{night}.csv");
     }
-    let (status, report, told) = run(
+    let (status, report, reported) = run(
         at,
         &format!("diagnose --quick --runs --profile TRUTH{files}"),
     );
-    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(status, Some(0), "{reported}");
     let changes = report["drift"]["changes"].as_array().expect("changes");
     assert_eq!(changes.len(), 1, "{report}");
     assert_eq!(
@@ -314,9 +314,9 @@ fn runs_say_since_when_an_arm_errs_otherwise() {
         (Some(120), &"joint_harmonic".into())
     );
     let few = "diagnose --runs --profile TRUTH --measurements n0.csv --measurements n1.csv";
-    let (status, _, told) = run(at, few);
+    let (status, _, reported) = run(at, few);
     assert!(
-        status == Some(2) && told.contains("too few for a change"),
-        "{told}"
+        status == Some(2) && reported.contains("too few for a change"),
+        "{reported}"
     );
 }

@@ -202,7 +202,7 @@ fn table_cell(axes: usize) -> Cell {
 // ---- the languages
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Said {
+pub(super) enum Said {
     Rapid,
     Krl,
     Fanuc,
@@ -218,7 +218,7 @@ struct Line {
 }
 
 /// Rz(a) · Ry(b) · Rx(c), or a quaternion.
-fn numbers_of(said: Said, pose: &M4) -> Vec<f64> {
+pub(super) fn numbers_of(said: Said, pose: &M4) -> Vec<f64> {
     let mm = |i: usize| pose[i][3] * 1e3;
     let deg = |rad: f64| rad.to_degrees();
     let b = (-pose[2][0]).atan2(pose[0][0].hypot(pose[1][0]));
@@ -473,7 +473,7 @@ fn missing(is: &M4, wanted: &M4) -> Vector6<f64> {
 
 /// The joints with which the controller's arm brings its tool to a pose: Newton with central
 /// differences.
-fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
+pub(super) fn joints(robot: &Robot, wanted: &M4, near: &[f64; 6]) -> [f64; 6] {
     let of = |q: &[f64; 6]| missing(&tool_pose(robot, &[], q, &Moment::default()), wanted);
     let mut q = *near;
     for _ in 0..12 {
@@ -508,7 +508,7 @@ fn coordinated_fanuc(text: &str) -> String {
             .split("P[")
             .nth(1)
             .and_then(|rest| rest.split(']').next());
-        let is_pose = |number: &str| number.parse().is_ok_and(|n: u32| n % 2 == 0);
+        let is_pose = |number: &str| number.parse().is_ok_and(|n: u32| n.is_multiple_of(2));
         match point.filter(|number| line.contains(":J P[") && is_pose(number)) {
             Some(_) => line
                 .replace(":J P[", ":L P[")

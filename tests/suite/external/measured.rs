@@ -45,7 +45,7 @@ fn bent() -> Rail {
 }
 
 /// A profile with the tool of all programs here.
-fn with_tool(external: &str, effects: &[&str]) -> String {
+pub(super) fn with_tool(external: &str, effects: &[&str]) -> String {
     let text = profile_text(external, effects);
     assert!(text.contains("tools: {}"));
     let t = tool();
@@ -90,13 +90,13 @@ fn measured(rail: &Rail, count: usize, noise_mm: f64, seed: u64) -> String {
     text
 }
 
-fn put(folder: &Path, name: &str, text: &str) -> PathBuf {
+pub(super) fn put(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, text).expect("a writable folder");
     path
 }
 
-fn json(arguments: &[&str], files: &[(&str, &Path)]) -> Value {
+pub(super) fn json(arguments: &[&str], files: &[(&str, &Path)]) -> Value {
     let mut command = poseshift();
     command.args(arguments);
     for (option, path) in files {

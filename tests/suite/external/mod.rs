@@ -1,8 +1,11 @@
 //! Tracks and positioners: where the real tool lands on the real part, by a reference that shares
 //! no code with the product.
 
+mod checked;
 mod landing;
 mod measured;
+mod others;
+mod plates;
 mod refused;
 mod switched;
 

@@ -84,6 +84,7 @@ pub(super) fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> 
     let one = |_| Command {
         q: random_joints(random, profile),
         stand: Stand::default(),
+        plate: None,
         conditions: None,
     };
     (0..count).map(one).collect()

@@ -193,7 +193,7 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
     let torque = |index: usize| {
         let models = problem.models(estimate, &[]);
         let of = |row: &crate::identify::problem::Row| {
-            models[row.rig].model().torques(&row.q, &row.conditions)[index]
+            models[row.rig].torques(&row.q, &row.conditions)[index]
         };
         Variable {
             label: format!("torque of joint {}", index + 1),

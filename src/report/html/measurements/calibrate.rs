@@ -93,14 +93,26 @@ pub(crate) fn calibrate_page(of: &Calibration) -> Page {
     };
     show_rows(&mut page, &rows, &profile);
     show_parameters(&mut page, of);
+    if let Some(plates) = &of.plates {
+        let (frames, after) = (main(&plates.frames_only), main(&plates.after));
+        page.fact(
+            "points on plates, mean error, points alone \u{2192} everything",
+            format!("{frames:.4} \u{2192} {after:.4} mm"),
+        );
+        show_values(
+            &mut page,
+            ("plates", "Parameters of positioners"),
+            &plates.parameters,
+        );
+    }
     show_correlations(&mut page, of);
     show_outliers(&mut page, of);
     page.findings(&of.findings);
     page
 }
 
-fn show_parameters(page: &mut Page, of: &Calibration) {
-    let list = &of.parameters;
+/// The table of parameters, by its name and title.
+fn show_values(page: &mut Page, (name, title): (&str, &str), list: &[Parameter]) {
     let key = |p: &Parameter| p.key.clone();
     let value = |p: &Parameter| significant(p.value, 6);
     let table = Table {
@@ -122,12 +134,19 @@ fn show_parameters(page: &mut Page, of: &Calibration) {
         ],
     };
     page.show(
-        "parameters",
-        "Parameters",
+        name,
+        title,
         "What these data do not determine stays as it was; \"like\" names what it cannot be \
          separated from.",
         table,
     );
+}
+
+fn show_parameters(page: &mut Page, of: &Calibration) {
+    let list = &of.parameters;
+    show_values(page, ("parameters", "Parameters"), list);
+    let key = |p: &Parameter| p.key.clone();
+    let value = |p: &Parameter| significant(p.value, 6);
     let determined: Vec<&Parameter> = list.iter().filter(|p| p.identifiable).collect();
     let mut units: Vec<&'static str> = Vec::new();
     for parameter in &determined {

@@ -55,6 +55,14 @@ pub(crate) fn validate_page(of: &Validation) -> Page {
     if let Some(rms) = of.normalised_rms {
         page.fact("residuals in standard deviations", format!("{rms:.2}"));
     }
+    if let Some(plates) = &of.plates {
+        let [before, after] =
+            [&plates.found.controller, &plates.found.real].map(|m| mean(&m.quality));
+        page.fact(
+            "points on plates, mean error, controller's model \u{2192} real model",
+            format!("{before:.4} \u{2192} {after:.4} mm"),
+        );
+    }
     page.summary = Some(summary(&[
         ("controller", &controller),
         ("frames only", &quality(&found.frames_only.quality)),

@@ -1,5 +1,8 @@
-//! `axes`: base and tool from sweeps of single joints.
+//! `axes`: base and tool from sweeps of single joints, and the axes of positioners.
 
+pub mod positioner;
+
+use self::positioner::{PositionerAxis, positioner_axes, put, swept, values};
 use super::Document;
 use super::failure::Failure;
 use super::measurements::identify_failure;
@@ -14,6 +17,7 @@ use crate::identify::measurements::{DIRECTION_COLUMNS, POSITION_COLUMNS, QUATERN
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
 use crate::register::axes::outliers::{Outlier, without_outliers};
+use crate::register::axes::positioner::{Row as OnPlateRow, Sweep as OnPlate};
 use crate::register::axes::sag::{Arm, Frame, Sag as ArmSag, sag};
 use crate::register::axes::{AxesError, Axis, Placed, Row, Sweep, axis, base, tool};
 use crate::register::frame_file::Sigma as Six;
@@ -101,6 +105,9 @@ pub struct Axes {
     pub device_known: bool,
     /// The joints that were swept.
     pub joints: Vec<Joint>,
+    /// The axes of positioners that were swept.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub positioner_axes: Vec<PositionerAxis>,
     /// What a person should look at.
     pub findings: Vec<Finding>,
     /// How the file is named.
@@ -122,7 +129,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let mut findings = Vec::new();
     let mut sweeps = Vec::new();
     let device = profile.device.map(|device| device.world_from_device);
-    for (mut sweep, lines) in read(source, point)? {
+    let (of_joints, mut of_plates) = read(profile, source, point)?;
+    for (mut sweep, lines) in of_joints {
         if let Some(world_from_device) = &device {
             place(&mut sweep, world_from_device);
         }
@@ -172,7 +180,18 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     };
     let base_sag = sag_of(Frame::Base, pair(0, 1), &placed_base)?;
     let tool_sag = sag_of(Frame::Tool, pair(5, 4), &placed_tool)?;
+    // the device is where the profile has it, or where the base that it sees is the profile's
+    let found_device = base_pose.map(|base| profile.world_from_base * base.inverse());
+    let in_world = device.or(found_device);
+    for row in of_plates.iter_mut().flat_map(|sweep| &mut sweep.rows) {
+        if let Some(world_from_device) = &in_world {
+            row.point_m = world_from_device.transform(row.point_m);
+        }
+    }
+    let positioner_axes = positioner_axes(profile, &of_plates)
+        .map_err(|error| Failure::new(format!("{name}: {error}")))?;
     Ok(Axes {
+        positioner_axes,
         base: base_pose.as_ref().map(Into::into),
         base_sigma: sigma(placed_base.as_ref(), base_sag.as_ref()),
         base_sag: base_sag.as_ref().map(Into::into),
@@ -222,24 +241,38 @@ fn only_tool(profile: &Profile) -> Mounted {
         .unwrap_or_else(Mounted::flange)
 }
 
-/// The sweeps by joint, and the lines of their rows.
-fn read(source: &Source, only: Option<&str>) -> Result<Vec<(Sweep, Vec<usize>)>, Failure> {
+/// The sweeps by joint with the lines of their rows, and those of axes of positioners.
+type Sweeps = (Vec<(Sweep, Vec<usize>)>, Vec<OnPlate>);
+
+fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps, Failure> {
     let table = Table::read(source)?;
-    table.require(&JOINTS)?;
     table.require(&POSITION_COLUMNS)?;
     table.require(&["sweep"])?;
     let has_poses = POSE.iter().all(|c| table.has(c));
     let mut points = BTreeSet::new();
     let mut sweeps: Vec<(Sweep, Vec<usize>)> = Vec::new();
+    let mut on_plates: Vec<OnPlate> = Vec::new();
     for row in table.rows() {
         let point = row.text("point").unwrap_or_default();
         if only.is_some_and(|name| name != point) {
             continue;
         }
-        points.insert(point.to_owned());
+        let axis = swept(profile, &row)?;
+        points.insert((axis.is_some(), point.to_owned()));
+        if let Some(axis) = axis {
+            let seen = OnPlateRow {
+                values: values(profile, &table, &row)?,
+                point_m: row.numbers(POSITION_COLUMNS)?.map(m_from_mm),
+            };
+            put(&mut on_plates, axis, seen);
+            continue;
+        }
+        table.require(&JOINTS)?;
         let number = row.number("sweep")?;
         let joint = (0..6).find(|j| (j + 1) as f64 == number).ok_or_else(|| {
-            row.failure(format!("sweep {number} is not a whole number from 1 to 6"))
+            row.failure(format!(
+                "sweep {number} is not a whole number from 1 to 6, nor an external axis as e1"
+            ))
         })?;
         let rotation = if has_poses {
             let q = unit(&row, Quaternion(row.numbers(QUATERNION_COLUMNS)?))?;
@@ -267,8 +300,9 @@ fn read(source: &Source, only: Option<&str>) -> Result<Vec<(Sweep, Vec<usize>)>,
             sweeps.push((Sweep { joint, rows }, vec![row.line]));
         }
     }
-    if points.len() > 1 {
-        let names: Vec<_> = points.into_iter().collect();
+    let several = |plate: bool| points.iter().filter(|(own, _)| *own == plate).count() > 1;
+    if several(true) || several(false) {
+        let names: Vec<_> = points.into_iter().map(|(_, name)| name).collect();
         let message = format!(
             "{}: several measured points: {}",
             source.name,
@@ -276,11 +310,11 @@ fn read(source: &Source, only: Option<&str>) -> Result<Vec<(Sweep, Vec<usize>)>,
         );
         return Err(Failure::with_hint(message, "choose one with --point"));
     }
-    if sweeps.is_empty() {
+    if sweeps.is_empty() && on_plates.is_empty() {
         return Err(Failure::new(format!("{}: no rows", source.name)));
     }
     sweeps.sort_by_key(|(sweep, _)| sweep.joint);
-    Ok(sweeps)
+    Ok((sweeps, on_plates))
 }
 
 fn as_sigma(covariance: &PoseCovariance) -> Sigma {

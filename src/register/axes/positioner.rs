@@ -1,0 +1,248 @@
+//! The axes of a positioner from circles of a point on its plate.
+//!
+//! One axis goes at a time: the point runs on a circle about it. The circle says where the axis is
+//! but for what lies along it and about it: these stay as the profile has them. An axis on another
+//! one is found in the frame of that one, as it was found or, where it was not swept, as the
+//! profile has it.
+//!
+//! # Source
+//! The circle-point method: R. P. Judd, A. B. Knasinski, "A technique to calibrate industrial
+//! robots with experimental verification" (1990).
+
+use super::{Line, SHORT_RAD, STILL_RAD, angles, span, tangential};
+use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
+use crate::model::external::{ExternalAxes, Listed, RotaryAxis};
+use crate::register::features::{self, FeatureError, noise_of};
+use crate::register::frames::propagate;
+use crate::register::uncertainty::PoseCovariance;
+
+/// One measurement of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Where the external axes stood, in the order in which the profile lists them, radians.
+    pub values: Vec<f64>,
+    /// The measured point in the world, metres.
+    pub point_m: Vector,
+}
+
+/// The measurements while one axis of a positioner moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The axis among all that the profile lists, from 0.
+    pub axis: usize,
+    /// In the order in which they were measured.
+    pub rows: Vec<Row>,
+}
+
+/// What a sweep says about its axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The axis among all that the profile lists, from 0.
+    pub axis: usize,
+    /// The axis in the world, and the centre of the circle; growing angles turn about it by the
+    /// right hand.
+    pub line: Line,
+    /// Radius of the circle, metres.
+    pub radius_m: f64,
+    /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave
+    /// nothing to tell it by.
+    pub noise_m: Option<f64>,
+    /// Angle on the circle minus that of the axis, mean taken off, radians.
+    pub tangential_rad: Vec<f64>,
+    /// Distance from the circle in its plane, metres.
+    pub radial_m: Vec<f64>,
+    /// Distance from its plane, metres.
+    pub axial_m: Vec<f64>,
+    /// Where the axis is, as profiles have it: the first in the world, another in the frame of the
+    /// axis before it.
+    pub at: Pose,
+    /// What the noise of the points does to that; `None` where the noise is not known.
+    pub covariance: Option<PoseCovariance>,
+}
+
+/// Why sweeps of a positioner give no axes.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PositionerError {
+    /// No circle.
+    #[error("sweep of {axis}: {error}")]
+    Circle {
+        /// Its name.
+        axis: String,
+        /// Why.
+        error: FeatureError,
+    },
+    /// Another axis of the positioner moves.
+    #[error("sweep of {axis}: {other} moves too, by {moved_deg:.4} deg (limit {limit_deg:.4} deg)")]
+    Moves {
+        /// Its name.
+        axis: String,
+        /// The other's.
+        other: String,
+        /// How far.
+        moved_deg: f64,
+        /// The most that is accepted.
+        limit_deg: f64,
+    },
+    /// The swept axis hardly moves.
+    #[error("sweep of {axis}: it turns by {turned_deg:.3} deg only (limit {limit_deg:.1} deg)")]
+    Short {
+        /// Its name.
+        axis: String,
+        /// How far.
+        turned_deg: f64,
+        /// The least that is accepted.
+        limit_deg: f64,
+    },
+    /// Measured and commanded angles do not belong together.
+    #[error(
+        "sweep of {axis}: the points turn by {measured_deg:.2} deg where the axis turns by \
+         {commanded_deg:.2} deg: another unit, another axis, or rows in another order"
+    )]
+    Unlike {
+        /// Its name.
+        axis: String,
+        /// On the circle.
+        measured_deg: f64,
+        /// By the column.
+        commanded_deg: f64,
+    },
+}
+
+/// The rotary axes of a positioner, and the place of the first among all listed.
+fn of_positioner(axes: &ExternalAxes, axis: usize) -> (&[RotaryAxis], usize) {
+    let Some(Listed::Rotary(_, of, _)) = axes.listed().nth(axis) else {
+        unreachable!("an axis of a positioner is swept")
+    };
+    (&axes.positioners[of].axes, axes.first_of(of))
+}
+
+/// The axes of positioners, in the order in which the profile lists them.
+///
+/// # Errors
+/// Another axis than the swept one moves, the swept one hardly does, the points are on no circle or
+/// go round otherwise than the angles say.
+///
+/// # Panics
+/// If a sweep is of a linear axis: the caller's bug.
+pub fn find(axes: &ExternalAxes, sweeps: &[Sweep]) -> Result<Vec<Found>, PositionerError> {
+    let mut sorted: Vec<&Sweep> = sweeps.iter().collect();
+    sorted.sort_by_key(|sweep| sweep.axis);
+    let mut found: Vec<Found> = Vec::new();
+    for sweep in sorted {
+        let one = of_sweep(axes, sweep, &found)?;
+        found.push(one);
+    }
+    Ok(found)
+}
+
+fn of_sweep(
+    axes: &ExternalAxes,
+    sweep: &Sweep,
+    before: &[Found],
+) -> Result<Found, PositionerError> {
+    let (own, first) = of_positioner(axes, sweep.axis);
+    let index = sweep.axis - first;
+    let name = |k: usize| own[k].axis.clone();
+    let axis = name(index);
+    let turned = |k: usize| -> Vec<f64> {
+        let values = sweep.rows.iter().map(|row| row.values[first + k]);
+        values
+            .map(|e| own[k].sign * (e - own[k].zero_rad))
+            .collect()
+    };
+    for other in (0..own.len()).filter(|k| *k != index) {
+        let moved_rad = span(&turned(other));
+        if moved_rad.is_nan() || moved_rad > STILL_RAD {
+            return Err(PositionerError::Moves {
+                axis,
+                other: name(other),
+                moved_deg: moved_rad.to_degrees(),
+                limit_deg: STILL_RAD.to_degrees(),
+            });
+        }
+    }
+    let angle = turned(index);
+    let turned_rad = span(&angle);
+    if turned_rad.is_nan() || turned_rad < SHORT_RAD {
+        return Err(PositionerError::Short {
+            axis,
+            turned_deg: turned_rad.to_degrees(),
+            limit_deg: SHORT_RAD.to_degrees(),
+        });
+    }
+    // the frame of the axis before, as it stands in this sweep
+    let mut carrier = Pose::identity();
+    for k in 0..index {
+        let known = before.iter().find(|found| found.axis == first + k);
+        let at = known.map_or(own[k].at, |found| found.at);
+        carrier = carrier * at * Pose::from_rotation(Rotation::about_z(turned(k)[0]));
+    }
+    let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
+    let failed = |error| PositionerError::Circle {
+        axis: axis.clone(),
+        error,
+    };
+    let place = |points: &[Vector]| -> Result<Pose, FeatureError> {
+        let circle = features::circle(points)?;
+        let (_, direction) = angles(&circle, points, &angle);
+        let line = Line {
+            point_m: circle.centre_m,
+            direction,
+        };
+        Ok(carrier.inverse() * moved_to(&(carrier * own[index].at), &line))
+    };
+    let circle = features::circle(&points).map_err(failed)?;
+    let (measured, direction) = angles(&circle, &points, &angle);
+    let tangential_rad = tangential(&measured, &angle);
+    if span(&tangential_rad) > 0.1 * turned_rad {
+        return Err(PositionerError::Unlike {
+            axis,
+            measured_deg: span(&measured).to_degrees(),
+            commanded_deg: turned_rad.to_degrees(),
+        });
+    }
+    let noise = noise_of(&circle.residuals_m, 3).zip(noise_of(&circle.axial_m, 3));
+    let noise_m = noise.map(|(r, a)| (0.5 * (r * r + a * a)).sqrt());
+    let covariance = match noise_m {
+        None => None,
+        Some(noise) => {
+            let sigmas = vec![noise; points.len()];
+            Some(propagate(&points, &sigmas, place).map_err(failed)?)
+        }
+    };
+    Ok(Found {
+        axis: sweep.axis,
+        line: Line {
+            point_m: circle.centre_m,
+            direction,
+        },
+        radius_m: circle.radius_m,
+        noise_m,
+        tangential_rad,
+        at: place(&points).map_err(failed)?,
+        covariance,
+        radial_m: circle.residuals_m,
+        axial_m: circle.axial_m,
+    })
+}
+
+/// The frame nearest to `nominal` whose z is the line: turned by the least rotation, its origin
+/// where the nominal one is nearest to the line.
+fn moved_to(nominal: &Pose, line: &Line) -> Pose {
+    let z = nominal.rotation.axis(2);
+    let axis = cross(z, line.direction);
+    let (sine, cosine) = (norm(axis), dot(z, line.direction));
+    let turn = if sine > 0.0 {
+        Rotation::from_vector(scale(sine.atan2(cosine) / sine, axis))
+    } else {
+        Rotation::identity()
+    };
+    let from = sub(nominal.translation, line.point_m);
+    Pose {
+        rotation: turn * nominal.rotation,
+        translation: add(
+            line.point_m,
+            scale(dot(from, line.direction), line.direction),
+        ),
+    }
+}

@@ -1,0 +1,122 @@
+//! What something else carries or moves is refused, each with its reason: conveyors, other robots,
+//! groups without geometry, a seventh joint.
+
+use super::{profile, rapid, run};
+use poseshift::finding::Severity;
+use poseshift::model::profile::Profile;
+
+const ARM: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
+
+/// The errors of some files: their ids and what they say.
+fn refused(profile: &Profile, files: &[(&str, &str)]) -> (Vec<&'static str>, String) {
+    let done = run(profile, files).expect("read");
+    let all = done
+        .findings
+        .iter()
+        .filter(|f| f.severity == Severity::Error);
+    let mut ids: Vec<&'static str> = all.clone().map(|f| f.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    (ids, all.map(|f| f.message.clone() + "\n").collect())
+}
+
+/// That exactly this is found, and says this.
+fn says(files: &[(&str, &str)], id: &[&str], words: &str) {
+    let (ids, reported) = refused(&profile("", &[ARM]), files);
+    assert_eq!(ids, id, "{reported}\n{}", files[0].1);
+    assert!(reported.contains(words), "{words}: {reported}");
+}
+
+#[test]
+fn conveyors_are_refused_in_every_language() {
+    let data = "PERS wobjdata w:=[FALSE,FALSE,\"CNV1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
+    let body = "MoveAbsJ [[0,0,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nActUnit CNV1;\nWaitWObj w\\RelDist:=10;\nMoveL [[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t\\WObj:=w;\nDropWObj w;\n";
+    says(
+        &[("t.mod", &rapid(data, body))],
+        &["moving-frame"],
+        "conveyor `CNV1`",
+    );
+    let krl = "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=EK(MACHINE_DEF[3].ROOT,#EASYS,{X 0,Y 0,Z 0,A 0,B 0,C 0})\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}\nPTP {X 640,Y 200,Z 700,A 10,B 5,C 170}\nEND\n";
+    let (ids, reported) = refused(&profile("", &[ARM]), &[("t.src", krl)]);
+    assert!(
+        ids == ["moving-frame"] || ids == ["positioner-unknown"],
+        "{ids:?} {reported}"
+    );
+    let points = "P[1]{\n   GP1:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX =  640.000  mm,\tY =  200.000  mm,\tZ =  700.000  mm,\n\tW =  170.000 deg,\tP =    5.000 deg,\tR =   10.000 deg\n};\n";
+    let fanuc = format!(
+        "/PROG  TEST\n/ATTR\nLINE_COUNT = 1;\n/APPL\n  LINE_TRACK;\n    LINE_TRACK_SCHEDULE_NUMBER      : 1;\n/MN\n   1:L P[1] 100mm/sec FINE    ;\n/POS\n{points}/END\n"
+    );
+    says(&[("t.ls", &fanuc)], &["moving-frame"], "conveyor");
+    let job = job(
+        "",
+        "SYSTART CV#(1) STP=100.0\nSYMOVL C00001 V=30.0 CV#(1)\nSYEND CV#(1)\n",
+    );
+    says(&[("T.JBI", &job)], &["moving-frame"], "conveyor (SYMOV)");
+}
+
+/// A job with three positions: the first in joints.
+fn job(groups: &str, moves: &str) -> String {
+    format!(
+        "/JOB\n//NAME T\n//POS\n///NPOS 3,0,0,0,0,0\n///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\nC00000=0,0,10,0,60,0\n///USER 3\n///POSTYPE USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=640,200,700,170,5,10\nC00002=600,150,650,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\n{moves}END\n"
+    )
+}
+
+#[test]
+fn moves_with_a_second_robot_are_refused_in_every_language_that_has_them() {
+    let data = |unit: &str, fixed: &str| {
+        format!(
+            "PERS wobjdata w:=[FALSE,{fixed},\"{unit}\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nPERS tasks both{{2}}:=[[\"T_ROB1\"],[\"T_ROB2\"]];\nVAR syncident s;"
+        )
+    };
+    let body = "MoveAbsJ [[0,0,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nSyncMoveOn s,both;\nMoveL [[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]\\ID:=10,v100,fine,t\\WObj:=w;\nSyncMoveOff s;\n";
+    let relative = rapid(&data("ROB_2", "FALSE"), body);
+    says(&[("t.mod", &relative)], &["two-robots"], "robot `ROB_2`");
+    // each task for itself, in a fixed frame
+    let own = rapid(&data("", "TRUE"), body);
+    says(&[("t.mod", &own)], &[], "");
+    for (moves, words) in [
+        ("MOVL C00001 V=30.0 +MOVL C00002\n", "second robot"),
+        ("SMOVL C00001 V=30.0 +MOVL C00002\n", "SMOV"),
+    ] {
+        let job = job("///GROUP2 RB2\n", moves);
+        let (ids, reported) = refused(&profile("", &[ARM]), &[("T.JBI", &job)]);
+        assert!(
+            !ids.is_empty() && reported.contains(words),
+            "{ids:?} {reported}"
+        );
+    }
+}
+
+#[test]
+fn moves_coordinated_with_a_group_without_geometry_are_refused() {
+    let listing = |group: &str, line: &str| {
+        let joints = "P[1]{\n   GP1:\n\tUF : 1, UT : 1,\t\n\tJ1= 0 deg,\tJ2= 0 deg,\tJ3= 10 deg,\tJ4= 0 deg,\tJ5= 60 deg,\tJ6= 0 deg\n};\n";
+        let point = format!(
+            "P[2]{{\n   GP1:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX =  640.000  mm,\tY =  200.000  mm,\tZ =  700.000  mm,\n\tW =  170.000 deg,\tP =    5.000 deg,\tR =   10.000 deg{group}\n}};\n"
+        );
+        format!(
+            "/PROG  TEST\n/ATTR\nLINE_COUNT = 2;\n/MN\n   1:J P[1] 10% FINE    ;\n   2:{line}    ;\n/POS\n{joints}{point}/END\n"
+        )
+    };
+    let plain = "L P[2] 100mm/sec FINE";
+    let turned = "\n   GP2:\n\tUF : 1, UT : 1,\t\n\tJ1= 30.000 deg";
+    let cartesian = "\n   GP2:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX =  1.000  mm,\tY =  2.000  mm,\tZ =  3.000  mm,\n\tW =  0.000 deg,\tP =    0.000 deg,\tR =   0.000 deg";
+    // a user frame that stands still feels nothing of other groups, gripping or robots
+    for group in [turned, cartesian] {
+        let text = listing(group, plain);
+        says(&[("t.ls", &text)], &[], "");
+        let text = listing(group, "L P[2] 100mm/sec FINE COORD");
+        says(
+            &[("t.ls", &text)],
+            &["group-without-geometry"],
+            "coordinated with a positioner (COORD)",
+        );
+    }
+}
+
+#[test]
+fn the_seventh_joint_of_an_arm_is_no_external_axis() {
+    let body = "MoveAbsJ [[0,0,10,0,60,0],[0,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nMoveL [[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,1010],[-101.9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
+    let text = rapid("", body);
+    says(&[("t.mod", &text)], &["seven-axis-arm"], "seventh joint");
+}
