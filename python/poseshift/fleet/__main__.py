@@ -58,10 +58,10 @@ def _run(given: argparse.Namespace) -> int:
         listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]
         print(json.dumps({"poseshift": "fleet-plan/1", "units": len(units), "missing": listed}, indent=2))
         return 0
-    ran = _make(units, store, given)
+    ran = _make(wanted, store, given)
     found = drifts(units, store, date)
     later = since(units, store, found)
-    also = _make(later, store, given)
+    also = _make(missing(later, store), store, given)
     failed = ran.failed | also.failed
     summary = collect([*units, *later], store, failed, date, found)
     counts = ", ".join(f"{count} {status}" for status, count in summary.by_status.items() if count)
@@ -72,7 +72,7 @@ def _run(given: argparse.Namespace) -> int:
 
 def _make(units: Sequence[Unit], store: Store, given: argparse.Namespace) -> Ran:
     """Makes what is missing of units, where that is asked for."""
-    if given.step != "run" or not missing(units, store):
+    if given.step != "run" or not units:
         return Ran()
     if given.executor == "local":
         return run_local(units, store, given.workers)

@@ -96,75 +96,18 @@ def _robot(robot: str, run_id: str, of_robot: Iterable[tuple[Unit, dict[str, Any
         row["profile_sha256"] = unit.digest("profile")
         row["status"] = min(row["status"], _status(result), key=ORDER.index)
         row["message"] = row["message"] or _message(unit, result, failed)
-        if result is None:
-            continue
-        documents = result["documents"]
-        if unit.job == "programs":
-            row["programs"] = len(unit.named("program"))
-        if "compensation" in documents:
-            s = documents["compensation"]["summary"]
-            row |= {key: s[key] for key in ("targets", "compensated", "mean_shift_mm", "max_shift_mm")}
-        if "check" in documents:
-            s = documents["check"]["summary"]
-            row |= {key: s[key] for key in ("max_path_error_mm", "collisions")}
-        if unit.job == "since":
-            row["changed_effect"] = _found(documents)
-        elif "diagnosis" in documents:
-            d = documents["diagnosis"]
-            row |= {"verdict": d["verdict"], "noise_mm": d["noise_mm"]}
-            row["effect"] = _found(documents)
-            for key in ("before", "after"):
-                row[f"held_out_{key}_mm"] = (d["held_out"][key] or {}).get("rms_mm")
+        row |= {} if result is None else result["rows"]["robot"]
     return row
 
 
-def _found(documents: Mapping[str, Any]) -> str:
-    """The effects of a diagnosis."""
-    return ", ".join(_label(effect) for effect in documents.get("diagnosis", {"effects": []})["effects"])
-
-
-def _label(effect: Mapping[str, Any]) -> str:
-    place = (f"{key} {effect[key]}" for key in ("joint", "link", "on", "order", "row", "tool") if key in effect)
-    return " ".join([str(effect["effect"]), *place])
-
-
 def _message(unit: Unit, result: dict[str, Any] | None, failed: Mapping[str, str]) -> str:
-    if result is None:
-        return failed.get(unit.key, "it has not been run")
-    if "error" in result:
-        return str(result["error"]["message"])
-    if result["status"] == "changed":
-        named = _found(result["documents"]) or result.get("message", "no effect is found in the rows since")
-        return f"its error has changed: {named}"
-    errors = [f for d in result["documents"].values() for f in d["findings"] if f["severity"] == "error"]
-    return str(errors[0]["message"]) if errors and result["status"] == "refused" else ""
+    return failed.get(unit.key, "it has not been run") if result is None else str(result["rows"]["message"])
 
 
 def _rows(unit: Unit, result: dict[str, Any] | None, rows: dict[str, list[dict[str, Any]]]) -> None:
-    if result is None:
-        return
     own = {"robot_id": unit.robot, "result_key": unit.key}
-    documents = result["documents"]
-    for document in documents.values():
-        rows["findings"] += [own | {"job": unit.job} | finding for finding in document["findings"]]
-    for effect in documents.get("diagnosis", {}).get("effects", []):
-        errors = {f"{key}_mm": (effect[key] or {}).get("rms_mm") for key in ("before", "after")}
-        named = {"effect": _label(effect), "sentence": effect["sentence"], "p_value": effect["evidence"]["p_value"]}
-        rows["effects"].append(own | named | errors)
-    if unit.job != "programs":
-        return
-    targets, moves = documents.get("compensation", {}).get("targets", []), documents.get("check", {}).get("moves", [])
-    for program in unit.named("program"):
-        mine = [target for target in targets if target["file"] == program]
-        driven = [move["max_path_error_mm"] for move in moves if move["file"] == program]
-        rows["programs"].append(own | {
-            "program": program,
-            "status": _status(result),
-            "targets": len(mine),
-            "mean_before_mm": sum(t["before_mm"] for t in mine) / len(mine) if mine else None,
-            "max_shift_mm": max((t["shift_mm"] for t in mine), default=None),
-            "max_path_error_mm": max((error for error in driven if error is not None), default=None),
-        })  # fmt: skip
+    for name in ("programs", "findings", "effects"):
+        rows[name] += [own | row for row in (result or {"rows": {name: []}})["rows"][name]]
 
 
 def _write_tables(folder: Path, rows: Mapping[str, list[dict[str, Any]]], date: str | None) -> None:

@@ -75,11 +75,12 @@ def unit_of(
 ) -> Unit:
     """A unit, its key from all that the answer depends on."""
     named = {"job": job, "schema": SCHEMA, "version": version, "options": options, "inputs": inputs}
-    key = sha256(_canonical(named).encode())
-    return Unit(robot, job, folder, inputs, _canonical(options), key, version)
+    key = sha256(canonical(named).encode())
+    return Unit(robot, job, folder, inputs, canonical(options), key, version)
 
 
-def _canonical(value: Any) -> str:
+def canonical(value: Any) -> str:
+    """JSON text that is the same of the same."""
     return json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 

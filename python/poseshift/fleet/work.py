@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import poseshift as ps
+from poseshift.fleet.rows import rows_of
 from poseshift.fleet.store import Store, sha256
-from poseshift.fleet.units import SCHEMA, Unit
+from poseshift.fleet.units import SCHEMA, Unit, canonical
 
 
 def work(store_folder: str, units: list[Unit]) -> list[tuple[str, float]]:
@@ -27,7 +28,7 @@ def work(store_folder: str, units: list[Unit]) -> list[tuple[str, float]]:
 
 def crashed(unit: Unit, message: str) -> dict[str, Any]:
     """The result of a unit that ends its process."""
-    return _result(unit, "crashed") | {"error": {"class": "Crash", "message": message, "hint": ""}}
+    return _reported(unit, "crashed", {"class": "Crash", "message": message, "hint": ""})
 
 
 def answer(unit: Unit, store: Store) -> dict[str, Any]:
@@ -46,7 +47,7 @@ def answer(unit: Unit, store: Store) -> dict[str, Any]:
     except (ps.PoseshiftError, ValueError, TypeError) as error:
         reported = error if isinstance(error, ps.PoseshiftError) else ps.PoseshiftError(str(error))
         error_of = {"class": type(error).__name__, "message": reported.message, "hint": reported.hint, "file": reported.file, "line": reported.line}
-        return _result(unit, "error") | {"error": error_of}
+        return _reported(unit, "error", error_of)
     except BaseException as error:
         # a panic of the library is no Exception
         if type(error).__name__ != "PanicException":
@@ -71,7 +72,7 @@ def _programs(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, byt
         else:
             files = {f"out/{name}": store.keep_blob(content) for name, content in done.files.items()}
     files |= {f"pages/{name}": store.keep_blob(page.encode()) for name, page in pages.items()}
-    return _result(unit, "refused" if refused else "done") | {"documents": documents, "files": files}
+    return _result(unit, store, "refused" if refused else "done", documents, files)
 
 
 def _diagnose(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes], options: dict[str, Any]) -> dict[str, Any]:
@@ -85,7 +86,7 @@ def _diagnose(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, byt
         files["out/better.yaml"] = store.keep_blob(found.profile.to_yaml().encode())
     status = "done" if found.is_sure else "refused"
     error_mm = _error_mm(profile, ps.Measurements(tables), options["validate"])
-    return _result(unit, status) | {"documents": {"diagnosis": found.document}, "files": files, "error_mm": error_mm}
+    return _result(unit, store, status, {"diagnosis": found.document}, files) | {"error_mm": error_mm}
 
 
 def _error_mm(profile: ps.Profile, measured: ps.Measurements, options: dict[str, Any]) -> float | None:
@@ -104,13 +105,27 @@ def _since(unit: Unit, store: Store, profile: ps.Profile, data: dict[str, bytes]
     try:
         found = ps.diagnose(profile, ps.Measurements(tables), **options["diagnose"])
     except ps.PoseshiftError as error:
-        return _result(unit, "changed") | {"message": error.message}
+        return _reported(unit, "changed", {"class": type(error).__name__, "message": error.message, "hint": error.hint})
     files = {"pages/since.html": store.keep_blob(found.html().encode())}
-    return _result(unit, "changed") | {"documents": {"diagnosis": found.document}, "files": files}
+    return _result(unit, store, "changed", {"diagnosis": found.document}, files)
 
 
-def _result(unit: Unit, status: str) -> dict[str, Any]:
-    return {"poseshift": SCHEMA, "key": unit.key, "job": unit.job, "status": status, "documents": {}, "files": {}}
+def _result(
+    unit: Unit, store: Store, status: str, documents: dict[str, Any], files: dict[str, tuple[str, int]]
+) -> dict[str, Any]:
+    """The documents themselves are files: whoever collects reads the rows of the tables."""
+    kept = {f"documents/{name}.json": store.keep_blob(canonical(document).encode()) for name, document in documents.items()}
+    return _head(unit, status) | {"rows": rows_of(unit, status, documents), "files": files | kept}
+
+
+def _reported(unit: Unit, status: str, error: dict[str, Any]) -> dict[str, Any]:
+    """A result without documents."""
+    rows = rows_of(unit, status, {}) | {"message": str(error["message"])}
+    return _head(unit, status) | {"rows": rows, "files": {}, "error": error}
+
+
+def _head(unit: Unit, status: str) -> dict[str, Any]:
+    return {"poseshift": SCHEMA, "key": unit.key, "job": unit.job, "status": status}
 
 
 _JOBS: dict[str, Callable[..., dict[str, Any]]] = {"programs": _programs, "diagnose": _diagnose, "since": _since}

@@ -32,7 +32,7 @@ fn moves_that_cannot_be_compensated_are_errors() {
         ("MOVL C00000 V=5 SRCH RIN#(1)=ON", "search-move"),
         ("IMOV P001 V=5.0 RF", "relative-move"),
         ("MOVJ C00000 +MOVJ C00001", "second-robot"),
-        ("SYMOVL C00000 V=5 CV#(1)", "move-not-supported"),
+        ("SYMOVL C00000 V=5 CV#(1)", "moving-frame"),
         ("MOVL V=5", "move-not-supported"),
         ("MOVL C00009 V=5", "target-not-in-files"),
         ("MOVL P077 V=5", "target-not-in-files"),
