@@ -76,7 +76,8 @@ def test_a_profile_that_does_not_know_its_errors(profile: ps.Profile, q_rad: Flo
 
 def test_changes_by_hand() -> None:
     (change,) = ps.changes([0.05, 0.051, 0.049, 0.05, 0.052, 0.05, 0.2, 0.21, 0.19])
-    assert (change.since, change.noticed) == (6, 6)
+    # one may be a bad night, two are a change
+    assert (change.since, change.noticed) == (6, 7)
     assert change.before == pytest.approx(np.prod([0.05, 0.051, 0.049, 0.05, 0.052, 0.05]) ** (1 / 6), rel=1e-12)
     assert change.after == pytest.approx(np.prod([0.2, 0.21, 0.19]) ** (1 / 3), rel=1e-12)
     assert ps.changes([]) == []

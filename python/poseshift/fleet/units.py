@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,8 @@ from poseshift.fleet.config import FleetError, Robot, options_of
 from poseshift.fleet.store import Hashes, Store, sha256
 
 SCHEMA = "fleet-unit/2"
+# a line that is no comment and may name a mesh
+_MESH = re.compile(rb"^(?!\s*#).*mesh", re.MULTILINE)
 # the tasks of a job
 JOBS = {"programs": ("compensate", "check"), "diagnose": ("validate", "diagnose")}
 
@@ -87,7 +90,7 @@ def canonical(value: Any) -> str:
 def _meshes(folder: Path, name: str) -> Iterator[str]:
     """The meshes that a profile or a cell names, next to it."""
     data = (folder / name).read_bytes()
-    if b"mesh" not in data:
+    if not _MESH.search(data):
         return
     import yaml  # noqa: PLC0415
 
