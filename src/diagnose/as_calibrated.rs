@@ -1,14 +1,15 @@
 //! Whether an arm still errs as it did when it was calibrated; a few poses are enough.
 //!
-//! Where nothing has changed the gaps `g` are normal with the covariance `σ²·S`: the variance that the
-//! calibration left and, common to all rows, what its parameters are not known by. Then
-//! `gᵀS⁻¹g / (n·σ²)` is F with `n` numbers and the freedom of `σ²`. Frames that are fitted to the rows are
-//! parameters of which nothing is known. What a change must be to be seen is the noncentrality at
-//! which F exceeds its limit with the power wanted.
+//! Where nothing has changed the gaps `g` are normal with the covariance `σ²·S`: the variance that
+//! the calibration left and, common to all rows, what its parameters are not known by. Then
+//! `gᵀS⁻¹g / (n·σ²)` is F with `n` numbers and the freedom of `σ²`. Frames that are fitted to the
+//! rows are parameters of which nothing is known. What a change must be to be seen is the
+//! noncentrality at which F exceeds its limit with the power wanted.
 //!
 //! # Source
-//! H. Scheffé, *The Analysis of Variance* (1959), 2.8 and appendix IV, for F and its power; C. R. Rao,
-//! *Linear Statistical Inference* (1973), 4a, for predicted rows; M. A. Woodbury (1950) for `S⁻¹`.
+//! H. Scheffé, *The Analysis of Variance* (1959), 2.8 and appendix IV, for F and its power; C. R.
+//! Rao, *Linear Statistical Inference* (1973), 4a, for predicted rows; M. A. Woodbury (1950) for
+//! `S⁻¹`.
 
 use super::chances::{f_power, f_quantile, f_tail};
 use crate::geometry::units::m_from_mm;
@@ -45,7 +46,8 @@ pub struct AsCalibrated {
     pub limit: f64,
     /// Probability of such an error, or a larger one, of an arm as it was.
     pub p_value: f64,
-    /// A change that moves these poses by so much (root mean square, metres) is seen with [`POWER`].
+    /// A change that moves these poses by so much (root mean square, metres) is seen with
+    /// [`POWER`].
     pub sees_m: f64,
     /// A joint that stands off by so much, radians, likewise; `None` where these poses do not show
     /// it.

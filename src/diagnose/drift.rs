@@ -1,17 +1,17 @@
 //! Since which run an arm errs otherwise: a change-point test over its errors run by run.
 //!
 //! Logarithms of the errors are compared with those before them by a CUSUM chart that learns mean
-//! and spread as it goes: with `m` and `s` of the `n − 1` runs before, `T = √((n−1)/n)·(x − m)/s` is
-//! Student's with `n − 2` degrees of freedom where nothing has changed, and its normal score `u`
+//! and spread as it goes: with `m` and `s` of the `n − 1` runs before, `T = √((n−1)/n)·(x − m)/s`
+//! is Student's with `n − 2` degrees of freedom where nothing has changed, and its normal score `u`
 //! independent of the others. Behind a change the mean is learnt anew; the spread within the runs
-//! before stays known; from a run that is too rare nothing is learnt. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a
-//! change. When it came is the most likely split of the runs: the one with the largest sum of
-//! squares between its halves.
+//! before stays known; from a run that is too rare nothing is learnt. `up = max(0, up + u − k)` and
+//! `down` likewise; one beyond `h` is a change. When it came is the most likely split of the runs:
+//! the one with the largest sum of squares between its halves.
 //!
 //! # Source
 //! E. S. Page, "Continuous inspection schemes", Biometrika 41 (1954); D. M. Hawkins, "Self-starting
-//! CUSUM charts for location and scale", The Statistician 36 (1987); D. V. Hinkley, "Inference about
-//! the change-point in a sequence of random variables", Biometrika 57 (1970).
+//! CUSUM charts for location and scale", The Statistician 36 (1987); D. V. Hinkley, "Inference
+//! about the change-point in a sequence of random variables", Biometrika 57 (1970).
 
 use super::chances::normal_score;
 
@@ -24,6 +24,10 @@ pub const LIMIT: f64 = 6.0;
 const LEAST_SPREAD: f64 = 0.02;
 /// From a run that is as rare as this nothing is learnt: it may be the first after a change.
 const UNLIKELY: f64 = 4.0;
+/// The same with fewer degrees of freedom than [`FEW`]: Student's hardly comes to 4 there.
+const UNLIKELY_OF_FEW: f64 = 3.0;
+/// Degrees of freedom below which the spread is hardly known.
+const FEW: f64 = 8.0;
 /// Runs that a change can be seen in at all.
 pub const LEAST_RUNS: usize = 4;
 
@@ -114,7 +118,12 @@ fn alarm(x: &[f64], known: Spread, h: f64) -> Option<usize> {
             if up.max(down) > h {
                 return Some(at);
             }
-            if u.abs() > UNLIKELY {
+            let unlikely = if freedom < FEW {
+                UNLIKELY_OF_FEW
+            } else {
+                UNLIKELY
+            };
+            if u.abs() > unlikely {
                 continue;
             }
         }
@@ -164,6 +173,16 @@ mod tests {
             alarms += changes_beyond(&errors, h).len();
         }
         alarms as f64 / f64::from(robots)
+    }
+
+    #[test]
+    fn a_change_is_seen_after_four_runs() {
+        let before = [0.031, 0.033, 0.035, 0.030];
+        for after in [[0.270, 0.271, 0.273], [0.075, 0.080, 0.070]] {
+            let found = changes(&[&before[..], &after].concat());
+            assert_eq!(found.len(), 1, "{after:?}");
+            assert_eq!(found[0].since, 4, "{after:?}");
+        }
     }
 
     #[test]

@@ -156,8 +156,8 @@ pub struct Calibration {
     pub held_out: Option<HeldOut>,
     /// The row with the largest error with everything.
     pub worst_row: Option<WorstRow>,
-    /// What points on the plates of positioners found, in a file that has rows of the tool too: with
-    /// the device where those put it.
+    /// What points on the plates of positioners found, in a file that has rows of the tool too:
+    /// with the device where those put it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plates: Option<Box<Calibration>>,
     /// SHA-256 of the profile.

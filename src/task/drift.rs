@@ -1,5 +1,5 @@
-//! Runs of one robot in their order: since which it errs otherwise, and what `diagnose` finds in the
-//! rows since.
+//! Runs of one robot in their order: since which it errs otherwise, and what `diagnose` finds in
+//! the rows since.
 
 use super::diagnose::{Diagnosis, diagnose};
 use super::failure::Failure;
@@ -92,8 +92,8 @@ fn by_file(all: &Measurements) -> Vec<Range<usize>> {
     runs
 }
 
-/// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those since the last
-/// change of the error, of all where there is none.
+/// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those since the
+/// last change of the error, of all where there is none.
 ///
 /// # Errors
 /// Fewer runs than a change can be seen in; as [`diagnose`].

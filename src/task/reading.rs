@@ -1,5 +1,5 @@
-//! What a program says: its targets with the bytes where their numbers stand, and its moves. Nothing
-//! is computed with a robot.
+//! What a program says: its targets with the bytes where their numbers stand, and its moves.
+//! Nothing is computed with a robot.
 
 use super::Document;
 use super::check::kind;

@@ -82,8 +82,8 @@ pub struct Plan {
     /// Where the axes of a track stand at each, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub track_mm: Vec<Vec<f64>>,
-    /// The positioner whose plate is measured, and the angles of its axes at each; then there are no
-    /// joint angles.
+    /// The positioner whose plate is measured, and the angles of its axes at each; then there are
+    /// no joint angles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate: Option<PlateAngles>,
     /// Where the tool is at each, in the world, by the controller's model; of a plate, its first
