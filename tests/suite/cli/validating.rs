@@ -264,7 +264,7 @@ fn ten_poses_say_whether_an_arm_is_as_calibrated() {
     );
     assert!(said["ratio"].as_f64() < said["limit"].as_f64(), "{said}");
     let [own, of_rows] =
-        [&said["rms_mm"], &report["position"]["real"]["rms_mm"]].map(|rms| rms.as_f64());
+        [&said["rms_mm"], &report["position"]["real"]["rms_mm"]].map(Value::as_f64);
     let apart = own.zip(of_rows).map(|(a, b)| (a - b).abs());
     assert!(apart.is_some_and(|mm| mm < 1e-12), "{own:?} {of_rows:?}");
     // a joint that stands off by twice what is said to be seen is seen
