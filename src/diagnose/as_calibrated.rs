@@ -55,7 +55,7 @@ pub struct AsCalibrated {
 }
 
 /// What a calibration says of its own errors.
-struct Left<'a> {
+struct Quality<'a> {
     /// Variance of a coordinate, m².
     variance: f64,
     /// Its degrees of freedom.
@@ -67,7 +67,7 @@ struct Left<'a> {
 }
 
 /// From the block `quality` of a profile.
-fn left(profile: &Profile) -> Option<Left<'_>> {
+fn quality_of(profile: &Profile) -> Option<Quality<'_>> {
     let quality = profile.quality.as_ref()?;
     let (kind, coordinates) = match quality["after"]["position"] {
         Value::Object(_) => ("position", 3.0),
@@ -82,7 +82,7 @@ fn left(profile: &Profile) -> Option<Left<'_>> {
     let row = |row: &Value| row.as_array()?.iter().map(Value::as_f64).collect();
     // orientations count among the numbers, and not here
     let part = freedom / (freedom + parameters.len() as f64);
-    let found = Left {
+    let found = Quality {
         variance: rms_m * rms_m / coordinates / part,
         freedom: part * n * coordinates,
         names: names.collect::<Option<_>>()?,
@@ -122,23 +122,23 @@ struct Expected {
 }
 
 impl Expected {
-    fn of(found: &Validation, left: &Left) -> Option<Self> {
+    fn of(found: &Validation, quality: &Quality) -> Option<Self> {
         let (problem, estimate) = (&found.problem, &found.estimate);
         let by = |subject| {
             slope(problem, estimate, |_, e, step| {
                 *e.value_mut(subject) += step;
             })
         };
-        let known: Vec<(usize, Subject, f64)> = (left.names.iter().enumerate())
+        let known: Vec<(usize, Subject, f64)> = (quality.names.iter().enumerate())
             .filter_map(|(index, name)| {
                 let (subject, unit) = parameter(estimate, name)?;
                 Some((index, subject, unit))
             })
             .collect();
-        let sigma = left.variance.sqrt();
+        let sigma = quality.variance.sqrt();
         let covariance = DMatrix::from_fn(known.len(), known.len(), |i, j| {
             let ((a, _, of_a), (b, _, of_b)) = (&known[i], &known[j]);
-            left.covariance[*a.max(b)][*a.min(b)] * of_a * of_b / left.variance
+            quality.covariance[*a.max(b)][*a.min(b)] * of_a * of_b / quality.variance
         });
         let eigen = covariance.symmetric_eigen();
         let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
@@ -212,10 +212,10 @@ fn visible(limit: f64, a: f64, b: f64) -> f64 {
 /// the profile does not say how well that is, or too few numbers were measured.
 #[must_use]
 pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrated> {
-    let left = left(profile)?;
+    let quality = quality_of(profile)?;
     let (problem, estimate) = (&found.problem, &found.estimate);
     let gaps = gaps(problem, estimate);
-    let expected = Expected::of(found, &left)?;
+    let expected = Expected::of(found, &quality)?;
     let fitted = match found.refit {
         Refit::Judged => problem.parameters.len(),
         Refit::No | Refit::Others => 0,
@@ -224,9 +224,9 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
     if numbers < 1.0 {
         return None;
     }
-    let ratio = expected.size(&gaps) / numbers / left.variance;
-    let limit = f_quantile(1.0 - SIGNIFICANCE, numbers, left.freedom);
-    let noncentrality = visible(limit, numbers, left.freedom) * left.variance;
+    let ratio = expected.size(&gaps) / numbers / quality.variance;
+    let limit = f_quantile(1.0 - SIGNIFICANCE, numbers, quality.freedom);
+    let noncentrality = visible(limit, numbers, quality.freedom) * quality.variance;
     let rows = problem.rows.len() as f64;
     let sees_rad = std::array::from_fn(|joint| {
         let whole = slope(problem, estimate, |p, _, step| {
@@ -241,7 +241,7 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
         rms_m: (gaps.norm_squared() / rows).sqrt(),
         ratio,
         limit,
-        p_value: f_tail(ratio, numbers, left.freedom),
+        p_value: f_tail(ratio, numbers, quality.freedom),
         sees_m: (noncentrality / rows / expected.mean()).sqrt(),
         sees_rad,
     })

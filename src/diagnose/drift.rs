@@ -235,7 +235,8 @@ mod tests {
         for (positions, spread) in [(10, 0.0), (60, 0.0), (60, 0.05), (60, 0.2)] {
             let a_year = quiet(2000, LIMIT, |random| error(random, 3 * positions, spread));
             println!(
-                "{positions} positions, {spread} from run to run: {a_year:.2} false alarms a robot-year"
+                "{positions} positions, {spread} from run to run: {a_year:.2} false alarms a \
+                 robot-year"
             );
             assert!(a_year < 1.0);
         }

@@ -18,7 +18,6 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, dot, norm, scale};
 use crate::model::effects::Kind;
 use crate::model::profile::{DevicePlace, Profile};
-use nalgebra::DMatrix;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -438,18 +437,7 @@ fn identify(
         tell,
     )
     .map_err(|error| screening::check_rest(error, &guess))?;
-    let counts: Vec<usize> = problem
-        .rows
-        .iter()
-        .map(|row| row.observed.count())
-        .collect();
-    let uncertainty = Uncertainty::of(
-        &solution.normal,
-        &solution.parameters,
-        &counts,
-        solution.loss,
-        problem.sigma_assumed,
-    );
+    let uncertainty = Uncertainty::of(&problem, &solution);
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
     remarks.extend(plausibility::check_fit(
@@ -463,12 +451,7 @@ fn identify(
         &uncertainty.sigma,
         frames_only_quality.main().map_or(0.0, |spread| spread.rms),
     )?);
-    let configurations = fit.configurations().last().map_or(0, |last| last + 1);
-    let values = solution
-        .normal
-        .factor()
-        .map(|r| singular_values(&in_si(r, &problem, &solution.parameters)))
-        .unwrap_or_default();
+    let observability = observability_of(&problem, &solution, &fit);
     let expected_m = expected_error_m(
         &problem,
         &solution.estimate,
@@ -502,7 +485,7 @@ fn identify(
         ))
     };
     Ok(Calibration {
-        observability: observability(values, configurations),
+        observability,
         problem,
         start: guess,
         frames_only,
@@ -524,19 +507,23 @@ fn identify(
     })
 }
 
-/// `R` of the Jacobian in metres and radians by the parameters in SI units, for rows of one
-/// standard deviation: their mean.
-pub(super) fn in_si(
-    mut r: DMatrix<f64>,
+/// What rows say of the parameters kept, by the singular values of the Jacobian in metres and
+/// radians by the parameters in SI units, for rows of one standard deviation: their mean.
+pub(super) fn observability_of(
     problem: &Problem,
-    parameters: &[Parameter],
-) -> DMatrix<f64> {
+    solution: &Solution,
+    fit: &Measurements,
+) -> Observability {
     let logs = problem.rows.iter().map(|row| row.sigma_m.ln());
     let sigma_m = (logs.sum::<f64>() / problem.rows.len().max(1) as f64).exp();
-    for (i, parameter) in parameters.iter().enumerate() {
-        r.column_mut(i).scale_mut(sigma_m / parameter.scale);
-    }
-    r
+    let factor = solution.normal.factor().map(|mut r| {
+        for (i, parameter) in solution.parameters.iter().enumerate() {
+            r.column_mut(i).scale_mut(sigma_m / parameter.scale);
+        }
+        singular_values(&r)
+    });
+    let configurations = fit.configurations().last().map_or(0, |last| last + 1);
+    observability(factor.unwrap_or_default(), configurations)
 }
 
 /// A track's direction stands in the profile's world: another world needs another direction.

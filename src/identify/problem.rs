@@ -7,7 +7,7 @@ use super::holder::{Holder, Plate};
 use super::measurements::{Measurement, Measurements, Observed};
 use super::observation::Observation;
 use super::parameters::{Parameter, Pick, Seen, Selection, Subject, choose};
-use super::plates::Turning;
+use super::plates::PlateRows;
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::{Effect, Kind, Need};
 use crate::model::external::Stand;
@@ -385,7 +385,7 @@ impl Problem {
         profile: &Profile,
         measurements: &Measurements,
         selection: &Selection,
-        of: Turning,
+        of: PlateRows,
     ) -> (Self, Estimate) {
         let (effects, parameters) = of.choose(profile, selection);
         let rows = measurements.rows.iter().enumerate();

@@ -1,8 +1,8 @@
 //! How well each parameter is known.
 
-use super::normal::Normal;
-use super::parameters::Parameter;
-use super::robust::{Loss, Shape, limit};
+use super::problem::Problem;
+use super::robust::{Shape, limit};
+use super::solver::Solution;
 use nalgebra::DMatrix;
 
 /// Standard deviations and correlations of the parameters of a solution.
@@ -27,19 +27,21 @@ impl Uncertainty {
     /// standard deviations.
     ///
     /// A model that misses more than the rows' standard deviations say has parameters that are
-    /// known less well: the factor is never below one unless no standard deviations were given
-    /// (`assumed`).
+    /// known less well: the factor is never below one unless no standard deviations were given.
     #[must_use]
-    pub fn of(
-        normal: &Normal,
-        parameters: &[Parameter],
-        counts: &[usize],
-        loss: Loss,
-        assumed: bool,
-    ) -> Self {
+    pub fn of(problem: &Problem, solution: &Solution) -> Self {
+        let Solution {
+            normal,
+            parameters,
+            loss,
+            ..
+        } = solution;
+        let counts: Vec<usize> = (problem.rows.iter())
+            .map(|row| row.observed.count())
+            .collect();
         // a row that the loss leaves out says nothing of the noise either
         let rows = || {
-            let both = normal.squares.iter().zip(counts);
+            let both = normal.squares.iter().zip(&counts);
             both.filter(|(squared, count)| loss.of(**squared, **count).1 > 0.0)
         };
         let numbers: usize = rows().map(|(_, count)| count).sum();
@@ -55,7 +57,7 @@ impl Uncertainty {
         });
         let squares = clipped.sum::<f64>() + normal.prior_squares.iter().sum::<f64>();
         let sigma_factor = (squares / degrees_of_freedom.max(1) as f64).sqrt();
-        let applied_factor = if assumed {
+        let applied_factor = if problem.sigma_assumed {
             sigma_factor
         } else {
             sigma_factor.max(1.0)

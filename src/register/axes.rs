@@ -26,6 +26,9 @@ pub mod sag;
 const STILL_RAD: f64 = 1e-4;
 /// A sweep shorter than this says little about its axis, radians.
 const SHORT_RAD: f64 = 0.17;
+/// Angles on the circle and commanded ones that differ by this part of the sweep do not belong
+/// together.
+const UNLIKE: f64 = 0.1;
 /// Axes nearer to parallel than this carry no frame, sine of the angle.
 const PARALLEL: f64 = 0.05;
 
@@ -60,24 +63,59 @@ pub struct Line {
     pub direction: Vector,
 }
 
-/// What a sweep says about its joint.
+/// The circle on which a point goes while one axis moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// The joint, from 0.
-    pub joint: usize,
-    /// The axis in the world; positive joint angles turn about it by the right hand.
+pub struct Circle {
+    /// The axis in the world through the centre; growing angles rotate about it by the right hand.
     pub line: Line,
-    /// Radius of the circle, metres.
+    /// Its radius, metres.
     pub radius_m: f64,
     /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave
-    /// nothing to tell it by.
+    /// nothing to estimate it from.
     pub noise_m: Option<f64>,
+    /// Largest minus smallest angle on the circle, radians.
+    pub span_rad: f64,
     /// Angle on the circle minus the commanded one, mean taken off, radians.
     pub tangential_rad: Vec<f64>,
     /// Distance from the circle in its plane, metres.
     pub radial_m: Vec<f64>,
     /// Distance from its plane, metres.
     pub axial_m: Vec<f64>,
+}
+
+impl Circle {
+    /// Through points at these angles of the axis, radians.
+    fn of(points: &[Vector], turned: &[f64]) -> Result<Self, FeatureError> {
+        let round = features::circle(points)?;
+        let (angles, direction) = angles(&round, points, turned);
+        let noise = noise_of(&round.residuals_m, 3).zip(noise_of(&round.axial_m, 3));
+        Ok(Self {
+            line: Line {
+                point_m: round.centre_m,
+                direction,
+            },
+            radius_m: round.radius_m,
+            noise_m: noise.map(|(r, a)| (0.5 * (r * r + a * a)).sqrt()),
+            span_rad: span(&angles),
+            tangential_rad: tangential(&angles, turned),
+            radial_m: round.residuals_m,
+            axial_m: round.axial_m,
+        })
+    }
+
+    /// Whether the points go round otherwise than the angles say.
+    fn is_unlike(&self, turned: &[f64]) -> bool {
+        span(&self.tangential_rad) > UNLIKE * span(turned)
+    }
+}
+
+/// What a sweep says about its joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The joint, from 0.
+    pub joint: usize,
+    /// The circle of the point.
+    pub circle: Circle,
     /// Full width of the backlash and its standard uncertainty, radians; where both directions
     /// were measured.
     pub backlash_rad: Option<(f64, f64)>,
@@ -123,20 +161,22 @@ pub enum AxesError {
     },
     /// The swept joint hardly moves.
     #[error(
-        "sweep of joint {joint}: it turns by {turned_deg:.3} deg only (limit {limit_deg:.1} deg); \
+        "sweep of joint {joint}: it rotates by {rotated_deg:.3} deg only (limit {limit_deg:.1} \
+         deg); \
          is the column sweep right, and are the angles in degrees?"
     )]
     Short {
         /// From 1.
         joint: usize,
         /// How far.
-        turned_deg: f64,
+        rotated_deg: f64,
         /// The least that is accepted.
         limit_deg: f64,
     },
     /// Measured and commanded angles do not belong together.
     #[error(
-        "sweep of joint {joint}: the points turn by {measured_deg:.2} deg where the joint turns by \
+        "sweep of joint {joint}: the points rotate by {measured_deg:.2} deg where the joint \
+         rotates by \
          {commanded_deg:.2} deg: angles in radians, another joint, or rows in another order"
     )]
     Unlike {
@@ -190,14 +230,10 @@ fn coupling_hint(coupled: bool) -> &'static str {
 pub fn axis(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
     let found = fitted(sweep, profile)?;
     let turned = mechanical(sweep, profile)?;
-    if span(&found.tangential_rad) > 0.1 * span(&turned) {
-        let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
-        let joint = sweep.joint + 1;
-        let circle =
-            features::circle(&points).map_err(|error| AxesError::Circle { joint, error })?;
+    if found.circle.is_unlike(&turned) {
         return Err(AxesError::Unlike {
-            joint,
-            measured_deg: span(&angles(&circle, &points, &turned).0).to_degrees(),
+            joint: sweep.joint + 1,
+            measured_deg: found.circle.span_rad.to_degrees(),
             commanded_deg: span(&turned).to_degrees(),
         });
     }
@@ -217,25 +253,12 @@ fn fitted(sweep: &Sweep, profile: &Profile) -> Result<Axis, AxesError> {
     let joint = sweep.joint + 1;
     let turned = mechanical(sweep, profile)?;
     let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
-    let circle = features::circle(&points).map_err(|error| AxesError::Circle { joint, error })?;
-    let (angles, direction) = angles(&circle, &points, &turned);
-    let left = tangential(&angles, &turned);
-    let radial = noise_of(&circle.residuals_m, 3);
-    let axial = noise_of(&circle.axial_m, 3);
+    let circle =
+        Circle::of(&points, &turned).map_err(|error| AxesError::Circle { joint, error })?;
     Ok(Axis {
         joint: sweep.joint,
-        line: Line {
-            point_m: circle.centre_m,
-            direction,
-        },
-        radius_m: circle.radius_m,
-        noise_m: radial
-            .zip(axial)
-            .map(|(r, a)| (0.5 * (r * r + a * a)).sqrt()),
-        backlash_rad: backlash(sweep, &left, &turned),
-        tangential_rad: left,
-        radial_m: circle.residuals_m,
-        axial_m: circle.axial_m,
+        backlash_rad: backlash(sweep, &circle.tangential_rad, &turned),
+        circle,
     })
 }
 
@@ -272,7 +295,7 @@ fn mechanical(sweep: &Sweep, profile: &Profile) -> Result<Vec<f64>, AxesError> {
     if turned_rad.is_nan() || turned_rad < SHORT_RAD {
         return Err(AxesError::Short {
             joint,
-            turned_deg: turned_rad.to_degrees(),
+            rotated_deg: turned_rad.to_degrees(),
             limit_deg: SHORT_RAD.to_degrees(),
         });
     }
@@ -490,7 +513,7 @@ fn placed(
     oriented: bool,
 ) -> Result<Placed, AxesError> {
     let points = points_of(sweeps);
-    let noise: Option<Vec<f64>> = axes.iter().map(|axis| axis.noise_m).collect();
+    let noise: Option<Vec<f64>> = axes.iter().map(|axis| axis.circle.noise_m).collect();
     let covariance = match noise {
         None => None,
         Some(noise) => {

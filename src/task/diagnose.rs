@@ -366,6 +366,24 @@ fn not_of_the_arm(plates: &Measurements, name: &str) -> Option<Finding> {
     )
 }
 
+/// Rows of the tool, and those of points on plates.
+///
+/// # Errors
+/// There are none of the tool.
+pub(super) fn of_the_arm(
+    all: &Measurements,
+    name: &str,
+) -> Result<(Measurements, Measurements), Failure> {
+    let (tool, plates) = all.split();
+    if tool.rows.is_empty() {
+        return Err(Failure::with_hint(
+            format!("{name}: every row is of a point on a plate, which shows nothing of the arm"),
+            "`poseshift calibrate` identifies the positioner with them",
+        ));
+    }
+    Ok((tool, plates))
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -383,13 +401,7 @@ pub fn diagnose(
         findings: mut read,
         ..
     } = measurements;
-    let (tool, plates) = all.split();
-    if tool.rows.is_empty() {
-        return Err(Failure::with_hint(
-            format!("{name}: every row is of a point on a plate, which shows nothing of the arm"),
-            "`poseshift calibrate` identifies the positioner with them",
-        ));
-    }
+    let (tool, plates) = of_the_arm(&all, &name)?;
     read.extend(not_of_the_arm(&plates, &name));
     let d = search(&file.profile, &tool, options, hear)
         .map_err(|error| identify_failure(&name, &error))?;

@@ -1,7 +1,7 @@
 //! Runs of one robot in their order: since which it errs otherwise, and what `diagnose` finds in
 //! the rows since.
 
-use super::diagnose::{Diagnosis, diagnose};
+use super::diagnose::{Diagnosis, diagnose, of_the_arm};
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::profile_file::ProfileFile;
@@ -68,7 +68,8 @@ impl Drift {
         let count = self.runs.len();
         match self.changes.last() {
             Some(c) => format!(
-                "The error has changed with run {} of {count}, {}: {:.3} mm rms before, {:.3} mm since. The rows since are diagnosed.",
+                "The error has changed with run {} of {count}, {}: {:.3} mm rms before, {:.3} mm \
+                 since. The rows since are diagnosed.",
                 c.run, c.since, c.before_mm, c.after_mm
             ),
             None => format!(
@@ -114,7 +115,6 @@ pub fn diagnose_runs(
     }
     let mut runs = Vec::with_capacity(files.len());
     for rows in &files {
-        let part = measurements.all.filtered(|row, _| rows.contains(&row));
         let line = &measurements.all.rows[rows.start].line;
         let name = line
             .file
@@ -122,11 +122,13 @@ pub fn diagnose_runs(
             .unwrap_or(&measurements.name)
             .to_owned();
         hear(&name);
+        let part = measurements.all.filtered(|row, _| rows.contains(&row));
+        let (part, _) = of_the_arm(&part, &name)?;
         let found = validate(&file.profile, &part, Refit::No, None)
             .map_err(|error| identify_failure(&name, &error))?;
         runs.push(Run {
             file: name,
-            rows: rows.len(),
+            rows: part.rows.len(),
             rms_mm: found.real.quality.main().map_or(0.0, |error| error.rms),
         });
     }

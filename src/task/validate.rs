@@ -185,7 +185,8 @@ impl AsCalibrated {
         let joints = joints.filter_map(|(k, deg)| Some(format!("J{} {:.3}°", k + 1, (*deg)?)));
         [
             format!(
-                "{}: {:.3} mm rms, {:.2} times the mean square expected; {:.0} % of arms as calibrated exceed {:.2}",
+                "{}: {:.3} mm rms, {:.2} times the mean square expected; {:.0} % of arms as \
+                 calibrated exceed {:.2}",
                 self.answer,
                 self.rms_mm,
                 self.ratio,
@@ -193,7 +194,8 @@ impl AsCalibrated {
                 self.limit
             ),
             format!(
-                "seen with {:.0} % probability: {:.3} mm rms at these poses, or one joint off by {}",
+                "seen with {:.0} % probability: {:.3} mm rms at these poses, or one joint off by \
+                 {}",
                 100.0 * self.power,
                 self.sees_mm,
                 joints.collect::<Vec<_>>().join(", ")

@@ -10,10 +10,10 @@
 
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Vector, add, scale};
-use crate::identify::calibration::{Calibration, Options, in_si, outliers};
+use crate::identify::calibration::{Calibration, Options, observability_of, outliers};
 use crate::identify::error::IdentifyError;
 use crate::identify::external::{places, plate_of};
-use crate::identify::identifiability::{Identifiable, observability, singular_values};
+use crate::identify::identifiability::Identifiable;
 use crate::identify::input_checks::plausibility;
 use crate::identify::measurements::{Measurements, Purpose};
 use crate::identify::parameters::{Level, Parameter, Pick, Selection, Wanted, at};
@@ -38,7 +38,7 @@ const LEAST_VALUES: usize = 3;
 const LEAST_SPAN_RAD: f64 = 60.0 * DEG;
 /// Farther from where the profile has it an axis is not believed to be the profile's, metres.
 const FAR_M: f64 = 20.0 * MM;
-/// And turned by more, radians.
+/// And rotated by more, radians.
 const FAR_RAD: f64 = 1.0 * DEG;
 /// Points that miss by more do not go round as the angles say, metres, root mean square.
 const ASTRAY_M: f64 = 5.0 * MM;
@@ -47,7 +47,7 @@ const ELSEWHERE_M: f64 = 100.0 * MM;
 
 /// What points on plates show.
 #[derive(Clone, Debug)]
-pub(in crate::identify) struct Turning {
+pub(in crate::identify) struct PlateRows {
     /// The positioner of each row, and its point.
     pub rows: Vec<(usize, PointRef)>,
     /// The named points.
@@ -60,7 +60,7 @@ pub(in crate::identify) struct Turning {
     stood: Vec<(usize, f64)>,
 }
 
-impl Turning {
+impl PlateRows {
     /// Of rows on plates, in the controller's world; with `free` no coordinates of named points are
     /// known.
     fn of(profile: &Profile, rows: &Measurements, free: bool) -> Result<Self, IdentifyError> {
@@ -178,7 +178,7 @@ impl Turning {
     }
 
     /// Whether an axis shows at all.
-    fn turned(&self, axis: usize) -> bool {
+    fn has_rotated(&self, axis: usize) -> bool {
         let (values, span_rad) = self.stood[axis];
         values >= LEAST_VALUES && span_rad >= LEAST_SPAN_RAD
     }
@@ -193,8 +193,8 @@ impl Turning {
         let wave = || self.stood[axis].0 as f64 >= 2.0 * effect.site.periods() + 2.0;
         pick.is_of_one()
             || match effect.kind {
-                Kind::PositionerRunout | Kind::PositionerRipple => self.turned(axis) && wave(),
-                Kind::PositionerAxis | Kind::PositionerScale => self.turned(axis),
+                Kind::PositionerRunout | Kind::PositionerRipple => self.has_rotated(axis) && wave(),
+                Kind::PositionerAxis | Kind::PositionerScale => self.has_rotated(axis),
                 _ => true,
             }
     }
@@ -260,7 +260,7 @@ impl Turning {
                 }
             }
             let together = asked(Kind::PositionerAxis).is_some_and(|pick| !pick.is_of_one());
-            let still = axes.clone().find(|axis| !self.turned(*axis));
+            let still = axes.clone().find(|axis| !self.has_rotated(*axis));
             let Some(axis) = still.filter(|_| together || is_usual(selection)) else {
                 continue;
             };
@@ -295,9 +295,9 @@ fn begin(
     rows: &Measurements,
     selection: &Selection,
 ) -> Result<(Problem, Estimate), IdentifyError> {
-    let turning = Turning::of(profile, rows, selection.wants_points())?;
-    turning.refuse(profile, selection)?;
-    Ok(Problem::on_plates(profile, rows, selection, turning))
+    let rows_on_plates = PlateRows::of(profile, rows, selection.wants_points())?;
+    rows_on_plates.refuse(profile, selection)?;
+    Ok(Problem::on_plates(profile, rows, selection, rows_on_plates))
 }
 
 /// A selection of frames alone: where the plate is, or its points.
@@ -355,25 +355,10 @@ pub fn calibrate_plates(
     let solution = solve(&problem, frames_only.estimate.clone(), options.shape, false)?;
     refuse_lost(&problem, &solution.identifiable)?;
     refuse_far(profile, &solution.estimate)?;
-    let counts: Vec<usize> = (problem.rows.iter())
-        .map(|row| row.observed.count())
-        .collect();
-    let uncertainty = Uncertainty::of(
-        &solution.normal,
-        &solution.parameters,
-        &counts,
-        solution.loss,
-        problem.sigma_assumed,
-    );
+    let uncertainty = Uncertainty::of(&problem, &solution);
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
     refuse_astray(&after, ASTRAY_M)?;
-    let values = solution
-        .normal
-        .factor()
-        .map(|r| singular_values(&in_si(r, &problem, &solution.parameters)))
-        .unwrap_or_default();
-    let configurations = fit.configurations().last().map_or(0, |last| last + 1);
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     let held_out = if held.rows.is_empty() {
@@ -391,7 +376,7 @@ pub fn calibrate_plates(
         device: profile.device,
         frame_from_device: profile.world_from_device(),
         expected_m: None,
-        observability: observability(values, configurations),
+        observability: observability_of(&problem, &solution, &fit),
         before: Quality::of(&problem.rows, &before_misses),
         before_misses,
         frames_only_quality,
@@ -444,8 +429,8 @@ fn refuse_far(profile: &Profile, estimate: &Estimate) -> Result<(), IdentifyErro
         .filter(|e| e.kind == Kind::PositionerAxis);
     for effect in axes {
         let [x, y, rx, ry, ..] = effect.parameters;
-        let (far_m, turned_rad) = (x.hypot(y), rx.hypot(ry));
-        if far_m <= FAR_M && turned_rad <= FAR_RAD {
+        let (far_m, rotated_rad) = (x.hypot(y), rx.hypot(ry));
+        if far_m <= FAR_M && rotated_rad <= FAR_RAD {
             continue;
         }
         let axis = profile.external.listed().nth(effect.site.index);
@@ -455,7 +440,7 @@ fn refuse_far(profile: &Profile, estimate: &Estimate) -> Result<(), IdentifyErro
                  {:.0} mm and {:.0} deg",
                 axis.map_or_else(String::new, |axis| axis.name().to_owned()),
                 mm_from_m(far_m),
-                turned_rad / DEG,
+                rotated_rad / DEG,
                 mm_from_m(FAR_M),
                 FAR_RAD / DEG
             ),

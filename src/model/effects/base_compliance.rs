@@ -11,7 +11,7 @@ impl Equation for BaseCompliance {
     const DEFINITION: Definition = Definition {
         id: "base_compliance",
         summary: "the pedestal or its bolts give way: the base tilts under the arm's moment",
-        equation: "turn of the base about its x axis = x_rad_per_n_m · M_x, about y = \
+        equation: "rotation of the base about its x axis = x_rad_per_n_m · M_x, about y = \
             y_rad_per_n_m · M_y, M the arm's moment about the base's origin",
         source: "A. Nubiola, thesis, eqs. I.5–I.10, with the base as one more link",
         site: &[],

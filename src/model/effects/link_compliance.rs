@@ -12,7 +12,7 @@ impl Equation for LinkCompliance {
         id: "link_compliance",
         summary: "a link or its bearing bends under the moment it carries, across the axis of its \
             joint",
-        equation: "turn about x of the link's frame = x_rad_per_n_m · M_x, about y = y_rad_per_n_m \
+        equation: "rotation about x of the link's frame = x_rad_per_n_m · M_x, about y = y_rad_per_n_m \
             · M_y, M the moment about the frame's origin in its axes",
         source: "A. Nubiola, thesis, eqs. I.5–I.10, with the components of the moment that are not \
             the joint's torque",

@@ -11,7 +11,7 @@ impl Equation for ToolCompliance {
     const DEFINITION: Definition = Definition {
         id: "tool_compliance",
         summary: "the tool or its adapter bends at the flange under the tool's own weight",
-        equation: "turn about x of the flange = x_rad_per_n_m · M_x, about y = y_rad_per_n_m · \
+        equation: "rotation about x of the flange = x_rad_per_n_m · M_x, about y = y_rad_per_n_m · \
             M_y, M the moment of the tool's weight about the flange in its axes",
         source: "a beam clamped at the flange: S. Timoshenko, \"Strength of materials\"",
         site: &[],

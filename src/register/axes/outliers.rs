@@ -29,8 +29,8 @@ pub struct Outlier {
 /// Squares of what the circle and the commanded angles leave.
 fn squares(axis: &Axis) -> f64 {
     let sum = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
-    let along = axis.radius_m * axis.radius_m * sum(&axis.tangential_rad);
-    sum(&axis.radial_m) + sum(&axis.axial_m) + along
+    let along = axis.circle.radius_m * axis.circle.radius_m * sum(&axis.circle.tangential_rad);
+    sum(&axis.circle.radial_m) + sum(&axis.circle.axial_m) + along
 }
 
 /// How far a point is from where an axis found without it has it, metres.
@@ -38,9 +38,9 @@ fn off(axis: &Axis, sweep: &Sweep, row: usize, profile: &Profile) -> Result<f64,
     let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
     let turned = mechanical(sweep, profile)?;
     let round = features::Round {
-        centre_m: axis.line.point_m,
-        radius_m: axis.radius_m,
-        axis: axis.line.direction,
+        centre_m: axis.circle.line.point_m,
+        radius_m: axis.circle.radius_m,
+        axis: axis.circle.line.direction,
         residuals_m: Vec::new(),
         axial_m: Vec::new(),
         centre_covariance: [[0.0; 3]; 3],
@@ -53,10 +53,10 @@ fn off(axis: &Axis, sweep: &Sweep, row: usize, profile: &Profile) -> Result<f64,
         .fold((0.0, 0.0), |(c, s), i| {
             (c + left(i).cos(), s + left(i).sin())
         });
-    let from_centre = sub(points[row], axis.line.point_m);
+    let from_centre = sub(points[row], axis.circle.line.point_m);
     let axial = dot(from_centre, direction);
-    let radial = norm(add(from_centre, scale(-axial, direction))) - axis.radius_m;
-    let along = axis.radius_m * wrap(left(row) - s.atan2(c));
+    let radial = norm(add(from_centre, scale(-axial, direction))) - axis.circle.radius_m;
+    let along = axis.circle.radius_m * wrap(left(row) - s.atan2(c));
     Ok(norm([axial, radial, along]))
 }
 
@@ -76,8 +76,8 @@ pub fn without_outliers(
         let all = fitted(&kept, profile)?;
         let mut order: Vec<usize> = (0..kept.rows.len()).collect();
         let size = |i: &usize| {
-            let along = all.radius_m * all.tangential_rad[*i];
-            norm([all.radial_m[*i], all.axial_m[*i], along])
+            let along = all.circle.radius_m * all.circle.tangential_rad[*i];
+            norm([all.circle.radial_m[*i], all.circle.axial_m[*i], along])
         };
         order.sort_by(|a, b| size(b).total_cmp(&size(a)));
         let mut best: Option<(f64, usize, Axis)> = None;

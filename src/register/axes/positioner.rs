@@ -9,10 +9,10 @@
 //! The circle-point method: R. P. Judd, A. B. Knasinski, "A technique to calibrate industrial
 //! robots with experimental verification" (1990).
 
-use super::{Line, SHORT_RAD, STILL_RAD, angles, span, tangential};
+use super::{Circle, Line, SHORT_RAD, STILL_RAD, span};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use crate::model::external::{ExternalAxes, Listed, RotaryAxis};
-use crate::register::features::{self, FeatureError, noise_of};
+use crate::register::features::FeatureError;
 use crate::register::frames::propagate;
 use crate::register::uncertainty::PoseCovariance;
 
@@ -39,20 +39,8 @@ pub struct Sweep {
 pub struct Found {
     /// The axis among all that the profile lists, from 0.
     pub axis: usize,
-    /// The axis in the world, and the centre of the circle; growing angles turn about it by the
-    /// right hand.
-    pub line: Line,
-    /// Radius of the circle, metres.
-    pub radius_m: f64,
-    /// Standard deviation of a coordinate off the circle, metres; `None` where three rows leave
-    /// nothing to tell it by.
-    pub noise_m: Option<f64>,
-    /// Angle on the circle minus that of the axis, mean taken off, radians.
-    pub tangential_rad: Vec<f64>,
-    /// Distance from the circle in its plane, metres.
-    pub radial_m: Vec<f64>,
-    /// Distance from its plane, metres.
-    pub axial_m: Vec<f64>,
+    /// The circle of the point.
+    pub circle: Circle,
     /// Where the axis is, as profiles have it: the first in the world, another in the frame of the
     /// axis before it.
     pub at: Pose,
@@ -84,18 +72,18 @@ pub enum PositionerError {
         limit_deg: f64,
     },
     /// The swept axis hardly moves.
-    #[error("sweep of {axis}: it turns by {turned_deg:.3} deg only (limit {limit_deg:.1} deg)")]
+    #[error("sweep of {axis}: it rotates by {rotated_deg:.3} deg only (limit {limit_deg:.1} deg)")]
     Short {
         /// Its name.
         axis: String,
         /// How far.
-        turned_deg: f64,
+        rotated_deg: f64,
         /// The least that is accepted.
         limit_deg: f64,
     },
     /// Measured and commanded angles do not belong together.
     #[error(
-        "sweep of {axis}: the points turn by {measured_deg:.2} deg where the axis turns by \
+        "sweep of {axis}: the points rotate by {measured_deg:.2} deg where the axis rotates by \
          {commanded_deg:.2} deg: another unit, another axis, or rows in another order"
     )]
     Unlike {
@@ -166,7 +154,7 @@ fn of_sweep(
     if turned_rad.is_nan() || turned_rad < SHORT_RAD {
         return Err(PositionerError::Short {
             axis,
-            turned_deg: turned_rad.to_degrees(),
+            rotated_deg: turned_rad.to_degrees(),
             limit_deg: SHORT_RAD.to_degrees(),
         });
     }
@@ -182,47 +170,29 @@ fn of_sweep(
         axis: axis.clone(),
         error,
     };
-    let place = |points: &[Vector]| -> Result<Pose, FeatureError> {
-        let circle = features::circle(points)?;
-        let (_, direction) = angles(&circle, points, &angle);
-        let line = Line {
-            point_m: circle.centre_m,
-            direction,
-        };
-        Ok(carrier.inverse() * moved_to(&(carrier * own[index].at), &line))
-    };
-    let circle = features::circle(&points).map_err(failed)?;
-    let (measured, direction) = angles(&circle, &points, &angle);
-    let tangential_rad = tangential(&measured, &angle);
-    if span(&tangential_rad) > 0.1 * turned_rad {
+    let nominal = carrier * own[index].at;
+    let at = |circle: &Circle| carrier.inverse() * moved_to(&nominal, &circle.line);
+    let circle = Circle::of(&points, &angle).map_err(failed)?;
+    if circle.is_unlike(&angle) {
         return Err(PositionerError::Unlike {
             axis,
-            measured_deg: span(&measured).to_degrees(),
+            measured_deg: circle.span_rad.to_degrees(),
             commanded_deg: turned_rad.to_degrees(),
         });
     }
-    let noise = noise_of(&circle.residuals_m, 3).zip(noise_of(&circle.axial_m, 3));
-    let noise_m = noise.map(|(r, a)| (0.5 * (r * r + a * a)).sqrt());
-    let covariance = match noise_m {
+    let covariance = match circle.noise_m {
         None => None,
         Some(noise) => {
             let sigmas = vec![noise; points.len()];
+            let place = |points: &[Vector]| Ok(at(&Circle::of(points, &angle)?));
             Some(propagate(&points, &sigmas, place).map_err(failed)?)
         }
     };
     Ok(Found {
         axis: sweep.axis,
-        line: Line {
-            point_m: circle.centre_m,
-            direction,
-        },
-        radius_m: circle.radius_m,
-        noise_m,
-        tangential_rad,
-        at: place(&points).map_err(failed)?,
+        at: at(&circle),
         covariance,
-        radial_m: circle.residuals_m,
-        axial_m: circle.axial_m,
+        circle,
     })
 }
 

@@ -46,7 +46,7 @@ pub fn relations(axes: &[Axis], sweeps: &[Sweep], profile: &Profile) -> Vec<Rela
             (0..sweeps[0].joint).all(|k| (a[k] - b[k]).abs() < super::STILL_RAD)
         })
         .map(|(axes, sweeps)| {
-            let measured = angle_and_distance(&axes[0].line, &axes[1].line);
+            let measured = angle_and_distance(&axes[0].circle.line, &axes[1].circle.line);
             let nominal = angle_and_distance(&drawn(&sweeps[0]), &drawn(&sweeps[1]));
             Relation {
                 joints: [axes[0].joint, axes[1].joint],

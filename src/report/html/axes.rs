@@ -22,7 +22,7 @@ pub(crate) fn page(found: &Axes) -> Page {
     if let Some(axis) = worst_axis {
         answer += &format!(
             "; {} is {:.3} mm and {:.4} deg from where the profile has it",
-            axis.axis, axis.moved_mm, axis.turned_deg
+            axis.axis, axis.moved_mm, axis.rotated_deg
         );
     }
     let of_joints = !list.is_empty();
@@ -47,7 +47,7 @@ pub(crate) fn page(found: &Axes) -> Page {
         let each = each.filter(|(size, _)| size.is_finite());
         each.max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    if let Some((size, joint)) = worst(&|joint| joint.tangential_deg) {
+    if let Some((size, joint)) = worst(&|joint| joint.circle.tangential_deg) {
         answer += &format!("; the largest angular residual is {size:.4} deg rms (joint {joint})");
     }
     if let Some((size, joint)) = worst(&|joint| joint.backlash_deg.unwrap_or(f64::NAN)) {
@@ -92,12 +92,16 @@ pub(crate) fn page(found: &Axes) -> Page {
     let table = Table {
         columns: vec![
             Column::counts("joint", list.iter().map(|s| s.joint)),
-            Column::numbers("radius", "mm", numbers(&|s| s.radius_mm)).to(3),
-            Column::numbers("tangential, rms", "deg", numbers(&|s| s.tangential_deg))
-                .to(5)
-                .worst_first(),
-            Column::numbers("radial, rms", "mm", numbers(&|s| s.radial_mm)).to(4),
-            Column::numbers("axial, rms", "mm", numbers(&|s| s.axial_mm)).to(4),
+            Column::numbers("radius", "mm", numbers(&|s| s.circle.radius_mm)).to(3),
+            Column::numbers(
+                "tangential, rms",
+                "deg",
+                numbers(&|s| s.circle.tangential_deg),
+            )
+            .to(5)
+            .worst_first(),
+            Column::numbers("radial, rms", "mm", numbers(&|s| s.circle.radial_mm)).to(4),
+            Column::numbers("axial, rms", "mm", numbers(&|s| s.circle.axial_mm)).to(4),
             Column::numbers(
                 "backlash",
                 "deg",
@@ -115,7 +119,7 @@ pub(crate) fn page(found: &Axes) -> Page {
             format!("joint-{}", joint.joint),
             format!("Joint {}", joint.joint),
         );
-        show_sweep(&mut page, (name, title, "joint angle"), &joint.rows);
+        show_sweep(&mut page, (name, title, "joint angle"), &joint.circle.rows);
     }
     if !plates.is_empty() {
         show_positioners(&mut page, plates);
@@ -136,18 +140,23 @@ fn show_positioners(page: &mut Page, list: &[PositionerAxis]) {
             Column::numbers("from the profile", "mm", numbers(&|s| s.moved_mm))
                 .to(4)
                 .worst_first(),
-            Column::numbers("from the profile", "deg", numbers(&|s| s.turned_deg)).to(5),
-            Column::numbers("radius", "mm", numbers(&|s| s.radius_mm)).to(3),
-            Column::numbers("tangential, rms", "deg", numbers(&|s| s.tangential_deg)).to(5),
-            Column::numbers("radial, rms", "mm", numbers(&|s| s.radial_mm)).to(4),
-            Column::numbers("axial, rms", "mm", numbers(&|s| s.axial_mm)).to(4),
+            Column::numbers("from the profile", "deg", numbers(&|s| s.rotated_deg)).to(5),
+            Column::numbers("radius", "mm", numbers(&|s| s.circle.radius_mm)).to(3),
+            Column::numbers(
+                "tangential, rms",
+                "deg",
+                numbers(&|s| s.circle.tangential_deg),
+            )
+            .to(5),
+            Column::numbers("radial, rms", "mm", numbers(&|s| s.circle.radial_mm)).to(4),
+            Column::numbers("axial, rms", "mm", numbers(&|s| s.circle.axial_mm)).to(4),
         ],
     };
     page.show("positioners", "Axes of positioners", "", table);
     for axis in list {
         let name = format!("axis-e{}", axis.external_axis);
         let title = format!("Axis {}", axis.axis);
-        show_sweep(page, (name, title, "angle of the axis"), &axis.rows);
+        show_sweep(page, (name, title, "angle of the axis"), &axis.circle.rows);
     }
 }
 

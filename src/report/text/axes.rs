@@ -3,7 +3,7 @@
 use crate::report::Style;
 use crate::report::layout::{aligned, row};
 use crate::task::axes::positioner::PositionerAxis;
-use crate::task::axes::{Axes, Joint};
+use crate::task::axes::{Axes, Circle};
 use crate::task::parts::{Pose, Sigma};
 
 /// What is said of the noise where it is not known.
@@ -27,8 +27,14 @@ pub(super) fn text(found: &Axes, style: Style) -> String {
             "", "mm", "rms mdeg", "max", "rms mm", "max", "rms mm", "max", "mdeg", "+/-",
         ]),
     ];
-    rows.extend(found.joints.iter().map(joint));
-    rows.extend(found.positioner_axes.iter().map(turned));
+    rows.extend(found.joints.iter().map(|of| {
+        let backlash_deg = [of.backlash_deg, of.backlash_sigma_deg];
+        sweep(of.joint.to_string(), &of.circle, backlash_deg)
+    }));
+    rows.extend(found.positioner_axes.iter().map(|of| {
+        let name = format!("e{}", of.external_axis);
+        sweep(name, &of.circle, [None; 2])
+    }));
     let mut text = aligned(&rows, style.width);
     text += &format!("{}\n", world(found));
     for axis in &found.positioner_axes {
@@ -88,7 +94,7 @@ fn entry(pose: &Pose) -> String {
 /// An axis of a positioner: where it is, and how far from where the profile has it.
 fn positioner(of: &PositionerAxis) -> String {
     let [x, y, z] = of.direction;
-    let [a, b, c] = of.centre_mm;
+    let [a, b, c] = of.circle.centre_mm;
     let sigma = of.at_sigma.as_ref().map_or_else(
         || NO_NOISE.to_owned(),
         |sigma| {
@@ -105,7 +111,7 @@ fn positioner(of: &PositionerAxis) -> String {
         of.external_axis,
         entry(&of.at),
         of.moved_mm,
-        of.turned_deg
+        of.rotated_deg
     )
 }
 
@@ -121,12 +127,13 @@ pub(in crate::report) fn world(found: &Axes) -> &'static str {
     }
 }
 
-/// The row of an axis of a positioner; of its backlash nothing is said.
-fn turned(of: &PositionerAxis) -> Vec<String> {
+/// The row of a sweep, by the name of its axis; `-` where nothing is known of its backlash.
+fn sweep(name: String, of: &Circle, backlash_deg: [Option<f64>; 2]) -> Vec<String> {
     let mdeg = |angle: f64| format!("{:.2}", 1e3 * angle);
     let mm = |length: f64| format!("{length:.4}");
+    let [width, sigma] = backlash_deg.map(|angle| angle.map_or_else(|| "-".to_owned(), mdeg));
     vec![
-        format!("e{}", of.external_axis),
+        name,
         format!("{:.2}", of.radius_mm),
         mdeg(of.tangential_deg),
         mdeg(of.max_tangential_deg),
@@ -134,26 +141,8 @@ fn turned(of: &PositionerAxis) -> Vec<String> {
         mm(of.max_radial_mm),
         mm(of.axial_mm),
         mm(of.max_axial_mm),
-        "-".into(),
-        "-".into(),
-    ]
-}
-
-fn joint(of: &Joint) -> Vec<String> {
-    let mdeg = |angle: f64| format!("{:.2}", 1e3 * angle);
-    let mm = |length: f64| format!("{length:.4}");
-    let or_none = |angle: Option<f64>| angle.map_or_else(|| "-".to_owned(), mdeg);
-    vec![
-        of.joint.to_string(),
-        format!("{:.2}", of.radius_mm),
-        mdeg(of.tangential_deg),
-        mdeg(of.max_tangential_deg),
-        mm(of.radial_mm),
-        mm(of.max_radial_mm),
-        mm(of.axial_mm),
-        mm(of.max_axial_mm),
-        or_none(of.backlash_deg),
-        or_none(of.backlash_sigma_deg),
+        width,
+        sigma,
     ]
 }
 

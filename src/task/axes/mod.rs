@@ -19,7 +19,9 @@ use crate::program::Source;
 use crate::register::axes::outliers::{Outlier, without_outliers};
 use crate::register::axes::positioner::{Row as OnPlateRow, Sweep as OnPlate};
 use crate::register::axes::sag::{Arm, Frame, Sag as ArmSag, sag};
-use crate::register::axes::{AxesError, Axis, Placed, Row, Sweep, axis, base, tool};
+use crate::register::axes::{
+    AxesError, Axis, Circle as Round, Placed, Row, Sweep, axis, base, tool,
+};
 use crate::register::frame_file::Sigma as Six;
 use crate::register::uncertainty::PoseCovariance;
 use schemars::JsonSchema;
@@ -49,13 +51,9 @@ pub struct Rows {
     pub angle_deg: Vec<f64>,
 }
 
-/// What a sweep says of its joint.
+/// How round a sweep is.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Joint {
-    /// From 1.
-    pub joint: usize,
-    /// Direction of its axis in the world.
-    pub axis: [f64; 3],
+pub struct Circle {
     /// The circle's centre in the world.
     pub centre_mm: [f64; 3],
     /// The circle's radius.
@@ -66,10 +64,6 @@ pub struct Joint {
     pub radial_mm: f64,
     /// Root mean square of the residual out of the circle's plane.
     pub axial_mm: f64,
-    /// Full width of the backlash; `null` where one direction was measured.
-    pub backlash_deg: Option<f64>,
-    /// Its standard deviation.
-    pub backlash_sigma_deg: Option<f64>,
     /// Largest residual along the circle.
     pub max_tangential_deg: f64,
     /// Largest residual in the circle's plane.
@@ -81,6 +75,46 @@ pub struct Joint {
     /// Standard deviation of a coordinate; `null` where three rows leave nothing to estimate it
     /// from.
     pub noise_mm: Option<f64>,
+}
+
+impl Circle {
+    /// With the commanded angle of each row, radians.
+    fn of(circle: &Round, angles: impl Iterator<Item = f64>) -> Self {
+        let mm = |values: &[f64]| values.iter().map(|v| mm_from_m(*v)).collect();
+        Self {
+            centre_mm: circle.line.point_m.map(mm_from_m),
+            radius_mm: mm_from_m(circle.radius_m),
+            tangential_deg: rms(&circle.tangential_rad) / DEG,
+            radial_mm: mm_from_m(rms(&circle.radial_m)),
+            axial_mm: mm_from_m(rms(&circle.axial_m)),
+            max_tangential_deg: largest(&circle.tangential_rad) / DEG,
+            max_radial_mm: mm_from_m(largest(&circle.radial_m)),
+            max_axial_mm: mm_from_m(largest(&circle.axial_m)),
+            rows: Rows {
+                tangential_deg: circle.tangential_rad.iter().map(|t| t / DEG).collect(),
+                radial_mm: mm(&circle.radial_m),
+                axial_mm: mm(&circle.axial_m),
+                angle_deg: angles.map(|angle| angle / DEG).collect(),
+            },
+            noise_mm: circle.noise_m.map(mm_from_m),
+        }
+    }
+}
+
+/// What a sweep says of its joint.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Joint {
+    /// From 1.
+    pub joint: usize,
+    /// Direction of its axis in the world.
+    pub axis: [f64; 3],
+    /// The circle of the point.
+    #[serde(flatten)]
+    pub circle: Circle,
+    /// Full width of the backlash; `null` where one direction was measured.
+    pub backlash_deg: Option<f64>,
+    /// Its standard deviation.
+    pub backlash_sigma_deg: Option<f64>,
 }
 
 /// Frames from sweeps of single joints.
@@ -350,26 +384,12 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 fn joint(axis: &Axis, sweep: &Sweep) -> Joint {
-    let mm = |values: &[f64]| values.iter().map(|v| mm_from_m(*v)).collect();
+    let angles = sweep.rows.iter().map(|row| row.q[axis.joint]);
     Joint {
         joint: axis.joint + 1,
-        axis: axis.line.direction,
-        centre_mm: axis.line.point_m.map(mm_from_m),
-        radius_mm: mm_from_m(axis.radius_m),
-        tangential_deg: rms(&axis.tangential_rad) / DEG,
-        radial_mm: mm_from_m(rms(&axis.radial_m)),
-        axial_mm: mm_from_m(rms(&axis.axial_m)),
+        axis: axis.circle.line.direction,
+        circle: Circle::of(&axis.circle, angles),
         backlash_deg: axis.backlash_rad.map(|b| b.0 / DEG),
         backlash_sigma_deg: axis.backlash_rad.map(|b| b.1 / DEG),
-        max_tangential_deg: largest(&axis.tangential_rad) / DEG,
-        max_radial_mm: mm_from_m(largest(&axis.radial_m)),
-        max_axial_mm: mm_from_m(largest(&axis.axial_m)),
-        rows: Rows {
-            tangential_deg: axis.tangential_rad.iter().map(|t| t / DEG).collect(),
-            radial_mm: mm(&axis.radial_m),
-            axial_mm: mm(&axis.axial_m),
-            angle_deg: sweep.rows.iter().map(|r| r.q[axis.joint] / DEG).collect(),
-        },
-        noise_mm: axis.noise_m.map(mm_from_m),
     }
 }

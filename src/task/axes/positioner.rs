@@ -1,6 +1,7 @@
 //! The axes of positioners from circles of a reflector on the plate.
 
-use super::{largest, rms};
+use super::Circle;
+use crate::geometry::norm;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::external::{column_of, from_files};
 use crate::model::external::Listed;
@@ -23,10 +24,9 @@ pub struct PositionerAxis {
     pub external_axis: usize,
     /// Its direction in the world: growing angles turn about it by the right hand.
     pub direction: [f64; 3],
-    /// A point of it in the world: the circle's centre.
-    pub centre_mm: [f64; 3],
-    /// The circle's radius.
-    pub radius_mm: f64,
+    /// The circle of the point.
+    #[serde(flatten)]
+    pub circle: Circle,
     /// Where it is, as `at` in the profile: z is the axis; the first in the world, another in the
     /// frame of the axis before. What a circle does not show, along and about the axis, is the
     /// profile's.
@@ -35,25 +35,8 @@ pub struct PositionerAxis {
     pub at_sigma: Option<Sigma>,
     /// How far it is from where the profile has it.
     pub moved_mm: f64,
-    /// By what angle it is turned from there.
-    pub turned_deg: f64,
-    /// Root mean square of the residual along the circle.
-    pub tangential_deg: f64,
-    /// Root mean square of the residual in the circle's plane.
-    pub radial_mm: f64,
-    /// Root mean square of the residual out of the circle's plane.
-    pub axial_mm: f64,
-    /// Largest residual along the circle.
-    pub max_tangential_deg: f64,
-    /// Largest residual in the circle's plane.
-    pub max_radial_mm: f64,
-    /// Largest residual out of the circle's plane.
-    pub max_axial_mm: f64,
-    /// Standard deviation of a coordinate; `null` where three rows leave nothing to estimate it
-    /// from.
-    pub noise_mm: Option<f64>,
-    /// Each row.
-    pub rows: super::Rows,
+    /// By what angle it is rotated from there.
+    pub rotated_deg: f64,
 }
 
 /// The axis that a cell of the column `sweep` names, `e2`, by its index; none where it is a joint.
@@ -129,36 +112,16 @@ fn one(profile: &Profile, found: &Found, sweep: &Sweep) -> PositionerAxis {
         unreachable!("an axis of a positioner was swept")
     };
     let gap = axis.at.inverse() * found.at;
-    let mm = |values: &[f64]| values.iter().map(|v| mm_from_m(*v)).collect();
-    let deg = |values: &[f64]| values.iter().map(|v| v / DEG).collect();
-    let angles: Vec<f64> = sweep
-        .rows
-        .iter()
-        .map(|row| row.values[found.axis])
-        .collect();
+    let angles = sweep.rows.iter().map(|row| row.values[found.axis]);
     PositionerAxis {
         axis: axis.axis.clone(),
         positioner: profile.external.positioners[of].name.clone(),
         external_axis: found.axis + 1,
-        direction: found.line.direction,
-        centre_mm: found.line.point_m.map(mm_from_m),
-        radius_mm: mm_from_m(found.radius_m),
+        direction: found.circle.line.direction,
+        circle: Circle::of(&found.circle, angles),
         at: (&found.at).into(),
         at_sigma: found.covariance.as_ref().map(super::as_sigma),
-        moved_mm: mm_from_m(crate::geometry::norm(gap.translation)),
-        turned_deg: gap.rotation.angle() / DEG,
-        tangential_deg: rms(&found.tangential_rad) / DEG,
-        radial_mm: mm_from_m(rms(&found.radial_m)),
-        axial_mm: mm_from_m(rms(&found.axial_m)),
-        max_tangential_deg: largest(&found.tangential_rad) / DEG,
-        max_radial_mm: mm_from_m(largest(&found.radial_m)),
-        max_axial_mm: mm_from_m(largest(&found.axial_m)),
-        noise_mm: found.noise_m.map(mm_from_m),
-        rows: super::Rows {
-            tangential_deg: deg(&found.tangential_rad),
-            radial_mm: mm(&found.radial_m),
-            axial_mm: mm(&found.axial_m),
-            angle_deg: deg(&angles),
-        },
+        moved_mm: mm_from_m(norm(gap.translation)),
+        rotated_deg: gap.rotation.angle() / DEG,
     }
 }

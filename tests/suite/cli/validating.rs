@@ -293,7 +293,8 @@ fn runs_say_since_when_an_arm_errs_otherwise() {
     for night in 0..7 {
         let robot = if night < 4 { "TRUTH" } else { "worn.yaml" };
         let simulate = format!(
-            "simulate --profile {robot} --joints q.csv --noise-mm 0.02 --seed {night} -o n{night}.csv"
+            "simulate --profile {robot} --joints q.csv --noise-mm 0.02 --seed {night} -o \
+             n{night}.csv"
         );
         assert_eq!(run(at, &simulate).0, Some(0));
         files += &format!(" --measurements n{night}.csv");

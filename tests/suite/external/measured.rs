@@ -12,10 +12,11 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 
 /// Standard deviation of a coordinate, mm.
 const NOISE_MM: f64 = 0.03;
-/// What the issue promises along the whole rail, mm.
+/// What is promised along the whole rail, mm.
 const HELD_OUT_MM: f64 = 0.05;
 const TRACK: &str = "external_axes:\n  track:\n    - {axis: E1, direction: [0.6, 0.8, 0.0], up: \
     [0, 0, 1], zero_mm: 500, min_mm: 0, max_mm: 3000}\n";
@@ -97,15 +98,27 @@ pub(super) fn put(folder: &Path, name: &str, text: &str) -> PathBuf {
 }
 
 pub(super) fn json(arguments: &[&str], files: &[(&str, &Path)]) -> Value {
+    let done = run(arguments, files);
+    let reported = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(0), "{reported}");
+    serde_json::from_slice(&done.stdout).expect("JSON")
+}
+
+/// What a command says that refuses what it is given.
+pub(super) fn refused(arguments: &[&str], files: &[(&str, &Path)]) -> String {
+    let done = run(arguments, files);
+    let reported = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(2), "{reported}");
+    reported
+}
+
+fn run(arguments: &[&str], files: &[(&str, &Path)]) -> Output {
     let mut command = poseshift();
     command.args(arguments);
     for (option, path) in files {
         command.arg(option).arg(path);
     }
-    let done = command.output().expect("the program starts");
-    let reported = String::from_utf8_lossy(&done.stderr);
-    assert_eq!(done.status.code(), Some(0), "{reported}");
-    serde_json::from_slice(&done.stdout).expect("JSON")
+    command.output().expect("the program starts")
 }
 
 /// Error of the profile on poses without noise: mean and largest, mm.
@@ -181,19 +194,12 @@ fn a_rail_is_identified_from_sixty_poses() {
 fn files_and_profiles_must_speak_of_the_same_axes() {
     let folder = scratch();
     let csv = measured(&bent(), 60, NOISE_MM, 5);
-    let refused = |profile: &str, csv: &str, words: [&str; 2]| {
+    let mismatch = |profile: &str, csv: &str, words: [&str; 2]| {
         let profile = put(folder.path(), "p.yaml", profile);
         let csv = put(folder.path(), "m.csv", csv);
         for command in ["calibrate", "validate", "diagnose"] {
-            let done = poseshift()
-                .args([command, "--profile"])
-                .arg(&profile)
-                .arg("--measurements")
-                .arg(&csv)
-                .output()
-                .expect("the program starts");
-            let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-            assert_eq!(done.status.code(), Some(2), "{reported}");
+            let files = [("--profile", profile.as_path()), ("--measurements", &csv)];
+            let reported = refused(&[command], &files);
             assert!(
                 words.iter().all(|word| reported.contains(word)),
                 "{reported}"
@@ -201,14 +207,14 @@ fn files_and_profiles_must_speak_of_the_same_axes() {
         }
     };
     let bare = with_tool("", &[]);
-    refused(&bare, &csv, ["e1_mm", "external_axes"]);
+    mismatch(&bare, &csv, ["e1_mm", "external_axes"]);
     let track = with_tool(TRACK, &[]);
     let without = csv.replace("e1_mm", "note");
-    refused(&track, &without, ["E1", "e1_mm"]);
-    refused(&track, &csv.replace("e1_mm", "e1_deg"), ["e1_deg", "e1_mm"]);
-    refused(&track.replace("3000", "900"), &csv, ["limits of E1", "900"]);
+    mismatch(&track, &without, ["E1", "e1_mm"]);
+    mismatch(&track, &csv.replace("e1_mm", "e1_deg"), ["e1_deg", "e1_mm"]);
+    mismatch(&track.replace("3000", "900"), &csv, ["limits of E1", "900"]);
     let both = csv.replace("dir_e1", "e1_deg");
-    refused(&track, &both, ["e1_mm", "e1_deg"]);
+    mismatch(&track, &both, ["e1_mm", "e1_deg"]);
 }
 
 /// The effects of a diagnosis, and those that explain as much.
@@ -335,15 +341,8 @@ fn simulated_measurements_are_identified_again() {
         ("track_scale:2", "linear axis of that number"),
         ("track_ripple:1:x", "period"),
     ] {
-        let done = poseshift()
-            .args(["calibrate", "--identify", word, "--profile"])
-            .arg(&nominal)
-            .arg("--measurements")
-            .arg(&made)
-            .output()
-            .expect("the program starts");
-        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{reported}");
+        let files = [("--profile", nominal.as_path()), ("--measurements", &made)];
+        let reported = refused(&["calibrate", "--identify", word], &files);
         assert!(reported.contains(says), "{reported}");
     }
 }
@@ -424,26 +423,14 @@ fn a_plan_has_places_of_the_rail_and_tells_its_errors_apart() {
         (["--program", "drive.mod"], "external axes"),
         (["--stations", "1"], "at least 2 places"),
     ] {
-        let done = poseshift()
-            .current_dir(folder.path())
-            .args([
-                "plan",
-                "--count",
-                "44",
-                "--candidates",
-                "200",
-                "-o",
-                "none.csv",
-                "--profile",
-            ])
-            .arg(&profile)
-            .args(more)
-            .output()
-            .expect("the program starts");
-        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{reported}");
+        let none = folder.path().join("none.csv");
+        let words = ["plan", "--count", "44", "--candidates", "200"];
+        let reported = refused(
+            &[&words[..], &more[..]].concat(),
+            &[("-o", none.as_path()), ("--profile", &profile)],
+        );
         assert!(reported.contains(says), "{reported}");
-        assert!(!folder.path().join("none.csv").exists());
+        assert!(!none.exists());
     }
 }
 

@@ -2,7 +2,7 @@
 //! tell them is refused.
 
 use super::landing::{arm, inverse};
-use super::measured::{json, put, with_tool};
+use super::measured::{json, put, refused, with_tool};
 use super::tool;
 use crate::physics::external::{Table, TableFault, plate};
 use crate::physics::matrix::{M4, cross, dot, frame, point, times, turn_z};
@@ -21,8 +21,10 @@ const NOISE_MM: f64 = 0.03;
 const HELD_OUT_MM: f64 = 0.05;
 /// Where the device stands.
 const DEVICE: [f64; 6] = [2.1, -3.3, 0.4, 0.02, -0.03, 1.1];
-const ONE: &str = "        - {axis: E1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: 20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";
-const TWO: &str = "        - {axis: E2, at: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: -85, ry_deg: 3, rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
+const ONE: &str = "        - {axis: E1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: \
+    20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";
+const TWO: &str = "        - {axis: E2, at: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: -85, ry_deg: 3, \
+    rz_deg: 0}, min_deg: -180, max_deg: 180}\n";
 const REFLECTORS: [[f64; 3]; 3] = [
     [0.30, 0.05, 0.02],
     [-0.18, 0.24, 0.11],
@@ -37,13 +39,15 @@ fn section(axes: usize) -> String {
     let head = "external_axes:\n  positioners:\n    - name: STN1\n      axes:\n";
     let axes = [ONE, TWO][..axes].concat();
     format!(
-        "{head}{axes}      plate: {{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, rz_deg: {rz}}}\n"
+        "{head}{axes}      plate: {{x_mm: {x}, y_mm: {y}, z_mm: {z}, rx_deg: {rx}, ry_deg: {ry}, \
+         rz_deg: {rz}}}\n"
     )
 }
 
 /// A profile with these external axes whose device stands where it is known to.
 fn in_world(section: &str) -> String {
-    let place = "world_from_device: {pose: {x_mm: 2100, y_mm: -3300, z_mm: 400, rx_deg: 1.1459155902616465, ry_deg: -1.7188733853924696, rz_deg: 63.02535746439057}}";
+    let place = "world_from_device: {pose: {x_mm: 2100, y_mm: -3300, z_mm: 400, rx_deg: \
+        1.1459155902616465, ry_deg: -1.7188733853924696, rz_deg: 63.02535746439057}}";
     let plain = with_tool(section, &[]);
     assert!(plain.contains("calibration: {"));
     plain.replace("calibration: {", &format!("calibration: {{{place}, "))
@@ -265,27 +269,48 @@ fn a_diagnosis_of_the_arm_says_that_it_leaves_plates_out() {
     let effects: Vec<&str> = effects.iter().map(String::as_str).collect();
     let text = with_tool(&section(1), &effects).replace("points: {}", "points: {tcp: [0, 0, 0]}");
     let profile = put(folder.path(), "p.yaml", &text);
-    let run = |text: &str| {
-        let csv = put(folder.path(), "m.csv", text);
-        let done = poseshift()
+    let run = |texts: &[String]| {
+        let mut command = poseshift();
+        command
             .args(["diagnose", "--json", "--profile"])
-            .arg(&profile)
-            .arg("--measurements")
-            .arg(&csv)
-            .output()
-            .expect("the program starts");
+            .arg(&profile);
+        for (number, text) in texts.iter().enumerate() {
+            let csv = put(folder.path(), &format!("m{number}.csv"), text);
+            command.arg("--measurements").arg(csv);
+        }
+        if texts.len() > 1 {
+            command.arg("--runs");
+        }
+        let done = command.output().expect("the program starts");
         let all = [done.stdout, done.stderr].concat();
         String::from_utf8_lossy(&all).into_owned()
     };
-    let both = run(&(cell.header() + &tool + &plates));
+    let both = cell.header() + &tool + &plates;
+    let reported = run(std::slice::from_ref(&both));
     assert!(
-        both.contains("plate-rows-left-out") && both.contains("18 rows"),
-        "{both}"
+        reported.contains("plate-rows-left-out") && reported.contains("18 rows"),
+        "{reported}"
     );
-    let alone = run(&(cell.header() + &plates));
+    let plates = cell.header() + &plates;
+    let none = "every row is of a point on a plate";
+    let reported = run(std::slice::from_ref(&plates));
+    assert!(reported.contains(none), "{reported}");
+    // of runs too
+    let runs: Vec<String> = (0..5)
+        .map(|_| cell.header() + &cell.of_tool(20, NOISE_MM, &mut random))
+        .collect();
+    let mut mixed = runs.clone();
+    mixed[2] += plates.split_once('\n').expect("rows").1;
+    let reported = run(&mixed);
     assert!(
-        alone.contains("every row is of a point on a plate"),
-        "{alone}"
+        reported.contains("plate-rows-left-out") && reported.contains("18 rows"),
+        "{reported}"
+    );
+    assert_eq!(reported.matches("\"rows\": 20").count(), 5, "{reported}");
+    let reported = run(&[&runs[..4], &[plates]].concat());
+    assert!(
+        reported.contains(none) && reported.contains("m4.csv"),
+        "{reported}"
     );
 }
 
@@ -304,20 +329,9 @@ fn two_axes_are_identified_with_a_known_arm() {
     recovers(2, 24, true);
 }
 
-/// What a command says that refuses a file.
-fn refused(command: &str, more: &[&str], profile: &Path, csv: &Path) -> String {
-    let done = poseshift()
-        .arg(command)
-        .args(more)
-        .arg("--profile")
-        .arg(profile)
-        .arg("--measurements")
-        .arg(csv)
-        .output()
-        .expect("the program starts");
-    let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-    assert_eq!(done.status.code(), Some(2), "{reported}");
-    reported
+/// The options that name these files.
+fn of<'a>(profile: &'a Path, csv: &'a Path) -> [(&'static str, &'a Path); 2] {
+    [("--profile", profile), ("--measurements", csv)]
 }
 
 #[test]
@@ -334,7 +348,7 @@ fn angles_that_cannot_tell_an_axis_are_refused_by_name() {
     };
     let good = file(&all, &mut random);
     let csv = put(folder.path(), "m.csv", &good);
-    let files = [("--profile", profile.as_path()), ("--measurements", &csv)];
+    let files = of(&profile, &csv);
     let report = json(&["calibrate", "--json"], &files);
     assert!(
         report["plates"].is_null() && report["after"]["position"]["mean_mm"].as_f64() < Some(0.1),
@@ -392,21 +406,21 @@ fn angles_that_cannot_tell_an_axis_are_refused_by_name() {
         ),
     ] {
         let csv = put(folder.path(), "bad.csv", &text);
-        let reported = refused("calibrate", more, &profile, &csv);
+        let reported = refused(&[&["calibrate"], more].concat(), &of(&profile, &csv));
         for word in says {
             assert!(reported.contains(word), "{word}: {reported}");
         }
     }
     // an axis by name is sought where the other stood still
     let csv = put(folder.path(), "still.csv", &file(&still, &mut random));
-    let files = [("--profile", profile.as_path()), ("--measurements", &csv)];
+    let files = of(&profile, &csv);
     let words = "positioner_axis:2,positioner_scale:2";
     let report = json(&["calibrate", "--json", "--identify", words], &files);
     assert!(value(&report["parameters"], "positioner_axis axis 2 x_mm").1 < 0.1);
     // a device that stands elsewhere than the profile has it, and an axis that goes the other way
     let csv = put(folder.path(), "m.csv", &good);
     let elsewhere = put(folder.path(), "q.yaml", &with_tool(&section(2), &[]));
-    let reported = refused("calibrate", &[], &elsewhere, &csv);
+    let reported = refused(&["calibrate"], &of(&elsewhere, &csv));
     assert!(
         reported.contains("from where the profile has it") || reported.contains("do not go round"),
         "{reported}"
@@ -416,7 +430,7 @@ fn angles_that_cannot_tell_an_axis_are_refused_by_name() {
         "q.yaml",
         &known.replace("sign: -1", "sign: 1"),
     );
-    let reported = refused("calibrate", &[], &other, &csv);
+    let reported = refused(&["calibrate"], &of(&other, &csv));
     assert!(
         reported.contains("from where the profile has it") || reported.contains("do not go round"),
         "{reported}"
@@ -438,7 +452,7 @@ fn a_known_plate_tells_the_zero_or_itself() {
     let profile = put(folder.path(), "p.yaml", &text);
     let csv = cell.header() + &cell.of_plate(&angles, NOISE_MM, &mut random);
     let csv = put(folder.path(), "m.csv", &csv);
-    let files = [("--profile", profile.as_path()), ("--measurements", &csv)];
+    let files = of(&profile, &csv);
     // the hidden zero turns the plate as well
     let report = json(&["calibrate", "--json"], &files);
     let (rz, sigma) = value(&report["parameters"], "positioner_plate axis 1 x_mm");
@@ -585,15 +599,8 @@ fn circles_of_a_reflector_give_the_axes_of_a_positioner() {
         let good = std::fs::read_to_string(folder.path().join("s.csv")).expect("written");
         assert!(good.contains(from), "{from}");
         let csv = put(folder.path(), "bad.csv", &good.replace(from, to));
-        let done = poseshift()
-            .arg("axes")
-            .arg(&csv)
-            .arg("--profile")
-            .arg(&profile)
-            .output()
-            .expect("the program starts");
-        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{reported}");
+        let sweeps = csv.to_string_lossy();
+        let reported = refused(&["axes", &sweeps], &[("--profile", &profile)]);
         assert!(reported.contains(says), "{reported}");
     }
 }
@@ -634,7 +641,8 @@ fn angles_are_planned_simulated_and_found_again() {
     assert_eq!(text.lines().count(), 17);
     // measured on a robot with these errors
     let points = "      points: {r1: [300.4, 50.2, 19.7], r2: [-180.3, 239.8, 110.6]}\n";
-    let effects = "effects: [{effect: positioner_axis, axis: 2, x_mm: 0.8, ry_deg: 0.05}, {effect: positioner_scale, axis: 1, ratio: 2.0e-4}";
+    let effects = "effects: [{effect: positioner_axis, axis: 2, x_mm: 0.8, ry_deg: 0.05}, {effect: \
+        positioner_scale, axis: 1, ratio: 2.0e-4}";
     let real = in_world(&(section(2) + points)).replace("effects: [", effects);
     let real = put(folder.path(), "real.yaml", &real);
     let made = folder.path().join("m.csv");
@@ -646,7 +654,7 @@ fn angles_are_planned_simulated_and_found_again() {
     json(&["simulate", "--json", "--noise-mm", "0.03"], &files);
     let rows = std::fs::read_to_string(&made).expect("written");
     assert_eq!(rows.lines().count(), 33, "{rows}");
-    let files = [("--profile", profile.as_path()), ("--measurements", &made)];
+    let files = of(&profile, &made);
     let words = "positioner_axis,positioner_scale";
     let found = json(&["calibrate", "--json", "--identify", words], &files);
     for (key, is) in [
@@ -669,14 +677,9 @@ fn angles_are_planned_simulated_and_found_again() {
         (["--plate", "STN2"], "no such positioner"),
         (["--plate", "STN1"], "no `points`"),
     ] {
-        let done = poseshift()
-            .args(["plan", "--count", "9", "--candidates", "50", "--profile"])
-            .arg(&profile)
-            .args(more)
-            .output()
-            .expect("the program starts");
-        let reported = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert_eq!(done.status.code(), Some(2), "{reported}");
+        let words = ["plan", "--count", "9", "--candidates", "50"];
+        let words = [&words[..], &more[..]].concat();
+        let reported = refused(&words, &[("--profile", &profile)]);
         assert!(reported.contains(says), "{reported}");
     }
 }

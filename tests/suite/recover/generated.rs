@@ -21,7 +21,8 @@ fn held_out_errors_come_down_to_what_level_3_lacks() {
         mark(&mut rows, |number| number.is_multiple_of(2));
         let [frames, geometry, compliance] = three(&profile, &rows);
         println!(
-            "{}: {frames:.3} {geometry:.3} {compliance:.3} mm; with what level 3 lacks {:.3}, noise \
+            "{}: {frames:.3} {geometry:.3} {compliance:.3} mm; with what level 3 lacks {:.3}, \
+             noise \
              and what nobody knows {:.3}",
             shape.name, set.level_3_mm, set.floor_mm
         );
