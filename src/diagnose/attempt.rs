@@ -7,8 +7,8 @@ use super::fit::Fit;
 use super::given::{Given, Kept};
 use super::noise::{Repeats, of_repeats};
 use super::refit::{Refit, refit, shrink};
-use super::search::{Chosen, World};
-use super::session::{Session, Trust, for_choice, session};
+use super::search::Chosen;
+use super::session::{Session, Trust, for_choice, held_of, session};
 use super::table::Column;
 use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
@@ -37,6 +37,8 @@ pub(super) struct Attempt {
     pub session: Session,
     pub chosen: Vec<Chosen>,
     pub refit: Refit,
+    /// How much of each row's own numbers its expectation follows.
+    pub leverage: Vec<f64>,
     /// Functions outside the registry that explain the residual.
     pub unknown: Vec<Unknown>,
     /// Functions outside the registry that explain more than the effect with this index.
@@ -79,8 +81,8 @@ impl Attempt {
 
     /// Its merit with residuals of this variance: less is better.
     pub(super) fn merit_at(&self, variance: f64) -> f64 {
-        let fit = &self.refit.fit;
-        self.merit - fit.deviance + fit.deviance / variance
+        let deviance = self.refit.deviance;
+        self.merit - deviance + deviance / variance
     }
 }
 
@@ -88,12 +90,14 @@ impl Attempt {
 fn outdone(
     session: &Session,
     library: &Library,
-    world: &World,
     chosen: &[Chosen],
     fit: &Fit,
     refit: &Refit,
 ) -> Vec<(usize, Unknown)> {
-    let base = fit.with_held(&session.residual, &world.held(&[]));
+    let base = fit.with_held(
+        &session.residual,
+        &held_of(&session.columns, &session.shares),
+    );
     let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
     let given = Given::of(&base, fit, &effects);
     let without = |i: usize| -> Vec<bool> { (0..chosen.len()).map(|k| k != i).collect() };
@@ -101,7 +105,7 @@ fn outdone(
     let best = library.scan(&session.layout, &base, &given, &kept);
     let mut outdone = Vec::new();
     for ((i, own), best) in chosen.iter().enumerate().zip(best) {
-        let left = refit.fit.deviance.min(fit.deviance);
+        let left = refit.deviance.min(fit.deviance);
         let own_gain = (given.deviance(&kept[i]) - left) / fit.scale.powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
         let more = own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER;
@@ -119,18 +123,18 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     let Trust::Calibrated { g } = trust else {
         return None;
     };
-    let (strain, count) = refit.fit.strain;
+    let (strain, count) = refit.strain;
     if count == 0 {
         return None;
     }
-    let p = chance(strain / (refit.fit.scale.powi(2) * (1.0 + g)), count);
+    let p = chance(strain / (refit.scale.powi(2) * (1.0 + g)), count);
     (p < STRAINED).then_some(p)
 }
 
 /// The residual over the noise that is stated, or that repeated poses show, where that is beyond
 /// chance.
 fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<f64> {
-    let (scale, freedom) = (refit.fit.scale, refit.fit.freedom);
+    let (scale, freedom) = (refit.scale, refit.freedom);
     if session.problem.sigma_assumed {
         let repeats = repeats?;
         let is_louder = repeats.chance_of(scale, freedom) < normal_tail(LOUDER);
@@ -150,7 +154,7 @@ fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refi
         .filter(|r| used[*r])
         .map(|r| session.layout.row(r).len())
         .sum::<usize>() as f64;
-    refit.fit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
+    refit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
 }
 
 /// Searches on one set of assumptions, and asks what of the outcome must be questioned.
@@ -187,39 +191,34 @@ pub(super) fn attempt(
     }
     let chosen = session.world(&used, &options.accept).ordered(chosen);
     progress("fitting what was found");
-    let mut refit = refit(
-        &session.problem,
-        &session.layout,
-        &session.estimate,
-        &session.shares,
-        &chosen,
-        &used,
-        session.floor(),
-    );
-    let world = session.world(&used, &options.accept);
+    let (mut refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
-    let fit = world.fit(&chosen);
-    let given = Given::of(&refit.fit, &refit.fit, &[]);
-    let left = library.scan(&session.layout, &refit.fit, &given, &[given.kept(&[])]);
+    let given = Given::of(&last, &last, &[]);
+    let left = library.scan(&session.layout, &last, &given, &[given.kept(&[])]);
     let mut unknown = left.into_iter().next().unwrap_or_default();
     unknown.retain(|u| u.gain > library.cost(u.count));
-    let outdone = outdone(&session, &library, &world, &chosen, &fit, &refit);
-    let likeness = likeness(&session.problem, &session.layout, &used, &refit.fit);
+    let likeness = likeness(&session.problem, &session.layout, &used, &last);
+    let leverage = last.leverage(&session.layout);
+    if matches!(trust, Trust::Calibrated { .. }) {
+        shrink(session.start(), &mut refit, &last);
+    }
+    // each fit holds a basis as large as all columns: no more of them at once than needed
+    drop(last);
+    let fit = session.world(&used, &options.accept).fit(&chosen);
+    let outdone = outdone(&session, &library, &chosen, &fit, &refit);
     let strained = strain(trust, &refit);
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)
         .and_then(|_| of_repeats(&session.problem, &session.layout, &refit.residual, &used));
     let louder = louder(&session, &refit, repeats);
     let merit = merit(&session, trust, &used, &chosen, &refit);
-    if matches!(trust, Trust::Calibrated { .. }) {
-        shrink(&session.problem, &session.shares, &mut refit);
-    }
     Ok((
         Attempt {
             session,
             chosen,
             refit,
+            leverage,
             unknown,
             outdone,
             likeness,

@@ -75,18 +75,7 @@ pub(super) fn conclude(
         Vec::new()
     };
     stand(attempt, &mut found, &alternatives, &stand_ins);
-    let again = |chosen: &[Chosen]| {
-        refit(
-            &session.problem,
-            &session.layout,
-            &session.estimate,
-            &session.shares,
-            chosen,
-            &used,
-            session.floor(),
-        )
-        .estimate
-    };
+    let again = |chosen: &[Chosen]| refit(session.start(), chosen, &used).0.estimate;
     let each = 0..if options.steps {
         attempt.chosen.len()
     } else {
@@ -126,7 +115,7 @@ pub(super) fn conclude(
             &session.present_estimate,
             &used,
             &session.present,
-            attempt.refit.fit.scale,
+            attempt.refit.scale,
         ),
         cannot_test: session.candidates.cannot_test.clone(),
         absorbed: attempt.trust == Trust::Nothing,
@@ -142,7 +131,7 @@ pub(super) fn conclude(
             &attempt.refit.estimate,
             &used,
             &attempt.refit.residual,
-            attempt.refit.fit.scale,
+            attempt.refit.scale,
         ),
         judged: proof.judged().filter(|_| !attempt.chosen.is_empty()),
         outliers: outliers(attempt, measurements, &residual_lengths),
@@ -157,7 +146,7 @@ pub(super) fn conclude(
 /// Noise of a coordinate, where it comes from, and the residual of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     let sigma_m = attempt.sigma_m();
-    let residual_m = attempt.refit.fit.scale * sigma_m;
+    let residual_m = attempt.refit.scale * sigma_m;
     if !attempt.session.problem.sigma_assumed {
         return (sigma_m, NoiseSource::Given, residual_m);
     }
@@ -191,7 +180,7 @@ fn effects(
             sigmas: refit.sigmas[i].clone(),
             gain: chosen.gain,
             p_value: corrected(chosen.gain, parameters, chosen.candidate.peers),
-            bic: chosen.gain - parameters as f64 * refit.fit.freedom.ln(),
+            bic: chosen.gain - parameters as f64 * refit.freedom.ln(),
             accepted: options.accept.iter().any(asked_for),
             before: spreads[1 + i],
             after: spreads[2 + i],
@@ -228,12 +217,12 @@ fn outliers(attempt: &Attempt, measurements: &Measurements, residual_m: &[f64]) 
         let range = layout.row(row);
         let squares = refit.residual[range.clone()].iter().map(|r| r * r);
         let length = squares.sum::<f64>().sqrt();
-        if length > OUTLIER * limit(range.len()) * refit.fit.scale {
+        if length > OUTLIER * limit(range.len()) * refit.scale {
             outliers.push(OutlierRow {
                 line: m.line.clone(),
                 id: m.id.clone(),
                 length_m: residual_m[row],
-                times: length / refit.fit.scale,
+                times: length / refit.scale,
             });
         }
     }
@@ -243,14 +232,13 @@ fn outliers(attempt: &Attempt, measurements: &Measurements, residual_m: &[f64]) 
 
 /// Rows that the model follows whatever they say, by their leverage.
 fn followed(attempt: &Attempt, measurements: &Measurements) -> Vec<FollowedRow> {
-    let leverage = attempt.refit.fit.leverage(&attempt.session.layout);
-    let rows = measurements.rows.iter().zip(leverage);
+    let rows = measurements.rows.iter().zip(&attempt.leverage);
     let mut followed: Vec<FollowedRow> = rows
-        .filter(|(_, leverage)| *leverage > FOLLOWED)
+        .filter(|(_, leverage)| **leverage > FOLLOWED)
         .map(|(m, leverage)| FollowedRow {
             line: m.line.clone(),
             id: m.id.clone(),
-            leverage,
+            leverage: *leverage,
         })
         .collect();
     followed.sort_by(|a, b| b.leverage.total_cmp(&a.leverage));
@@ -296,15 +284,7 @@ fn telling_poses(
         let world = session.world(used, &options.accept);
         let mut other = attempt.chosen.clone();
         other[alternative.instead_of] = world.chosen(scored);
-        let refitted = refit(
-            &session.problem,
-            &session.layout,
-            &session.estimate,
-            &session.shares,
-            &other,
-            used,
-            session.floor(),
-        );
+        let (refitted, _) = refit(session.start(), &other, used);
         let tells = (
             found[alternative.instead_of].effect.label(),
             alternative.effect.label(),

@@ -254,13 +254,7 @@ pub fn diagnose(
             // the calibration itself may be out of date
             match attempt(profile, measurements, Trust::Nothing, options, progress) {
                 Ok(anew) => {
-                    let scale = anew
-                        .0
-                        .refit
-                        .fit
-                        .scale
-                        .min(trusted.0.refit.fit.scale)
-                        .powi(2);
+                    let scale = anew.0.refit.scale.min(trusted.0.refit.scale).powi(2);
                     let better = |a: &Attempt| a.merit_at(scale);
                     if better(&anew.0) + 10.0 < better(&trusted.0) {
                         anew

@@ -215,7 +215,7 @@ fn is_seldom(found: &Found) -> bool {
 /// of it.
 fn nobody_knows(attempt: &Attempt) -> bool {
     let states = !attempt.session.problem.sigma_assumed || attempt.repeats.is_some();
-    !states && attempt.refit.fit.freedom < TELLS_NOISE
+    !states && attempt.refit.freedom < TELLS_NOISE
 }
 
 /// Why the effects found may not be the answer, one sentence each; none where they are.
@@ -287,7 +287,7 @@ fn objections(
         reasons.push(format!(
             "nothing states the noise, and {:.0} numbers beyond what is fitted are too few to tell \
              it: state sigma_mm or repeat poses",
-            attempt.refit.fit.freedom
+            attempt.refit.freedom
         ));
     }
     if let Some(scale) = attempt.louder {

@@ -11,7 +11,6 @@ use super::waves::near;
 use crate::geometry::units::mm_from_m;
 use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Spread;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// From so many rows on, one part of them is left out, once.
@@ -225,12 +224,8 @@ pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
             configurations: test.iter().map(|r| configurations[*r]).collect(),
         }
     };
-    // what is left out does not depend on the other parts
-    let parts: Vec<Part> = tests
-        .par_iter()
-        .filter(|t| !t.is_empty())
-        .map(one)
-        .collect();
+    // one after the other: each holds a basis of its own, and its search runs on all cores
+    let parts = tests.iter().filter(|t| !t.is_empty()).map(one);
     let (mut equal, mut of_rows) = ([Vec::new(), Vec::new()], Vec::new());
     for part in parts {
         for (all, own) in lengths.iter_mut().zip(part.lengths) {

@@ -23,8 +23,14 @@ pub struct Refit {
     pub sigmas: Vec<Vec<f64>>,
     /// What was fitted along and came out where nothing physical is.
     pub impossible: Vec<Beyond>,
-    /// The last fit, of the residuals at the estimate.
-    pub fit: Fit,
+    /// The residual's `rᵀ M r`, see [`Fit`].
+    pub deviance: f64,
+    /// Residuals are so many standard deviations of the rows.
+    pub scale: f64,
+    /// Measured numbers in use, by weight, minus free parameters.
+    pub freedom: f64,
+    /// Sum of squared parts along columns held by their calibration, and how many there are.
+    pub strain: (f64, usize),
     /// Residuals at the estimate, in standard deviations of the rows.
     pub residual: Vec<f64>,
 }
@@ -61,18 +67,33 @@ pub fn put(estimate: &mut Estimate, chosen: &[Chosen]) -> Vec<usize> {
     places
 }
 
-/// Fits everything together on the rows in use.
+/// What a fit begins with.
+#[derive(Clone, Copy)]
+pub(super) struct Start<'a> {
+    /// The comparison.
+    pub problem: &'a Problem,
+    /// Numbers of its rows.
+    pub layout: &'a Layout,
+    /// Values without the effects that are found.
+    pub estimate: &'a Estimate,
+    /// How freely each of the problem's parameters is fitted: see [`Held`].
+    pub shares: &'a [f64],
+    /// The scale is at least this.
+    pub floor: f64,
+}
+
+/// Fits everything together on the rows in use; the last fit is that of the residuals at the
+/// estimate.
 #[must_use]
-pub fn refit(
-    problem: &Problem,
-    layout: &Layout,
-    start: &Estimate,
-    shares: &[f64],
-    chosen: &[Chosen],
-    used: &[bool],
-    floor: f64,
-) -> Refit {
-    let mut estimate = start.clone();
+pub(super) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, Fit) {
+    let Start {
+        problem,
+        layout,
+        shares,
+        floor,
+        ..
+    } = start;
+    let mut estimate = start.estimate.clone();
     let places = put(&mut estimate, chosen);
     let mut parameters: Vec<Parameter> = problem.parameters.clone();
     let mut owners = Vec::new();
@@ -94,8 +115,7 @@ pub fn refit(
             });
         }
     }
-    let shares: Vec<f64> = shares
-        .iter()
+    let shares: Vec<f64> = (shares.iter())
         .copied()
         .chain(owners.iter().map(|_| 1.0))
         .collect();
@@ -124,14 +144,18 @@ pub fn refit(
                 .map(|c| own.by_ref().take(c.candidate.sought.len()).collect())
                 .collect();
             let impossible = beyond(&estimate, problem, &fit, &residual, &held);
-            return Refit {
+            let refit = Refit {
                 estimate,
                 places,
                 sigmas,
                 impossible,
-                fit,
+                deviance: fit.deviance,
+                scale: fit.scale,
+                freedom: fit.freedom,
+                strain: fit.strain,
                 residual,
             };
+            return (refit, fit);
         }
         // what is held by its calibration stays: its prior stands at the profile's value. The
         // effects are estimated with it integrated out, what is free then fits the rest
@@ -189,19 +213,20 @@ fn beyond(
 ///
 /// # Source
 /// W. James, C. Stein, "Estimation with quadratic loss" (1961).
-pub fn shrink(problem: &Problem, shares: &[f64], refit: &mut Refit) {
-    let (strain, count) = refit.fit.strain;
+pub(super) fn shrink(start: Start, refit: &mut Refit, fit: &Fit) {
+    let Start {
+        problem, shares, ..
+    } = start;
+    let (strain, count) = refit.strain;
     if count < 3 {
         return;
     }
-    let chance = refit.fit.scale.powi(2) * (count as f64 - 2.0);
+    let chance = refit.scale.powi(2) * (count as f64 - 2.0);
     let factor = (1.0 - chance / strain.max(chance)).max(0.0);
     if factor < 0.05 {
         return;
     }
-    let values = refit
-        .fit
-        .values(shares.len() + refit.sigmas.iter().map(Vec::len).sum::<usize>());
+    let values = fit.values(shares.len() + refit.sigmas.iter().map(Vec::len).sum::<usize>());
     // what is free goes along: it has fitted the residuals already, so that its values are what the
     // others' take
     let held = shares.iter().copied().find(|s| *s < 1.0).unwrap_or(1.0);

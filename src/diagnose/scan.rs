@@ -4,7 +4,7 @@ use super::candidates::Candidate;
 use super::fit::{Fit, Gain, Projection};
 use super::given::{Given, Group};
 use super::search::{Chosen, Scored, World, overlaps};
-use super::steps::Steps;
+use super::steps::{Cross, Steps};
 use super::table::Column;
 use super::weights::{Products, Weighted};
 use crate::model::effects::Kind;
@@ -41,7 +41,7 @@ struct Side {
     /// Products of each candidate's columns with those of the effects.
     cross: Vec<Vec<f64>>,
     /// The same from each first row on, of candidates that begin at a row.
-    steps: Vec<Vec<Vec<Vec<f64>>>>,
+    steps: Vec<Option<Cross>>,
 }
 
 impl Side {
@@ -56,11 +56,15 @@ impl Side {
         let columns = (0..products.len()).into_par_iter();
         let cross = columns.map(|i| given.cross(&projection(world, &seen.base, products, i)));
         let cross = cross.collect();
-        let from = |steps: &Option<Steps>| match steps {
-            Some(steps) => steps.cross(world.layout, &given),
-            None => Vec::new(),
+        let from = |(steps, candidate): (&Option<Steps>, &Candidate)| {
+            let own = |steps: &Steps| {
+                let columns = from_row_1(world, candidate);
+                steps.cross(&seen.base.fit, world.layout, columns, &given)
+            };
+            steps.as_ref().map(own)
         };
-        let steps = seen.steps.iter().map(from).collect();
+        let all = seen.steps.iter().zip(&world.candidates.list);
+        let steps = all.map(from).collect();
         Self {
             given,
             cross,
@@ -76,6 +80,12 @@ fn projection(world: &World, base: &Weighted, products: &[Products], column: usi
     (world.plain).projection(base, &own, &products[column])
 }
 
+/// Columns of a candidate that begins at a row, as if it began with the first.
+fn from_row_1(world: &World, candidate: &Candidate) -> Vec<Column> {
+    let own = candidate.columns.iter();
+    own.map(|i| world.candidates.columns[*i].column()).collect()
+}
+
 impl Seen {
     fn of(world: &World, products: &[Products], base: Weighted) -> Self {
         let group = |candidate: &Candidate| {
@@ -88,9 +98,8 @@ impl Seen {
         let groups = world.candidates.list.par_iter().map(group).collect();
         let begins = |candidate: &Candidate| {
             candidate.row.map(|_| {
-                let own = candidate.columns.iter();
-                let own: Vec<Column> = own.map(|i| world.candidates.columns[*i].column()).collect();
-                Steps::of(&base.fit, world.layout, &own, ROWS_GIVEN)
+                let columns = from_row_1(world, candidate);
+                Steps::of(&base.fit, world.layout, columns, ROWS_GIVEN)
             })
         };
         let steps = world.candidates.list.par_iter().map(begins).collect();
@@ -245,18 +254,18 @@ impl View {
                 cost: world.cost(candidate, gain.count),
                 gain,
             };
-            if let Some(steps) = &self.seen.steps[index] {
-                let free = vec![None; candidate.columns.len()];
-                let cross = &side.steps[index];
-                let each = steps.rows.iter().zip(&steps.groups).zip(cross);
+            if let (Some(steps), Some(cross)) = (&self.seen.steps[index], &side.steps[index]) {
+                let count = candidate.columns.len();
+                let free = vec![None; count];
+                let each = steps.rows.iter().enumerate();
                 return each
-                    .filter_map(|((row, group), cross)| {
+                    .filter_map(|(k, row)| {
                         let row = u32::try_from(row + 1).ok();
                         if taken(candidate, row) {
                             return None;
                         }
-                        let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
-                        let gain = side.given.gain(group, &cross, &kept, &free)?;
+                        let (group, cross) = (steps.group(k), cross.of_row(k, count));
+                        let gain = side.given.gain(&group, &cross, &kept, &free)?;
                         Some(of(row, gain))
                     })
                     .collect();

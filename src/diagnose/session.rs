@@ -3,7 +3,7 @@
 use super::candidates::{Candidate, Candidates, Tried, columns_of};
 use super::fit::Held;
 use super::noise::{Repeats, of_repeats};
-use super::refit::refit;
+use super::refit::{Start, refit};
 use super::search::{Chosen, World};
 use super::table::{Column, Layout, table};
 use super::waves;
@@ -154,7 +154,7 @@ fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> 
 }
 
 /// Columns that are held, and how freely.
-fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
+pub(super) fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
     let both = columns.iter().zip(shares);
     both.map(|(column, share)| Held {
         column,
@@ -249,16 +249,14 @@ pub fn session(
                 Err(IdentifyError::NotConverged { .. }) => {
                     let shares = vec![1.0; problem.parameters.len()];
                     let used = for_choice(measurements);
-                    refit(
-                        &problem,
-                        &layout,
-                        &present_estimate,
-                        &shares,
-                        &[],
-                        &used,
-                        1e-6,
-                    )
-                    .estimate
+                    let start = Start {
+                        problem: &problem,
+                        layout: &layout,
+                        estimate: &present_estimate,
+                        shares: &shares,
+                        floor: 1e-6,
+                    };
+                    refit(start, &[], &used).0.estimate
                 }
                 Err(other) => return Err(other),
             }
@@ -281,7 +279,11 @@ pub fn session(
     let (residual, columns) = table(&problem, &estimate, &problem.parameters);
     let used = for_choice(measurements);
     let kept = distinct(&layout, &residual, &held_of(&columns, &shares), &used);
-    let columns: Vec<Column> = kept.iter().map(|i| columns[*i].clone()).collect();
+    let columns = columns.into_iter().enumerate();
+    let columns: Vec<Column> = columns
+        .filter(|(i, _)| kept.contains(i))
+        .map(|(_, column)| column)
+        .collect();
     let shares: Vec<f64> = kept.iter().map(|i| shares[*i]).collect();
     problem.parameters = kept
         .iter()
@@ -316,6 +318,18 @@ pub fn session(
 }
 
 impl Session {
+    /// What a fit of everything begins with.
+    #[must_use]
+    pub(super) fn start(&self) -> Start<'_> {
+        Start {
+            problem: &self.problem,
+            layout: &self.layout,
+            estimate: &self.estimate,
+            shares: &self.shares,
+            floor: self.floor(),
+        }
+    }
+
     /// What the search looks at, with the rows in use.
     #[must_use]
     pub fn world<'a>(&'a self, used: &'a [bool], accepted: &'a [Pick]) -> World<'a> {

@@ -222,15 +222,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
     found.truncate(MOST);
     let session = &attempt.session;
     let answer = |f: Found| {
-        let refitted = refit(
-            &session.problem,
-            &session.layout,
-            &session.estimate,
-            &session.shares,
-            &f.others,
-            world.used,
-            session.floor(),
-        );
+        let (refitted, _) = refit(session.start(), &f.others, world.used);
         let effects = (f.others.iter().zip(&refitted.places))
             .skip(f.others.len() - f.added)
             .map(|(c, place)| {
@@ -244,7 +236,7 @@ pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) ->
             gain: f.gain,
             part: f.part,
             behind: f.behind,
-            residual_m: refitted.fit.scale * attempt.sigma_m(),
+            residual_m: refitted.scale * attempt.sigma_m(),
             estimate: refitted.estimate,
         }
     };

@@ -7,12 +7,27 @@ use super::table::{Column, Layout, add_scaled};
 /// Columns that begin at a row, for each first row that is tried: the later first.
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
-    /// Weighted columns from row 1 on.
-    columns: Vec<Column>,
+    /// How many columns.
+    count: usize,
     /// First rows.
     pub rows: Vec<usize>,
-    /// Products of the columns from each of those on.
-    pub groups: Vec<Group>,
+    /// Products of the columns from each of those on, one after the other: the Gram matrix, the
+    /// slopes, the squares.
+    products: Vec<f64>,
+}
+
+/// Products of each column with those of the effects, from each first row on.
+#[derive(Debug)]
+pub(super) struct Cross {
+    effects: usize,
+    products: Vec<f64>,
+}
+
+/// Numbers times the roots of their weights.
+fn weighted(column: &mut Column, fit: &Fit) {
+    for (c, w) in column.iter_mut().zip(&fit.roots) {
+        *c *= w;
+    }
 }
 
 /// Rows in use that leave `margin` rows in use on both sides, the last first.
@@ -28,17 +43,16 @@ fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
 impl Steps {
     /// Of columns, seen from a fit without effects.
     #[must_use]
-    pub(super) fn of(fit: &Fit, layout: &Layout, columns: &[Column], margin: usize) -> Self {
+    pub(super) fn of(fit: &Fit, layout: &Layout, mut columns: Vec<Column>, margin: usize) -> Self {
         let count = columns.len();
-        let weighted = |c: &Column| c.iter().zip(&fit.roots).map(|(c, w)| c * w).collect();
-        let columns: Vec<Column> = columns.iter().map(weighted).collect();
+        columns.iter_mut().for_each(|column| weighted(column, fit));
         let rows = firsts(fit, layout, margin);
         let mut slopes = vec![0.0; count];
         let mut gram = vec![vec![0.0; count]; count];
         let mut along = vec![vec![0.0; fit.basis.len()]; count];
         // the basis, number by number
         let mut across = vec![0.0; fit.basis.len()];
-        let mut groups = Vec::with_capacity(rows.len());
+        let mut products = Vec::with_capacity(rows.len() * count * (count + 2));
         let mut end = layout.numbers();
         for row in &rows {
             let start = layout.row(*row).start;
@@ -59,41 +73,71 @@ impl Steps {
                 }
             }
             end = start;
-            let squares = (0..count).map(|i| gram[i][i]).collect();
-            let mut rest = gram.clone();
             for i in 0..count {
-                for j in 0..=i {
-                    let parts = along[i].iter().zip(&along[j]).zip(&fit.shares);
-                    rest[i][j] -= parts.map(|((x, y), s)| x * y * s).sum::<f64>();
-                    rest[j][i] = rest[i][j];
+                for j in 0..count {
+                    let (a, b) = (i.max(j), i.min(j));
+                    let parts = along[a].iter().zip(&along[b]).zip(&fit.shares);
+                    let held: f64 = parts.map(|((x, y), s)| x * y * s).sum();
+                    products.push(gram[a][b] - held);
                 }
             }
-            groups.push(Group::known(rest, slopes.clone(), squares));
+            products.extend(&slopes);
+            products.extend((0..count).map(|i| gram[i][i]));
         }
         Self {
-            columns,
+            count,
             rows,
-            groups,
+            products,
         }
     }
 
-    /// Products of each column with those of the effects, for each first row.
+    /// Products of the columns from the k-th first row on.
     #[must_use]
-    pub(super) fn cross(&self, layout: &Layout, given: &Given) -> Vec<Vec<Vec<f64>>> {
+    pub(super) fn group(&self, k: usize) -> Group {
+        let each = self.count * (self.count + 2);
+        let own = &self.products[k * each..][..each];
+        let (gram, rest) = own.split_at(self.count * self.count);
+        let (slopes, squares) = rest.split_at(self.count);
+        let gram = gram.chunks(self.count).map(<[f64]>::to_vec).collect();
+        Group::known(gram, slopes.to_vec(), squares.to_vec())
+    }
+
+    /// Products of each of its columns with those of the effects, for each first row.
+    #[must_use]
+    pub(super) fn cross(
+        &self,
+        fit: &Fit,
+        layout: &Layout,
+        mut columns: Vec<Column>,
+        given: &Given,
+    ) -> Cross {
+        columns.iter_mut().for_each(|column| weighted(column, fit));
         let turned = given.turned();
-        let mut sums = vec![vec![0.0; turned.len()]; self.columns.len()];
+        let effects = turned.len();
+        let mut sums = vec![0.0; effects * columns.len()];
+        let mut products = Vec::with_capacity(sums.len() * self.rows.len());
         let mut end = layout.numbers();
-        let each = self.rows.iter().map(|row| {
+        for row in &self.rows {
             let start = layout.row(*row).start;
-            for (sums, column) in sums.iter_mut().zip(&self.columns) {
-                for (sum, turned) in sums.iter_mut().zip(turned) {
-                    let own = column[start..end].iter().zip(&turned[start..end]);
-                    *sum += own.map(|(c, t)| c * t).sum::<f64>();
-                }
+            let pairs = columns
+                .iter()
+                .flat_map(|c| turned.iter().map(move |t| (c, t)));
+            for (sum, (column, turned)) in sums.iter_mut().zip(pairs) {
+                let own = column[start..end].iter().zip(&turned[start..end]);
+                *sum += own.map(|(c, t)| c * t).sum::<f64>();
             }
             end = start;
-            sums.clone()
-        });
-        each.collect()
+            products.extend(&sums);
+        }
+        Cross { effects, products }
+    }
+}
+
+impl Cross {
+    /// Those of a number of columns from the k-th first row on.
+    #[must_use]
+    pub(super) fn of_row(&self, k: usize, columns: usize) -> Vec<&[f64]> {
+        let column = |i: usize| &self.products[(k * columns + i) * self.effects..][..self.effects];
+        (0..columns).map(column).collect()
     }
 }

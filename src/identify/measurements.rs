@@ -240,9 +240,10 @@ impl Measurements {
 
     /// The rows of the tool, and those of points on plates.
     #[must_use]
-    pub fn split(&self) -> (Self, Self) {
-        let of = |plate: bool| self.filtered(|_, row| row.plate.is_some() == plate);
-        (of(false), of(true))
+    pub fn split(mut self) -> (Self, Self) {
+        let plates = self.filtered(|_, row| row.plate.is_some());
+        self.rows.retain(|row| row.plate.is_none());
+        (self, plates)
     }
 
     /// The number of the configuration of each row: rows in sequence with the same joint angles,

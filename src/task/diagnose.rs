@@ -371,7 +371,7 @@ fn not_of_the_arm(plates: &Measurements, name: &str) -> Option<Finding> {
 /// # Errors
 /// There are none of the tool.
 pub(super) fn of_the_arm(
-    all: &Measurements,
+    all: Measurements,
     name: &str,
 ) -> Result<(Measurements, Measurements), Failure> {
     let (tool, plates) = all.split();
@@ -401,7 +401,7 @@ pub fn diagnose(
         findings: mut read,
         ..
     } = measurements;
-    let (tool, plates) = of_the_arm(&all, &name)?;
+    let (tool, plates) = of_the_arm(all, &name)?;
     read.extend(not_of_the_arm(&plates, &name));
     let d = search(&file.profile, &tool, options, hear)
         .map_err(|error| identify_failure(&name, &error))?;
@@ -496,7 +496,7 @@ pub fn diagnose(
             NoiseSource::Residuals => "residuals",
         },
         left_mm: finite(mm_from_m(d.residual_m)),
-        worst_row: WorstRow::of(&d.problem.rows, &all, d.lengths.1.iter().copied()),
+        worst_row: WorstRow::of(&d.problem.rows, &tool, d.lengths.1.iter().copied()),
         outliers: d
             .outliers
             .iter()
@@ -526,7 +526,7 @@ pub fn diagnose(
         measurements_sha256: sha256,
         output: None,
         poses: None,
-        lines: all.rows.iter().map(|row| row.line.number).collect(),
+        lines: tool.rows.iter().map(|row| row.line.number).collect(),
         found: d,
         name,
     })

@@ -123,7 +123,7 @@ pub fn diagnose_runs(
             .to_owned();
         hear(&name);
         let part = measurements.all.filtered(|row, _| rows.contains(&row));
-        let (part, _) = of_the_arm(&part, &name)?;
+        let (part, _) = of_the_arm(part, &name)?;
         let found = validate(&file.profile, &part, Refit::No, None)
             .map_err(|error| identify_failure(&name, &error))?;
         runs.push(Run {

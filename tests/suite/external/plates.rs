@@ -291,6 +291,15 @@ fn a_diagnosis_of_the_arm_says_that_it_leaves_plates_out() {
         reported.contains("plate-rows-left-out") && reported.contains("18 rows"),
         "{reported}"
     );
+    // rows are named by their lines, whatever stands before them
+    let worst = |text: String| -> u64 {
+        let reported = run(&[text]);
+        let end = reported.rfind('}').expect("JSON") + 1;
+        let report: Value = serde_json::from_str(&reported[..end]).expect("JSON");
+        report["worst_row"]["line"].as_u64().expect("a line")
+    };
+    let behind = worst(cell.header() + &plates + &tool);
+    assert_eq!(behind, worst(both) + 18);
     let plates = cell.header() + &plates;
     let none = "every row is of a point on a plate";
     let reported = run(std::slice::from_ref(&plates));
