@@ -8,7 +8,8 @@ use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::motion::walk::{self, Arrival, Arrivals, WalkOptions};
+use crate::motion::follow;
+use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::program::script::short;
 use crate::program::{Motion, Shape};
 use rayon::prelude::*;
@@ -197,7 +198,7 @@ fn changed_directions(
             (fakes[arrival.from as usize], None)
         };
         let wanted = equipped.controller.forward(&end, &Conditions::default());
-        let course = walk::course(
+        let course = follow::course(
             motion,
             equipped,
             &start,
@@ -208,7 +209,7 @@ fn changed_directions(
             walk_options,
         );
         directions[at] =
-            walk::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
+            follow::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
     }
     let differs = |(at, approach): (usize, &Approach)| {
         let direction = *directions.get(approach.arrival as usize)?;

@@ -28,6 +28,7 @@ mod before;
 pub(crate) mod course;
 pub(crate) mod external;
 mod flow;
+pub(crate) mod follow;
 pub(crate) mod ground;
 mod holding;
 pub(crate) mod plausibility;

@@ -7,11 +7,12 @@
 //! # Source
 //! `robots/catalogue.csv`; what was checked and where sources disagree is in `robots/README.md`.
 
+use super::Profile;
 use super::makers::Maker;
 use super::text::{Comments, made};
-use super::{Profile, m_from_mm};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
+use crate::geometry::units::m_from_mm;
 use crate::model::{Coupling, JointSense, Link, Mechanism};
 use serde::Deserialize;
 

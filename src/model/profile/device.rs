@@ -25,7 +25,7 @@ const KEYS: [&str; 6] = ["x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"];
 impl DevicePlace {
     pub(super) fn from_file(file: &DeviceFile) -> Result<Self, ProfileError> {
         let world_from_device = pose(&file.pose)?;
-        super::check_angles(&file.pose)?;
+        super::reading::check_angles(&file.pose)?;
         let Some(sigma) = &file.sigma else {
             return Ok(Self {
                 world_from_device,

@@ -2,8 +2,8 @@
 
 use super::error::{Fault, ProfileError};
 use super::file::{Number, PoseFile};
+use super::reading::{check_angles, pose};
 use super::text::{flow_pose, number, quoted};
-use super::{check_angles, pose};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Vector, cross, norm, scale};
 use crate::model::effects::{Effect, MOST_EXTERNAL_AXES, SiteKey};

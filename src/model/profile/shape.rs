@@ -1,7 +1,8 @@
 //! Shapes as profile and cell files write them.
 
 use super::file::{Number, PoseFile};
-use super::{Fault, ProfileError, metres, pose};
+use super::reading::{metres, pose};
+use super::{Fault, ProfileError};
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Pose, norm, scale};
 use crate::model::shape::{Form, Shape};

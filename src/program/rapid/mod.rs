@@ -23,6 +23,7 @@ mod drive;
 mod expressions;
 mod handlers;
 mod insert;
+mod modes;
 mod moves;
 mod reader;
 mod records;

@@ -1,0 +1,191 @@
+//! The path of one move: followed from the posture where it begins to the branch at its end, and
+//! which way each joint moves there.
+
+use super::arms::Equipped;
+use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse};
+use super::ride::Ride;
+use super::walk::WalkOptions;
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::inverse::{Arm, Branch};
+use crate::model::Conditions;
+use crate::program::{Motion, Move};
+use std::sync::Arc;
+
+/// A joint that moves less than this on a joint move keeps the direction in which it moved before,
+/// radians.
+const STANDSTILL_RAD: f64 = 1e-6;
+/// A joint that moves more in a step of a path may have gone round: the step is halved.
+const MOST_STEP_RAD: f64 = 45.0 * DEG;
+/// Nearer to alignment than this joint 5 goes through, where the other joints then move less than
+/// the second angle.
+const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
+const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
+/// The shortest step of a path.
+const SHORTEST_STEP: f64 = 1.0 / 512.0;
+/// A path that rotates the tool by more, or is longer, is followed in several steps.
+const MANY_RAD: f64 = 30.0 * DEG;
+const MANY_M: f64 = 0.25;
+/// Nearer to a singularity than this a posture belongs to both branches.
+const SINGULAR_RAD: f64 = 0.02 * DEG;
+const SINGULAR_M: f64 = 1e-4;
+/// How far along a path that begins at a singularity its branch is seen.
+const BEYOND_SINGULAR: f64 = 0.02;
+
+/// Directions after a move of the joints at constant rates.
+pub(super) fn turned(from: &[f64; 6], to: &[f64; 6], before: [i8; 6]) -> [i8; 6] {
+    std::array::from_fn(|i| sign(to[i] - from[i], STANDSTILL_RAD).unwrap_or(before[i]))
+}
+
+fn sign(by: f64, least: f64) -> Option<i8> {
+    (by.abs() > least).then_some(if by > 0.0 { 1 } else { -1 })
+}
+
+/// The controller's path of a move.
+#[allow(
+    clippy::too_many_arguments,
+    reason = "where it begins, over what it goes, where it ends, on what it rides"
+)]
+pub(crate) fn course(
+    motion: &Move,
+    equipped: &Equipped,
+    start: &[f64; 6],
+    via: Option<&Pose>,
+    wanted: &Pose,
+    q: &[f64; 6],
+    ride: Option<Arc<Ride>>,
+    walk_options: &WalkOptions,
+) -> Course {
+    if motion.motion == Motion::Joint {
+        return Course::Joint {
+            from: *start,
+            to: *q,
+        };
+    }
+    let from = equipped.controller.forward(start, &Conditions::default());
+    let turning = walk_options.turning;
+    Course::Tool(ToolCourse::of(&from, via, wanted, turning, ride))
+}
+
+/// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
+/// by continuity. `None` where it leaves the reach on its way.
+pub(super) fn follow(
+    equipped: &Equipped,
+    course: &Course,
+    start: &[f64; 6],
+) -> Option<(Branch, [f64; 6])> {
+    let Course::Tool(path) = course else {
+        return None;
+    };
+    let arm = &equipped.arm;
+    let at = |s: f64, branch: Branch, near: &[f64; 6]| {
+        let solution = arm.solve_along(&path.pose(s), branch, near);
+        (solution.beyond == 0.0).then_some(solution.q)
+    };
+    let (mut branch, margins) = arm.posture(start);
+    let is_singular = margins.wrist_rad < SINGULAR_RAD
+        || margins.elbow_rad < SINGULAR_RAD
+        || margins.shoulder_m < SINGULAR_M;
+    if is_singular {
+        let away = |branch: &Branch| {
+            let q = at(BEYOND_SINGULAR, *branch, start)?;
+            Some((0..6).map(|i| (q[i] - start[i]).abs()).fold(0.0, f64::max))
+        };
+        let nearest = Branch::ALL
+            .iter()
+            .filter_map(|branch| Some((away(branch)?, *branch)))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        branch = nearest?.1;
+    }
+    let steps = if path.angle_rad() > MANY_RAD || path.length_m() > MANY_M {
+        8.0
+    } else {
+        1.0
+    };
+    let longest = 1.0 / steps;
+    let (mut s, mut step, mut q) = (0.0_f64, longest, *start);
+    while s < 1.0 {
+        let next: f64 = (s + step).min(1.0);
+        let there = at(next, branch, &q)?;
+        let most = farthest(&there, &q);
+        if most > MOST_STEP_RAD
+            && let Some((other, there)) =
+                through_wrist(arm, branch, &q, |branch| at(next, branch, &q))
+        {
+            (s, q, branch) = (next, there, other);
+            continue;
+        }
+        if most > MOST_STEP_RAD
+            && step > SHORTEST_STEP
+            && !(is_singular && s == 0.0 && step < BEYOND_SINGULAR)
+        {
+            step *= 0.5;
+            continue;
+        }
+        (s, q) = (next, there);
+        step = (2.0 * step).min(longest);
+    }
+    Some((branch, q))
+}
+
+fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
+}
+
+/// A path that passes the wrist's singularity so near that the joints next to it would spin goes
+/// through it: joint 5 changes its sign and nothing else moves much. `there` gives the joints
+/// behind it on a branch.
+fn through_wrist(
+    arm: &Arm,
+    branch: Branch,
+    q: &[f64; 6],
+    there: impl Fn(Branch) -> Option<[f64; 6]>,
+) -> Option<(Branch, [f64; 6])> {
+    let other = Branch {
+        joint_5_negative: !branch.joint_5_negative,
+        ..branch
+    };
+    let behind = there(other)?;
+    let near = |q: &[f64; 6]| arm.posture(q).1.wrist_rad < NEAR_WRIST_RAD;
+    let is_through = near(q) && near(&behind) && farthest(&behind, q) < MOST_THROUGH_RAD;
+    is_through.then_some((other, behind))
+}
+
+/// The sign of each joint's rate at the end of a path; a joint that stands keeps its direction.
+pub(crate) fn arrival_direction(
+    equipped: &Equipped,
+    course: &Course,
+    start: &[f64; 6],
+    end: &[f64; 6],
+    branch: Branch,
+    before: [i8; 6],
+) -> [i8; 6] {
+    let Course::Tool(path) = course else {
+        return turned(start, end, before);
+    };
+    // a tenth of a millimetre before the end, or of a milliradian where the tool only rotates
+    let length = path.length_m() + path.angle_rad();
+    if length <= 1e-9 {
+        return before;
+    }
+    let back = (1e-4 / length).clamp(1e-6, 0.1);
+    let leg = Leg {
+        equipped,
+        course: course.clone(),
+        start: *start,
+        branch,
+        conditions: Conditions::default(),
+        ride: None,
+    };
+    let last = leg.joints(1.0, end);
+    let shortly_before = leg.joints(1.0 - back, &last);
+    let per = back * length;
+    let rates: [f64; 6] = std::array::from_fn(|i| (last[i] - shortly_before[i]) / per);
+    // a joint that stands at the end keeps what it did on the way
+    let on_way = {
+        let half = leg.joints(0.5, end);
+        let first = turned(start, &half, before);
+        turned(&half, end, first)
+    };
+    std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i]))
+}
