@@ -35,6 +35,7 @@
 //! ```
 
 // what is not for callers is pub(crate): the compiler holds the layering
+#![forbid(unsafe_code)]
 #![warn(unreachable_pub)]
 
 pub mod check;

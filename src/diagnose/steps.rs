@@ -45,7 +45,9 @@ impl Steps {
     #[must_use]
     pub(super) fn of(fit: &Fit, layout: &Layout, mut columns: Vec<Column>, margin: usize) -> Self {
         let count = columns.len();
-        columns.iter_mut().for_each(|column| weighted(column, fit));
+        for column in &mut columns {
+            weighted(column, fit);
+        }
         let rows = firsts(fit, layout, margin);
         let mut slopes = vec![0.0; count];
         let mut gram = vec![vec![0.0; count]; count];
@@ -111,7 +113,9 @@ impl Steps {
         mut columns: Vec<Column>,
         given: &Given,
     ) -> Cross {
-        columns.iter_mut().for_each(|column| weighted(column, fit));
+        for column in &mut columns {
+            weighted(column, fit);
+        }
         let turned = given.turned();
         let effects = turned.len();
         let mut sums = vec![0.0; effects * columns.len()];

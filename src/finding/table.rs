@@ -153,6 +153,7 @@ pub const TABLE: &[Kind] = &[
     row("no-masses", Note, "the profile has no masses: compliance of the joints is not identified", "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff", &["calibrate", "validate", "diagnose"], &[]),
     row("no-shapes", Note, "the profile has no shapes: whether the arm touches itself is not looked at", "give the links shapes in the profile", &["plan"], &[]),
     row("no-targets", Warning, "no target in the program: nothing is changed", "a program that calls others is compensated together with them", &["compensate"], &[]),
+    row("no-tool-mass", Note, "a tool has no mass: what it weighs goes into the compliance of the joints", "give the tool `mass_kg` and `cog_mm` in the profile", &["calibrate", "validate", "diagnose"], &[]),
     row("nominal-clearance", Warning, "the nominal arm comes nearer to a body than is allowed", "look at the simulation: it had that already", &["check"], &[]),
     row("nominal-collision", Warning, "the nominal arm touches a body", "look at the simulation: it had that already", &["check"], &[]),
     row("not-as-calibrated", Error, "the arm errs by more than it did when it was calibrated (--as-calibrated)", "measure as for a calibration, and let `diagnose` say what has changed", &["validate"], &[]),

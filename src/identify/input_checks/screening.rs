@@ -53,16 +53,27 @@ const TRIED_ROWS: usize = 150;
 /// What was asked for and cannot be.
 #[must_use]
 pub fn check_masses(problem: &Problem, compliance_asked: bool) -> Option<Remark> {
-    let masses =
-        !problem.profile.bodies.is_empty() || problem.tools.iter().any(|t| t.load.is_some());
-    (compliance_asked && !masses).then(|| {
-        remark(
+    if !compliance_asked {
+        return None;
+    }
+    let weightless: Vec<&str> = (problem.tools.iter())
+        .filter(|tool| tool.load.is_none())
+        .map(|tool| tool.name.as_str())
+        .collect();
+    if problem.profile.bodies.is_empty() && weightless.len() == problem.tools.len() {
+        return Some(remark(
             "no-masses",
             WHOLE_FILE,
             "the profile has no masses: compliance of the joints is not identified".into(),
             "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff",
-        )
-    })
+        ));
+    }
+    let message = format!(
+        "tools without a mass: {}: what they weigh goes into the compliance of the joints",
+        weightless.join(", ")
+    );
+    let hint = "give the tool `mass_kg` and `cog_mm` in the profile";
+    (!weightless.is_empty()).then(|| remark("no-tool-mass", WHOLE_FILE, message, hint))
 }
 
 /// What can be seen without a model: units of angles, joints that stand still, rows that repeat,

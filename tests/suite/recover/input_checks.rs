@@ -383,6 +383,12 @@ fn missing_masses_negative_springs_and_unlikely_sigmas_are_reported() {
     }
     let found = calibrate(&light, &seen, &Options::default()).expect("an answer");
     assert!(reported(&found, "no-masses"), "{:?}", found.remarks);
+    // the arm's own masses alone
+    light.bodies = nominal().bodies;
+    let found = calibrate(&light, &seen, &Options::default()).expect("an answer");
+    assert!(reported(&found, "no-tool-mass"), "{:?}", found.remarks);
+    let found = calibrate(&nominal(), &seen, &Options::default()).expect("an answer");
+    assert!(!reported(&found, "no-tool-mass"), "{:?}", found.remarks);
     for factor in [1e-3, 1e3] {
         let other = changed(&seen, |_, row| {
             row.sigma_m = row.sigma_m.map(|sigma| factor * sigma);
