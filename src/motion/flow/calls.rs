@@ -54,9 +54,7 @@ impl Flow<'_> {
             let callee = self.called(instance, statement, routine);
             let entry = self.entry_of(call, routine, statement, &start);
             let waiting = &mut self.instances[callee as usize].waiting;
-            if !waiting.contains(&(instance, statement)) {
-                waiting.push((instance, statement));
-            }
+            waiting.insert((instance, statement));
             self.enter(callee, &entry);
             let Some(exit) = self.instances[callee as usize].exit.clone() else {
                 continue;

@@ -21,7 +21,7 @@ use crate::program::script::{
     VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
-use std::collections::BinaryHeap;
+use std::collections::{BTreeSet, BinaryHeap};
 use std::rc::Rc;
 
 /// Calls inside calls that are distinguished.
@@ -73,7 +73,7 @@ struct Instance {
     entry: Option<State>,
     exit: Option<State>,
     /// Calls that wait for its end: instance and statement.
-    waiting: Vec<(u32, u32)>,
+    waiting: BTreeSet<(u32, u32)>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

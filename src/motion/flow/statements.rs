@@ -9,6 +9,7 @@ use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
     Argument, Call, Expected, Expr, Held, Label, ModalId, RoutineId, Statement, VariableId, short,
 };
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 impl<'a> Flow<'a> {
@@ -65,7 +66,7 @@ impl<'a> Flow<'a> {
             first_stop,
             entry: None,
             exit: None,
-            waiting: Vec::new(),
+            waiting: BTreeSet::new(),
         });
         short(self.instances.len() - 1)
     }
@@ -153,6 +154,11 @@ impl<'a> Flow<'a> {
     pub(super) fn run_work(&mut self) {
         let mut visits = 0_usize;
         while let Some(item) = self.work.pop() {
+            // a routine with many callers wakes each of them whenever its end changes
+            while self.work.peek() == Some(&item) {
+                self.work.pop();
+            }
+            visits += 1;
             let most = MOST_VISITS * (self.size + 1000);
             if visits > most {
                 self.give_up();
