@@ -60,7 +60,7 @@ class Drift:
 class Part:
     """Some robots of a fleet, with their units by robot and job, and the results of these."""
 
-    robots: Mapping[str, Sequence[Unit]]
+    robots: dict[str, list[Unit]]
     results: Mapping[str, dict[str, Any] | None]
     drifts: Mapping[str, Drift]
 
@@ -81,7 +81,7 @@ def parts(units: Iterable[Unit], store: Store, date: str, make: Callable[[Sequen
         yield Part(robots, results, found)
 
 
-def _drifts(robots: Mapping[str, Sequence[Unit]], results: Mapping[str, dict[str, Any] | None], history: _History) -> dict[str, Drift]:
+def _drifts(robots: dict[str, list[Unit]], results: Mapping[str, dict[str, Any] | None], history: _History) -> dict[str, Drift]:
     """Of each robot with a measured error this night."""
     before = history.of(next(iter(robots)), next(reversed(robots)))
     found = {}
