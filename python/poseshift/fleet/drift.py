@@ -17,6 +17,8 @@ from poseshift.fleet.units import Unit, unit_of
 
 # robots that are collected at a time
 PART = 500
+# rows of the history that are turned into nights at a time
+ROWS = 10_000
 # nights that are looked back
 NIGHTS = 400
 # of the nights since a change, the rows of so many are diagnosed
@@ -24,7 +26,7 @@ MOST_SINCE = 10
 _COLUMNS = ("robot_id", "profile_sha256", "measured_key", "error_mm")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Night:
     """A night in which a robot was measured."""
 
@@ -118,13 +120,20 @@ class _History:
         found: dict[tuple[str, str], list[Night]] = {}
         if self._files is None:
             return found
-        robot, keys = dataset.field("robot_id"), [(name, "ascending") for name in ("robot_id", "profile_sha256", "run_date_min")]
+        robot, keys = dataset.field("robot_id"), [(name, "ascending") for name in ("robot_id", "profile_sha256", "run_date")]
         wanted = (robot >= first) & (robot <= last) & dataset.field("measured_key").is_valid()
-        table = self._files.to_table(filter=wanted)
-        # of nights with the same measurements the first
-        table = table.group_by(list(_COLUMNS)).aggregate([("run_date", "min")]).sort_by(keys)
-        for name, profile, key, error_mm, night in zip(*(table[name].to_pylist() for name in (*_COLUMNS, "run_date_min")), strict=True):
-            found.setdefault((name, profile), []).append(Night(night, key, error_mm))
+        table = self._files.to_table(filter=wanted).sort_by(keys)
+        known: set[str] = set()
+        for batch in table.to_batches(ROWS):
+            rows = zip(*(batch[name].to_pylist() for name in (*_COLUMNS, "run_date")), strict=True)
+            for name, profile, key, error_mm, night in rows:
+                nights = found.setdefault((name, profile), [])
+                if not nights:
+                    known.clear()
+                # of nights with the same measurements the first
+                if key not in known:
+                    known.add(key)
+                    nights.append(Night(night, key, error_mm))
         return found
 
 
