@@ -69,7 +69,10 @@ pub mod urdf;
 #[cfg(any(feature = "mesh", feature = "urdf"))]
 #[cfg_attr(
     not(feature = "mesh"),
-    allow(dead_code, reason = "meshes alone look at attributes and first children")
+    allow(
+        dead_code,
+        reason = "meshes alone look at attributes and first children"
+    )
 )]
 mod xml;
 

@@ -42,8 +42,8 @@ def main(words: Sequence[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except sqlite3.Error as error:
-        way = "let the other run in this store end; where there is none, remove the file: it only saves time"
-        print(f"error: {given.store / 'notes.db'}: {error}\n  {way}", file=sys.stderr)
+        hint = "let the other run in this store end; where there is none, remove the file: it only saves time"
+        print(f"error: {given.store / 'notes.db'}: {error}\n  {hint}", file=sys.stderr)
         return 2
 
 
