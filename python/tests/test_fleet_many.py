@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import shutil
+import sqlite3
 import tracemalloc
 from pathlib import Path
 from typing import Any
@@ -61,6 +63,20 @@ def test_notes_that_are_damaged_begin_anew(backups: Path, capsys: pytest.Capture
         assert run(backups)[0] == 0
         assert f"0 of {2 * ROBOTS} units made" in capsys.readouterr().out
         assert tables(store) == first
+
+
+def test_another_run_in_the_store_is_waited_for_and_named(backups: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, store = run(backups)
+    first = tables(store)
+    other = sqlite3.connect(store / "notes.db", isolation_level=None)
+    try:
+        other.execute("BEGIN EXCLUSIVE")
+        assert run(backups)[0] == 2
+        assert re.search(r"error: .*notes\.db: .*locked\n.*let the other run", capsys.readouterr().err)
+    finally:
+        other.close()
+    assert run(backups)[0] == 0
+    assert tables(store) == first
 
 
 def test_the_page_has_those_that_need_somebody_most(monkeypatch: pytest.MonkeyPatch) -> None:
