@@ -84,6 +84,8 @@ def collect(parts: Iterable[Part], store: Store, failed: Mapping[str, str], run_
             before = last
             for kind in KINDS:
                 _place(part, store, notes, kind)
+            # the next part may have units made, whose notes others write
+            notes.keep()
         notes.forget_between(before, None, [])
         for kind in KINDS:
             _remove_others(store, notes, kind)
