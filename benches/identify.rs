@@ -75,14 +75,7 @@ fn identification(criterion: &mut Criterion) {
                 b.iter(|| {
                     let solved =
                         solve(&problem, start.clone(), Shape::Squares, true).expect("solved");
-                    let counts = vec![3; count];
-                    black_box(Uncertainty::of(
-                        &solved.normal,
-                        &solved.parameters,
-                        &counts,
-                        solved.loss,
-                        false,
-                    ))
+                    black_box(Uncertainty::of(&problem, &solved))
                 });
             },
         );

@@ -16,9 +16,10 @@
 //!
 //! # Features
 //!
-//! `cli` (default) is the command line, `html` (default) the texts and pages of results; the
-//! library needs neither. What each command does is in [`task`]; `examples/` has one program a
-//! task.
+//! `cli` (default) is the command line and brings all others, `html` (default) the texts and pages
+//! of results; the library needs neither. `urdf` reads and writes URDF files, `icp` registers
+//! clouds of points by nearness, `mesh` reads STL, OBJ, COLLADA and glTF. What each command does is
+//! in [`task`]; `examples/` has one program a task.
 //!
 //! # Example
 //!
@@ -63,7 +64,16 @@ pub mod register;
 )]
 pub mod report;
 pub mod task;
+#[cfg(feature = "urdf")]
 pub mod urdf;
+#[cfg(any(feature = "mesh", feature = "urdf"))]
+#[cfg_attr(
+    not(feature = "mesh"),
+    allow(
+        dead_code,
+        reason = "meshes alone look at attributes and first children"
+    )
+)]
 mod xml;
 
 #[cfg(feature = "cli")]

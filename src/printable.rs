@@ -31,7 +31,7 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// A text of several lines: their ends and tabs stay.
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", test))]
 pub(crate) fn printable_lines(text: &str) -> Cow<'_, str> {
     replaced(text, |letter, next| {
         matches!(letter, '\n' | '\t') || (letter == '\r' && next == Some('\n'))

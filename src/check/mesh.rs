@@ -1,4 +1,4 @@
-//! Triangle meshes from files: STL and OBJ by a crate, COLLADA and glTF here.
+//! Triangle meshes from files: STL, OBJ, COLLADA and glTF.
 //!
 //! COLLADA and glTF say how long their unit is and which axis points up: what is read is in metres,
 //! and z points up. STL and OBJ say neither: they are taken as they stand, and their unit, where
@@ -9,16 +9,13 @@ use crate::geometry::{Vector, cross, norm, sub};
 use std::collections::HashMap;
 use std::path::Path;
 
-mod affine;
-mod collada;
-mod gltf;
+#[cfg(feature = "mesh")]
+mod formats;
 
 /// A mesh with a longer side than this is in other units, metres.
 const LARGEST_M: f64 = 100.0;
 /// A mesh whose longest side is shorter than this is in other units, metres.
 const SMALLEST_M: f64 = 0.5e-3;
-/// Most triangles of a file.
-const MOST: usize = 20_000_000;
 /// A triangle whose area is below this part of its longest edge squared is degenerate.
 const DEGENERATE: f64 = 1e-12;
 
@@ -53,6 +50,9 @@ pub enum MeshError {
         /// What it ends on.
         ending: String,
     },
+    /// The library was built without the readers of meshes.
+    #[error("this library was built without the feature `mesh`")]
+    NotBuilt,
     /// Not what its name says.
     #[error("not a readable mesh: {message}")]
     Unreadable {
@@ -95,6 +95,7 @@ impl MeshError {
                 scale * 1000.0,
                 size_m * 1000.0
             ),
+            Self::NotBuilt => "switch on the feature `mesh` of the crate `poseshift`".into(),
             Self::Empty { .. } => "export triangles, not lines or points".into(),
             _ => String::new(),
         }
@@ -128,17 +129,7 @@ impl Mesh {
             Some(scale) => (false, scale),
             None => (!says_its_unit(name), [default; 3]),
         };
-        let raw = match ending(name).as_str() {
-            "stl" | "obj" => by_crate(name, bytes),
-            "dae" => collada::read(bytes),
-            "gltf" | "glb" => gltf::read(bytes, neighbour),
-            other => {
-                return Err(MeshError::Ending {
-                    ending: other.into(),
-                });
-            }
-        };
-        let raw = raw.map_err(|message| MeshError::Unreadable { message })?;
+        let raw = triangles(name, bytes, neighbour)?;
         let scaled = |point: Vector| std::array::from_fn(|i| m_from_mm(point[i] * scale[i]));
         let triangles: Vec<Triangle> = raw.iter().map(|t| t.map(scaled)).collect();
         Ok(Self {
@@ -216,38 +207,13 @@ impl Mesh {
     }
 }
 
-/// A polygon as triangles about its first corner.
-fn fan(corners: &[Vector], out: &mut Vec<Triangle>) {
-    if let [first, others @ ..] = corners {
-        out.extend(others.windows(2).map(|pair| [*first, pair[0], pair[1]]));
-    }
-}
+#[cfg(feature = "mesh")]
+use formats::triangles;
 
-fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
-    // only this file's bytes are read: no material library or texture that it names
-    fn none(_: &Path) -> std::io::Result<Vec<u8>> {
-        Err(std::io::ErrorKind::NotFound.into())
-    }
-    let loader = mesh_loader::Loader::default().custom_reader(none);
-    let scene = match ending(name).as_str() {
-        "stl" => loader.load_stl_from_slice(bytes, name),
-        _ => loader.load_obj_from_slice(bytes, name),
-    }
-    .map_err(|error| error.to_string())?;
-    let mut triangles = Vec::new();
-    for mesh in &scene.meshes {
-        if triangles.len() + mesh.faces.len() > MOST {
-            return Err(format!("more than {MOST} triangles"));
-        }
-        for face in &mesh.faces {
-            let corner = |i: u32| mesh.vertices.get(i as usize).map(|v| v.map(f64::from));
-            match face.map(corner) {
-                [Some(a), Some(b), Some(c)] => triangles.push([a, b, c]),
-                _ => return Err("a face names a corner that is not there".into()),
-            }
-        }
-    }
-    Ok(triangles)
+/// No format is read by a library without them.
+#[cfg(not(feature = "mesh"))]
+fn triangles(_: &str, _: &[u8], _: Neighbour) -> Result<Vec<Triangle>, MeshError> {
+    Err(MeshError::NotBuilt)
 }
 
 /// Edges that an odd number of triangles share; corners are the same where their coordinates are.
@@ -265,7 +231,7 @@ fn open_edges(triangles: &[Triangle]) -> usize {
     edges.values().filter(|count| *count % 2 == 1).count()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mesh"))]
 mod tests {
     use super::*;
 

@@ -152,7 +152,7 @@ mod tests {
                 let (x, y) = (v[0], v[1]);
                 (x * y).sin() / (x * x + y).sqrt() + (-x).exp() - y.cos()
             },
-            &nalgebra::vector![x, y],
+            &nalgebra::Vector2::new(x, y),
         );
         (value, [slope[0], slope[1]])
     }

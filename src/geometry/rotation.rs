@@ -112,6 +112,15 @@ impl Rotation {
         Self::about_z(a) * Self::about_y(b) * Self::about_x(c)
     }
 
+    /// Yaw, pitch and roll, the angles of `Rz · Ry · Rx`; what yaw loses near pitch = ±90° roll
+    /// takes up.
+    pub(crate) fn yaw_pitch_roll(&self) -> [f64; 3] {
+        let [yaw, pitch, _] = self.rzryrx(0.0);
+        let behind = (Self::about_z(yaw) * Self::about_y(pitch)).transpose() * *self;
+        let roll = behind.0[2][1].atan2(behind.0[1][1]);
+        [yaw, pitch, roll].map(|angle| angle + 0.0)
+    }
+
     /// The angles of [`Rotation::from_rzryrx`]; b in [−π/2, π/2]. Where b = ±π/2 only the sum or
     /// difference of a and c is determined, and c is the given one.
     #[must_use]

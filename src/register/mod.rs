@@ -27,6 +27,7 @@ pub mod frame_file;
 pub mod frames;
 pub mod handeye;
 pub mod hexapod;
+#[cfg(feature = "icp")]
 pub mod icp;
 pub mod kabsch;
 mod linear;

@@ -122,7 +122,11 @@ fn hexapod() -> Value {
 }
 
 fn new_profile() -> Value {
-    either([of::<profile::NewProfile>(), of::<profile::FromUrdf>()])
+    either([
+        of::<profile::NewProfile>(),
+        #[cfg(feature = "urdf")]
+        of::<profile::FromUrdf>(),
+    ])
 }
 
 /// One of several documents of a kind.

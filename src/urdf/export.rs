@@ -1,7 +1,7 @@
 //! A URDF of an arm.
 
 use super::tree::EXACT;
-use crate::geometry::{Pose, Rotation, Vector};
+use crate::geometry::{Pose, Vector};
 use crate::model::Axes;
 
 /// What goes into a URDF.
@@ -32,17 +32,9 @@ fn escaped(text: &str) -> String {
 
 /// `xyz` and `rpy` of a frame: `Trans · Rz(yaw) · Ry(pitch) · Rx(roll)`.
 fn origin(pose: &Pose) -> String {
-    let [yaw, pitch, roll] = yaw_pitch_roll(&pose.rotation);
+    let [yaw, pitch, roll] = pose.rotation.yaw_pitch_roll();
     let [x, y, z] = pose.translation.map(|x| x + 0.0);
     format!("<origin xyz=\"{x} {y} {z}\" rpy=\"{roll} {pitch} {yaw}\"/>")
-}
-
-/// The angles of `Rz · Ry · Rx`; what yaw loses near pitch = ±90° roll takes up.
-pub(crate) fn yaw_pitch_roll(rotation: &Rotation) -> [f64; 3] {
-    let [yaw, pitch, _] = rotation.rzryrx(0.0);
-    let behind = (Rotation::about_z(yaw) * Rotation::about_y(pitch)).transpose() * *rotation;
-    let roll = behind.0[2][1].atan2(behind.0[1][1]);
-    [yaw, pitch, roll].map(|angle| angle + 0.0)
 }
 
 /// The text of a URDF: `base_link` and `base` at the world, `link_1` to `link_6` with frames on the

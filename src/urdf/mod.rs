@@ -32,7 +32,6 @@ mod tree;
 mod write;
 
 pub use error::UrdfError;
-pub(crate) use export::yaw_pitch_roll;
 pub use export::{Drawing, urdf_text};
 #[cfg(feature = "cli")]
 pub(crate) use tree::is_xacro;

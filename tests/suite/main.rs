@@ -7,6 +7,7 @@ mod diagnose;
 mod documents;
 mod examples;
 mod external;
+mod features;
 mod findings;
 mod golden;
 mod laws;

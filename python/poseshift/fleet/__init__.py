@@ -5,9 +5,25 @@ changed is made again; backups are read and never written.
 """
 
 from poseshift.fleet.collect import Summary, collect
-from poseshift.fleet.config import FleetError, Robot, read
+from poseshift.fleet.config import Fleet, FleetError, Robot, read
+from poseshift.fleet.drift import Part, parts
 from poseshift.fleet.executors import run_local, run_ray
 from poseshift.fleet.store import Store
-from poseshift.fleet.units import Unit, plan
+from poseshift.fleet.units import Plan, Unit, plan
 
-__all__ = ["FleetError", "Robot", "Store", "Summary", "Unit", "collect", "plan", "read", "run_local", "run_ray"]
+__all__ = [
+    "Fleet",
+    "FleetError",
+    "Part",
+    "Plan",
+    "Robot",
+    "Store",
+    "Summary",
+    "Unit",
+    "collect",
+    "parts",
+    "plan",
+    "read",
+    "run_local",
+    "run_ray",
+]

@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import datetime
 import json
+import sqlite3
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from poseshift.errors import PoseshiftError
 from poseshift.fleet import demo
 from poseshift.fleet.collect import collect
-from poseshift.fleet.config import keep_off, read
-from poseshift.fleet.drift import drifts, since
+from poseshift.fleet.config import read
+from poseshift.fleet.drift import parts
 from poseshift.fleet.executors import Ran, missing, run_local, run_ray
 from poseshift.fleet.store import Store
 from poseshift.fleet.units import Unit, plan
@@ -40,6 +41,10 @@ def main(words: Sequence[str] | None = None) -> int:
     except (PoseshiftError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+    except sqlite3.Error as error:
+        hint = "let the other run in this store end; where there is none, remove the file: it only saves time"
+        print(f"error: {given.store / 'notes.db'}: {error}\n  {hint}", file=sys.stderr)
+        return 2
 
 
 def _run(given: argparse.Namespace) -> int:
@@ -50,30 +55,28 @@ def _run(given: argparse.Namespace) -> int:
     store = Store(given.store)
     date = given.date or datetime.date.today().isoformat()
     datetime.date.fromisoformat(date)
-    robots = read(given.fleet)
-    keep_off(robots, given.store)
-    units = plan(robots, store)
-    wanted = missing(units, store)
+    units = plan(read(given.fleet), store)
     if given.step == "plan":
-        listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in wanted]
+        listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in missing(units, store)]
         print(json.dumps({"poseshift": "fleet-plan/1", "units": len(units), "missing": listed}, indent=2))
         return 0
-    ran = _make(wanted, store, given)
-    found = drifts(units, store, date)
-    later = since(units, store, found)
-    also = _make(missing(later, store), store, given)
-    failed = ran.failed | also.failed
-    summary = collect([*units, *later], store, failed, date, found)
+    ran, later = _make(units, store, given), Ran()
+
+    def make(since: Iterable[Unit]) -> None:
+        later.also(_make(since, store, given))
+        ran.failed.update(later.failed)
+
+    summary = collect(parts(units, store, date, make), store, ran.failed, units.run_id, date)
     counts = ", ".join(f"{count} {status}" for status, count in summary.by_status.items() if count)
-    print(f"{summary.robots} robots: {counts}; {ran.made} of {len(units)} units made, {len(units) - len(wanted)} kept")
+    print(f"{summary.robots} robots: {counts}; {ran.made} of {len(units)} units made, {len(units) - ran.asked} kept")
     print(f"{given.store / 'fleet.html'}")
     return summary.status
 
 
-def _make(units: Sequence[Unit], store: Store, given: argparse.Namespace) -> Ran:
+def _make(units: Iterable[Unit], store: Store, given: argparse.Namespace) -> Ran:
     """Makes what is missing of units, where that is asked for."""
-    if given.step != "run" or not units:
-        return Ran()
+    if given.step != "run":
+        return Ran(asked=sum(1 for _ in missing(units, store)))
     if given.executor == "local":
         return run_local(units, store, given.workers)
     import ray  # noqa: PLC0415

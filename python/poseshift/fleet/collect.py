@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import html
+import contextlib
 import shutil
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import IO, Any
 from xml.sax.saxutils import escape, quoteattr
 
-from poseshift.fleet.drift import Drift
-from poseshift.fleet.store import Store, sha256, write_whole
+from poseshift.fleet.drift import Part
+from poseshift.fleet.notes import Notes
+from poseshift.fleet.page import ORDER, Page
+from poseshift.fleet.store import Store, write_whole, writing
 from poseshift.fleet.units import Unit
 
 # columns of the tables, with their types
@@ -39,8 +42,8 @@ TABLES: Mapping[str, Mapping[str, str]] = {
         "after_mm": _NUMBER,
     },
 }
-# the worst first
-ORDER = ("none", "crashed", "error", "refused", "changed", "done")
+# folders of files of each robot
+KINDS = ("out", "pages")
 
 
 @dataclass(frozen=True)
@@ -53,37 +56,49 @@ class Summary:
     """0: every answer is yes; 1: some is no; 2: some robot has none."""
 
 
-def collect(
-    units: Sequence[Unit],
-    store: Store,
-    failed: Mapping[str, str],
-    date: str | None = None,
-    drifts: Mapping[str, Drift] | None = None,
-) -> Summary:
-    """Writes `tables`, `out`, `pages`, `fleet.html` and `junit.xml` into the store's folder, from its results."""
+def collect(parts: Iterable[Part], store: Store, failed: Mapping[str, str], run_id: str, date: str) -> Summary:
+    """Writes `tables`, `out`, `pages`, `fleet.html` and `junit.xml` into the store's folder, from its results.
+
+    One part of the fleet after another: what is held does not grow with the number of robots.
+    """
     store.sweep()
-    found = {unit.key: store.result(unit.key) for unit in units}
-    units = sorted(units, key=lambda unit: (unit.robot, unit.job))
-    run_id = sha256("\n".join(unit.key for unit in units).encode())[:16]
-    by_robot: dict[str, list[tuple[Unit, dict[str, Any] | None]]] = {}
-    for unit in units:
-        by_robot.setdefault(unit.robot, []).append((unit, found[unit.key]))
-    rows: dict[str, list[dict[str, Any]]] = {name: [] for name in TABLES}
-    for robot, of_robot in by_robot.items():
-        row = _robot(robot, run_id, of_robot, failed)
-        if drifts and robot in drifts:
-            row |= drifts[robot].row()
-        rows["robots"].append(row)
-        for unit, result in of_robot:
-            _rows(unit, result, rows)
-    _write_tables(store.folder / "tables", rows, date)
-    _place(by_robot, store, "out")
-    _place(by_robot, store, "pages")
-    write_whole(store.folder / "fleet.html", _page(rows["robots"], run_id, by_robot).encode())
-    write_whole(store.folder / "junit.xml", _junit(by_robot, failed).encode())
-    by_status = {status: sum(row["status"] == status for row in rows["robots"]) for status in ORDER}
+    by_status = dict.fromkeys(ORDER, 0)
+    page, before = Page(), ""
+    with Notes(store) as notes, _Tables(store, date) as tables, _Junit(store.folder / "junit.xml") as junit:
+        for part in parts:
+            rows: dict[str, list[dict[str, Any]]] = {name: [] for name in TABLES}
+            for robot, units in part.robots.items():
+                of_robot = [(unit, part.results[unit.key]) for unit in units]
+                row = _robot(robot, run_id, of_robot, failed)
+                if robot in part.drifts:
+                    row |= part.drifts[robot].row()
+                rows["robots"].append(row)
+                by_status[row["status"]] += 1
+                page.add(row, list(_files(of_robot, "pages")))
+                for unit, result in of_robot:
+                    _rows(unit, result, rows)
+                    junit.add(unit, _status(result), _message(unit, result, failed))
+            tables.write(rows)
+            last = next(reversed(part.robots))
+            notes.forget_between(before, last, list(part.robots))
+            before = last
+            for kind in KINDS:
+                _place(part, store, notes, kind)
+            # the next part may have units made, whose notes others write
+            notes.keep()
+        notes.forget_between(before, None, [])
+        for kind in KINDS:
+            _remove_others(store, notes, kind)
+    write_whole(store.folder / "fleet.html", page.text(by_status, run_id).encode())
     no_answer = by_status["none"] + by_status["crashed"] + by_status["error"]
-    return Summary(len(by_robot), by_status, 2 if no_answer else 1 if by_status["refused"] + by_status["changed"] else 0)
+    no = by_status["refused"] + by_status["changed"]
+    return Summary(sum(by_status.values()), by_status, 2 if no_answer else 1 if no else 0)
+
+
+def _files(of_robot: Iterable[tuple[Unit, dict[str, Any] | None]], kind: str) -> dict[str, str]:
+    """The files of a kind in a robot's results, with their hashes."""
+    files = (item for _, result in of_robot if result is not None for item in result["files"].items())
+    return {name.removeprefix(f"{kind}/"): digest for name, (digest, _) in files if name.startswith(f"{kind}/")}
 
 
 def _status(result: dict[str, Any] | None) -> str:
@@ -110,45 +125,94 @@ def _rows(unit: Unit, result: dict[str, Any] | None, rows: dict[str, list[dict[s
         rows[name] += [own | row for row in (result or {"rows": {name: []}})["rows"][name]]
 
 
-def _write_tables(folder: Path, rows: Mapping[str, list[dict[str, Any]]], date: str | None) -> None:
-    import pyarrow as pa  # noqa: PLC0415
-    from pyarrow import parquet  # noqa: PLC0415
+class _Tables:
+    """The tables, written part by part."""
 
-    def write(path: Path, name: str) -> None:
-        fields = [pa.field(column, getattr(pa, kind)()) for column, kind in TABLES[name].items()]
-        schema = pa.schema(fields, {"poseshift": "fleet-table/1"})
-        columns = [pa.array([row.get(f.name) for row in rows[name]], f.type) for f in fields]
-        sink = pa.BufferOutputStream()
-        parquet.write_table(pa.Table.from_arrays(columns, schema=schema), sink, compression="zstd")
-        data = sink.getvalue().to_pybytes()
-        if not path.exists() or path.read_bytes() != data:
-            write_whole(path, data)
+    def __init__(self, store: Store, date: str) -> None:
+        self._folder = store.folder / "tables"
+        self._history = self._folder / "history" / f"run_date={date}" / "robots.parquet"
+        self._stack = contextlib.ExitStack()
+        self._writers: dict[str, Any] = {}
+        self._robots = Path()
 
-    for name in TABLES:
-        write(folder / f"{name}.parquet", name)
-    if date is not None:
-        write(folder / "history" / f"run_date={date}" / "robots.parquet", "robots")
+    def __enter__(self) -> _Tables:
+        import pyarrow as pa  # noqa: PLC0415
+        from pyarrow import parquet  # noqa: PLC0415
+
+        for name, columns in TABLES.items():
+            schema = pa.schema([pa.field(column, getattr(pa, kind)()) for column, kind in columns.items()], {"poseshift": "fleet-table/1"})
+            new = self._stack.enter_context(writing(self._folder / f"{name}.parquet"))
+            self._robots = new if name == "robots" else self._robots
+            self._writers[name] = parquet.ParquetWriter(new, schema, compression="zstd")
+        return self
+
+    def write(self, rows: Mapping[str, list[dict[str, Any]]]) -> None:
+        """Appends rows to each table."""
+        import pyarrow as pa  # noqa: PLC0415
+
+        for name, writer in self._writers.items():
+            if rows[name]:
+                columns = [pa.array([row.get(f.name) for row in rows[name]], f.type) for f in writer.schema]
+                writer.write_table(pa.Table.from_arrays(columns, schema=writer.schema))
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        for writer in self._writers.values():
+            writer.close()
+        if error is None:
+            with writing(self._history) as new:
+                shutil.copyfile(self._robots, new)
+        self._stack.__exit__(kind, error, trace)
 
 
-def _place(by_robot: Mapping[str, Sequence[tuple[Unit, dict[str, Any] | None]]], store: Store, kind: str) -> None:
+class _Junit:
+    """A report for build servers, its cases on disk until their number is known."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._cases, self._bad = 0, 0
+        self._body: IO[str] = tempfile.TemporaryFile("w+", encoding="utf-8", newline="")  # noqa: SIM115
+
+    def __enter__(self) -> _Junit:
+        return self
+
+    def add(self, unit: Unit, status: str, message: str) -> None:
+        """Appends the case of a unit."""
+        inner = "" if status == "done" else f"<failure type={quoteattr(status)}>{escape(message)}</failure>"
+        self._cases += 1
+        self._bad += status != "done"
+        self._body.write(f"<testcase classname={quoteattr(unit.robot)} name={quoteattr(unit.job)}>{inner}</testcase>\n")
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        with self._body as body:
+            if kind is not None:
+                return
+            body.seek(0)
+            with writing(self._path) as new, new.open("w", encoding="utf-8", newline="") as file:
+                file.write('<?xml version="1.0" encoding="UTF-8"?>\n')
+                file.write(f'<testsuites><testsuite name="fleet" tests="{self._cases}" failures="{self._bad}">\n')
+                shutil.copyfileobj(body, file)
+                file.write("</testsuite></testsuites>\n")
+
+
+def _place(part: Part, store: Store, notes: Notes, kind: str) -> None:
     """Each robot's files, the whole folder at once; where the answer is no, none stay from before."""
     top = store.folder / kind
-    placed = store.notes(kind)
-    wanted: dict[str, dict[str, str]] = {}
-    for robot, of_robot in by_robot.items():
-        for _, result in of_robot:
-            for name, (digest, _) in (result or {"files": {}})["files"].items():
-                if name.startswith(f"{kind}/"):
-                    wanted.setdefault(robot, {})[name.removeprefix(f"{kind}/")] = digest
-    for robot in sorted(placed.keys() - wanted.keys()):
-        shutil.rmtree(top / robot, ignore_errors=True)
-    for robot, files in wanted.items():
-        if placed.get(robot) == files and (top / robot).is_dir():
+    wanted = {robot: _files(((u, part.results[u.key]) for u in units), kind) for robot, units in part.robots.items()}
+    stale = {robot for robot, files in wanted.items() if (notes.of(robot, kind) or {}) != files or bool(files) != (top / robot).is_dir()}
+    if not stale:
+        return
+    # whatever ends this process, a folder that is noted is whole
+    for robot in stale:
+        notes.drop(robot, kind)
+    notes.keep()
+    for robot in sorted(stale):
+        if not wanted[robot]:
+            shutil.rmtree(top / robot, ignore_errors=True)
             continue
         top.mkdir(parents=True, exist_ok=True)
         made = Path(tempfile.mkdtemp(dir=top, prefix=".new-"))
         try:
-            for name, digest in files.items():
+            for name, digest in wanted[robot].items():
                 (made / name).parent.mkdir(parents=True, exist_ok=True)
                 (made / name).write_bytes(store.blob(digest))
             made.chmod(0o755)
@@ -156,70 +220,13 @@ def _place(by_robot: Mapping[str, Sequence[tuple[Unit, dict[str, Any] | None]]],
             made.rename(top / robot)
         finally:
             shutil.rmtree(made, ignore_errors=True)
-    if placed != wanted:
-        store.note(kind, wanted)
+        notes.put(robot, kind, wanted[robot])
+    notes.keep()
 
 
-_STYLE = (
-    ":root{color-scheme:light dark;--ink:#222;--ground:#fff;--rule:#ddd;--link:#0b62a8;--bad:#a00;--no:#a04000;--good:#060}"
-    "@media(prefers-color-scheme:dark){"
-    ":root{--ink:#e7ebf0;--ground:#14181e;--rule:#38424e;--link:#6cb6f5;--bad:#ff8a80;--no:#f0c05a;--good:#3fd0b4}}"
-    "body{font:15px system-ui;margin:2em auto;padding:0 1em;max-width:90em;color:var(--ink);background:var(--ground)}"
-    "table{border-collapse:collapse}.rows{overflow-x:auto}a{color:var(--link)}"
-    "td,th{padding:.25em .7em;text-align:left;border-bottom:1px solid var(--rule)}"
-    "td{overflow-wrap:break-word;max-width:40ch}td.number{text-align:right;font-variant-numeric:tabular-nums}"
-    ".none,.crashed,.error{color:var(--bad)}.refused,.changed{color:var(--no)}.done{color:var(--good)}"
-)
-
-
-def _page(robots: Sequence[dict[str, Any]], run_id: str, by_robot: Mapping[str, Sequence[tuple[Unit, dict[str, Any] | None]]]) -> str:
-    """The fleet on one page without a script: the robots that need somebody first."""
-
-    def need(row: dict[str, Any]) -> tuple[Any, ...]:
-        held, path = row.get("held_out_before_mm") or 0.0, row.get("max_path_error_mm") or 0.0
-        return ORDER.index(row["status"]), -(row.get("collisions") or 0), -held, -path, row["robot_id"]
-
-    columns = ("status", "max_path_error_mm", "collisions", "max_shift_mm", "verdict", "effect", "held_out_before_mm", "error_mm", "changed_since",
-               "changed_before_mm", "changed_after_mm", "message")  # fmt: skip
-    lines = []
-    for row in sorted(robots, key=need):
-        robot = row["robot_id"]
-        pages = [n for _, r in by_robot[robot] for n in (r or {"files": {}})["files"] if n.startswith("pages/")]
-        links = " ".join(
-            f'<a href="pages/{html.escape(robot)}/{html.escape(n[6:])}">{html.escape(n[6:-5])}</a>' for n in sorted(pages)
-        )
-        cells = "".join(_cell(name, row.get(name)) for name in columns)
-        lines.append(f'<tr><th scope="row">{html.escape(robot)}</th>{cells}<td>{links}</td></tr>')
-    counts = ", ".join(f"{n} {s}" for s in ORDER if (n := sum(row["status"] == s for row in robots)))
-    heads = "".join(f'<th scope="col">{name}</th>' for name in (n.replace("_", " ") for n in ("robot", *columns, "pages")))
-    return (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Fleet</title>'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">"
-        f"<style>{_STYLE}</style></head><body><main><h1>{len(robots)} robots</h1><p>{counts}; run {run_id}</p>"
-        '<div class="rows" tabindex="0" role="region" aria-label="Robots">'
-        f"<table><thead><tr>{heads}</tr></thead><tbody>\n" + "\n".join(lines) + "\n</tbody></table></div></main></body></html>\n"
-    )
-
-
-def _cell(name: str, value: Any) -> str:
-    if isinstance(value, int | float):
-        return f'<td class="number">{value:.3f}</td>' if isinstance(value, float) else f'<td class="number">{value}</td>'
-    text = html.escape("" if value is None else str(value))
-    return f'<td class="{text}">{text}</td>' if name == "status" else f"<td>{text}</td>"
-
-
-def _junit(by_robot: Mapping[str, Sequence[tuple[Unit, dict[str, Any] | None]]], failed: Mapping[str, str]) -> str:
-    cases, bad = [], 0
-    for robot, of_robot in by_robot.items():
-        for unit, result in of_robot:
-            inner = ""
-            if _status(result) != "done":
-                bad += 1
-                inner = f"<failure type={quoteattr(_status(result))}>{escape(_message(unit, result, failed))}</failure>"
-            cases.append(f"<testcase classname={quoteattr(robot)} name={quoteattr(unit.job)}>{inner}</testcase>")
-    body = "\n".join(cases)
-    return (
-        f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites><testsuite name="fleet" tests="{len(cases)}" failures="{bad}">\n'
-        f"{body}\n</testsuite></testsuites>\n"
-    )
+def _remove_others(store: Store, notes: Notes, kind: str) -> None:
+    """Removes the folders of robots that are no longer of the fleet."""
+    top = store.folder / kind
+    for folder in top.iterdir() if top.is_dir() else ():
+        if notes.of(folder.name, kind) is None:
+            shutil.rmtree(folder, ignore_errors=True)

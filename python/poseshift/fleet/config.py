@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import os
+import stat
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -47,13 +49,78 @@ class Robot:
         return [self.folder / name for name in names]
 
 
-def keep_off(robots: Iterable[Robot], store: Path) -> None:
-    """Nothing is ever written among the backups: the store lies in no folder of an input, and no input in the store."""
-    own = store.resolve()
-    for robot in robots:
+class Fleet:
+    """The robots of a fleet file by id, each read when its turn comes: there may be many."""
+
+    def __init__(self, places: dict[str, tuple[str, int]], entries: list[Entry]) -> None:
+        self._places = places
+        self._entries = entries
+        self._names = sorted(places)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __iter__(self) -> Iterator[Robot]:
+        for name in self._names:
+            folder, number = self._places[name]
+            yield self._entries[number].robot(name, folder)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What robots of an entry have in common."""
+
+    where: str
+    said: Mapping[str, Any]
+    options: Mapping[str, Mapping[str, Any]]
+
+    def robot(self, name: str, place: str) -> Robot:
+        """The robot with its files, which are there."""
+        said, folder = self.said, Path(place)
+        robot = Robot(
+            name,
+            folder,
+            str(said["profile"]),
+            _files(said.get("programs"), folder),
+            _files(said.get("measurements"), folder),
+            said.get("cell"),
+            self.options,
+        )
         for file in robot.inputs():
-            if own.is_relative_to(file.resolve().parent) or file.resolve().is_relative_to(own):
-                raise FleetError(f"the store {store} lies among the files of robot {robot.id}", "choose a folder apart from the backups")
+            if not file.is_file():
+                raise FleetError(f"{self.where}: robot {name}: there is no file {file}")
+        if not robot.programs and not robot.measurements:
+            raise FleetError(f"{self.where}: robot {name} has neither programs nor measurements in {folder}")
+        return robot
+
+
+class KeepOff:
+    """Nothing is ever written among the backups: the store lies in no folder of an input, and no input in the store."""
+
+    def __init__(self, store: Path) -> None:
+        self._store = store
+        self._own = os.path.realpath(store)
+        self._folder = ("", "")
+
+    def judge(self, robot: Robot) -> None:
+        """Refuses a robot whose files the store lies among."""
+        for file in robot.inputs():
+            folder = self._real(file)
+            if _is_below(self._own, folder) or _is_below(folder, self._own):
+                raise FleetError(f"the store {self._store} lies among the files of robot {robot.id}", "choose a folder apart from the backups")
+
+    def _real(self, file: Path) -> str:
+        """The folder that a file is in, in the end."""
+        if stat.S_ISLNK(os.lstat(file).st_mode):
+            return os.path.dirname(os.path.realpath(file))
+        folder = os.path.dirname(file)
+        if self._folder[0] != folder:
+            self._folder = (folder, os.path.realpath(folder))
+        return self._folder[1]
+
+
+def _is_below(path: str, top: str) -> bool:
+    return path == top or path.startswith(top.rstrip(os.sep) + os.sep)
 
 
 def options_of(task: str) -> dict[str, Any]:
@@ -62,8 +129,8 @@ def options_of(task: str) -> dict[str, Any]:
     return {p.name: p.default for p in parameters if p.name not in _OWN}
 
 
-def read(path: Path) -> list[Robot]:
-    """The robots of a fleet file, by id."""
+def read(path: Path) -> Fleet:
+    """The robots of a fleet file."""
     import yaml  # noqa: PLC0415
 
     try:
@@ -77,16 +144,20 @@ def read(path: Path) -> list[Robot]:
     entries = top.get("robots")
     if not isinstance(entries, list) or not entries:
         raise FleetError(f"{path}: robots must be a list of at least one entry")
-    robots: dict[str, Robot] = {}
-    for number, entry in enumerate(entries):
-        for robot in _robots(entry, f"{path}: robots[{number}]", path.parent, defaults):
-            if robot.id in robots:
-                raise FleetError(f"{path}: two robots are called {robot.id!r}")
-            robots[robot.id] = robot
-    return [robots[name] for name in sorted(robots)]
+    places: dict[str, tuple[str, int]] = {}
+    known = []
+    for number, said_of in enumerate(entries):
+        where = f"{path}: robots[{number}]"
+        entry = _entry(said_of, where, defaults)
+        known.append(entry)
+        for name, folder in _places(entry, path.parent):
+            if name in places:
+                raise FleetError(f"{path}: two robots are called {name!r}")
+            places[name] = (folder, number)
+    return Fleet(places, known)
 
 
-def _robots(entry: object, where: str, top: Path, defaults: Mapping[str, Mapping[str, Any]]) -> Iterator[Robot]:
+def _entry(entry: object, where: str, defaults: Mapping[str, Mapping[str, Any]]) -> Entry:
     said = _mapping(entry, where, KEYS)
     own = _options(said.get("options") or {}, f"{where}: options")
     options = {task: {**defaults[task], **own[task]} for task in TASKS}
@@ -94,28 +165,22 @@ def _robots(entry: object, where: str, top: Path, defaults: Mapping[str, Mapping
         raise FleetError(f"{where}: give id, or folders where each folder is a robot")
     if "profile" not in said:
         raise FleetError(f"{where}: profile is missing")
-    folders = [top] if "id" in said else sorted(p for p in top.glob(str(said["folders"])) if p.is_dir())
-    if not folders:
-        raise FleetError(f"{where}: no folder is called {said['folders']}")
-    for folder in folders:
+    return Entry(where, said, options)
+
+
+def _places(entry: Entry, top: Path) -> Iterator[tuple[str, str]]:
+    """The robots of an entry and their folders."""
+    said, where, count = entry.said, entry.where, 0
+    for folder in [top] if "id" in said else top.glob(str(said["folders"])):
+        if not folder.is_dir():
+            continue
         name = str(said.get("id", folder.name))
         if not name or name.startswith(".") or not all(c.isalnum() or c in "-_. " for c in name):
             raise FleetError(f"{where}: the id {name!r} must be letters, digits, `-`, `_`, `.` and blanks", "it names a folder")
-        robot = Robot(
-            name,
-            folder,
-            str(said["profile"]),
-            _files(said.get("programs"), folder),
-            _files(said.get("measurements"), folder),
-            said.get("cell"),
-            options,
-        )
-        for file in robot.inputs():
-            if not file.is_file():
-                raise FleetError(f"{where}: robot {name}: there is no file {file}")
-        if not robot.programs and not robot.measurements:
-            raise FleetError(f"{where}: robot {name} has neither programs nor measurements in {folder}")
-        yield robot
+        yield name, os.fspath(folder)
+        count += 1
+    if not count:
+        raise FleetError(f"{where}: no folder is called {said['folders']}")
 
 
 def _files(patterns: object, folder: Path) -> tuple[str, ...]:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import pickle
 import re
-from collections.abc import Iterator, Mapping, Sequence
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import poseshift
-from poseshift.fleet.config import FleetError, Robot, options_of
-from poseshift.fleet.store import Hashes, Store, sha256
+from poseshift.fleet.config import FleetError, KeepOff, Robot, options_of
+from poseshift.fleet.notes import Hashes, Notes
+from poseshift.fleet.store import Store, sha256
 
 SCHEMA = "fleet-unit/2"
 # a line that is no comment and may name a mesh
@@ -46,31 +50,84 @@ class Unit:
         return found
 
 
-def plan(robots: Sequence[Robot], store: Store, version: str = poseshift.__version__) -> list[Unit]:
-    """The units of robots, by robot and job."""
-    hashes = Hashes(store)
-    units = [unit for robot in robots for unit in _units(robot, hashes, version)]
-    hashes.keep()
-    return units
+class Plan:
+    """The units of a fleet by robot and job, on disk: there may be many."""
+
+    def __init__(self) -> None:
+        self._file = tempfile.TemporaryFile()  # noqa: SIM115
+        self._hash = hashlib.sha256()
+        self._count = 0
+
+    def __del__(self) -> None:
+        self._file.close()
+
+    def add(self, unit: Unit) -> None:
+        """Appends a unit."""
+        pickle.dump(unit, self._file)
+        self._hash.update(unit.key.encode())
+        self._count += 1
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Unit]:
+        at = 0
+        for _ in range(self._count):
+            self._file.seek(at)
+            unit: Unit = pickle.load(self._file)
+            at = self._file.tell()
+            yield unit
+
+    @property
+    def run_id(self) -> str:
+        """A name of all that the answers depend on."""
+        return self._hash.hexdigest()[:16]
 
 
-def _units(robot: Robot, hashes: Hashes, version: str) -> Iterator[Unit]:
+def plan(robots: Iterable[Robot], store: Store, version: str = poseshift.__version__) -> Plan:
+    """The units of robots, by robot and job; nothing is written before every robot has been looked at."""
+    made, news = Plan(), tempfile.TemporaryFile()  # noqa: SIM115
+    keep_off, options = KeepOff(store.folder), {task: options_of(task) for tasks in JOBS.values() for task in tasks}
+    with news, Notes(store) as notes:
+        hashes, count = Hashes(notes), 0
+        for robot in robots:
+            keep_off.judge(robot)
+            by_job = _named(robot)
+            names = [name for named in by_job.values() for _, name in named]
+            try:
+                found, new = hashes.of(robot.id, [robot.folder / name for name in names])
+            except FileNotFoundError as error:
+                raise FleetError(f"robot {robot.id}: there is no file {error.filename}") from error
+            digests = dict(zip(names, found, strict=True))
+            if new is not None:
+                pickle.dump((robot.id, new), news)
+                count += 1
+            for job, named in by_job.items():
+                inputs = tuple((role, name, digests[name]) for role, name in named)
+                of_job = {task: {**options[task], **robot.options[task]} for task in JOBS[job]}
+                made.add(unit_of(robot.id, job, str(robot.folder.absolute()), inputs, of_job, version))
+        news.seek(0)
+        for _ in range(count):
+            name, new = pickle.load(news)
+            notes.put(name, "files", new)
+    return made
+
+
+def _named(robot: Robot) -> dict[str, list[tuple[str, str]]]:
+    """Role and name of the inputs of each job."""
     common = [("profile", robot.profile)]
     cell = [("cell", robot.cell)] if robot.cell else []
     wanted = {
         "programs": common + cell + [("program", name) for name in robot.programs],
         "diagnose": common + [("measurements", name) for name in robot.measurements],
     }
-    for job, named in wanted.items():
-        if not (robot.programs if job == "programs" else robot.measurements):
-            continue
-        meshes = [("mesh", mesh) for role, name in named if role in ("profile", "cell") for mesh in _meshes(robot.folder, name)]
-        try:
-            inputs = tuple((role, name, hashes.of(robot.folder / name)) for role, name in [*named, *meshes])
-        except FileNotFoundError as error:
-            raise FleetError(f"robot {robot.id}: there is no file {error.filename}") from error
-        options = {task: {**options_of(task), **robot.options[task]} for task in JOBS[job]}
-        yield unit_of(robot.id, job, str(robot.folder.absolute()), inputs, options, version)
+    meshes = {name: [("mesh", mesh) for mesh in _meshes(robot.folder, name)] for _, name in common + cell}
+    by_job = {"diagnose": robot.measurements, "programs": robot.programs}
+    return {
+        job: wanted[job] + [mesh for _, name in wanted[job] for mesh in meshes.get(name, [])]
+        for job, files in by_job.items()
+        if files
+    }
 
 
 def unit_of(

@@ -20,7 +20,7 @@ def work(store_folder: str, units: list[Unit]) -> list[tuple[str, float]]:
     store, done = Store(Path(store_folder)), []
     for unit in units:
         begun = time.perf_counter()
-        if store.result(unit.key) is None:
+        if not store.has(unit.key):
             store.keep(unit.key, answer(unit, store))
         done.append((unit.key, time.perf_counter() - begun))
     return done

@@ -16,6 +16,7 @@ pub mod universal_robots;
 mod write;
 
 pub use catalogue::{CatalogueArm, catalogue};
+#[cfg(feature = "urdf")]
 pub(crate) use catalogue::{coupled, flange_remark};
 pub use device::DevicePlace;
 pub use edit::{EditError, with_value};

@@ -1,9 +1,9 @@
 //! Values of a profile changed in its text: `profile set`, `profile add-tool` and their like.
 
-use super::urdf::check_language;
 use super::{Difference, diff};
 use crate::model::profile::{EditError, Profile, ToolOfProfile, flow_tool, with_value};
 use crate::nearest;
+use crate::program::LANGUAGES;
 use crate::task::{Document, Failure, ProfileFile};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -119,4 +119,16 @@ pub(super) fn changed(file: &ProfileFile, text: String, output: &str) -> Result<
         notes,
         text,
     })
+}
+
+/// That a language is one of those that are read.
+pub(super) fn check_language(language: &str) -> Result<(), Failure> {
+    let ids = || LANGUAGES.iter().map(|known| known.about().id);
+    if ids().any(|id| id == language) {
+        return Ok(());
+    }
+    Err(Failure::with_hint(
+        format!("no language is called `{language}`"),
+        nearest::hint(language, "languages", ids()),
+    ))
 }

@@ -8,7 +8,6 @@ use crate::model::effects::{Effect, Kind};
 use crate::model::profile::{Mounted, Profile};
 use crate::model::{Axes, Chain, Conditions, Geometry, Link, Model, classic};
 use crate::task::{Document, Failure, ProfileFile, parts};
-use crate::urdf::{Choice, Drawing, UrdfArm, urdf_text, yaw_pitch_roll};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -19,6 +18,7 @@ use std::collections::BTreeMap;
 #[serde(rename_all = "kebab-case")]
 pub enum Form {
     /// A URDF.
+    #[cfg(feature = "urdf")]
     Urdf,
     /// Classic (distal) Denavit–Hartenberg parameters as CSV.
     DhCsv,
@@ -157,6 +157,7 @@ pub fn export(file: &ProfileFile, form: Option<Form>) -> Result<Exported, Failur
             }
             not_carried.push("tools, limits, masses".into());
         }
+        #[cfg(feature = "urdf")]
         Some(Form::Urdf) => not_carried.push("collision shapes, moments of inertia".into()),
         Some(Form::DhCsv | Form::MdhCsv) => {
             not_carried.push(
@@ -193,7 +194,8 @@ pub fn export(file: &ProfileFile, form: Option<Form>) -> Result<Exported, Failur
     let comments = comments(file, &not_carried, &deviation);
     let text = form
         .map(|form| match form {
-            Form::Urdf => urdf(profile, &flange, &comments),
+            #[cfg(feature = "urdf")]
+            Form::Urdf => super::urdf::to_urdf(profile, &flange, &comments),
             Form::DhCsv => Ok(dh_csv(profile, &flange, &comments)),
             Form::MdhCsv => Ok(mdh_csv(profile, &flange, &comments)),
             Form::UrKinematics => Ok(ur_kinematics(profile, &exported, &comments)),
@@ -276,65 +278,11 @@ fn chain(profile: &Profile, flange: &Geometry, coupling: Vec<Coupled>) -> Export
 }
 
 /// Where the real tools are on the flange.
-fn tools(profile: &Profile) -> impl Iterator<Item = (&str, Pose)> {
+pub(super) fn tools(profile: &Profile) -> impl Iterator<Item = (&str, Pose)> {
     profile.tools.keys().filter_map(|name| {
         let tool = profile.tool(name)?;
         Some((name.as_str(), geometry(profile, &tool).flange_from_tool))
     })
-}
-
-fn urdf(profile: &Profile, flange: &Geometry, comments: &[String]) -> Result<String, Failure> {
-    let chain = Chain::of(flange, &profile.mechanism);
-    let axes = chain.axes();
-    let mut limits = profile.mechanism.joints.map(|j| [j.min_rad, j.max_rad]);
-    for c in &profile.mechanism.coupling {
-        let by = limits[c.on].map(|angle| c.ratio * angle);
-        limits[c.joint][0] += by[0].min(by[1]);
-        limits[c.joint][1] += by[0].max(by[1]);
-    }
-    let masses = std::array::from_fn(|i| {
-        let own = || flange.bodies.iter().filter(|body| body.link == i);
-        let mass: f64 = own().map(|body| body.mass_kg).sum();
-        let centre = own().fold([0.0; 3], |sum: [f64; 3], body| {
-            let cog = chain.turning_from_link(i).transform(body.cog_m);
-            std::array::from_fn(|k| sum[k] + body.mass_kg * cog[k])
-        });
-        (mass > 0.0).then(|| (mass, centre.map(|moment| moment / mass)))
-    });
-    let text = urdf_text(&Drawing {
-        name: &profile.model,
-        comments,
-        axes: &axes,
-        limits,
-        speeds: profile.joint_speeds,
-        masses,
-        tools: tools(profile).collect(),
-    });
-    // what is written is read again
-    let choice = Choice {
-        tip: Some("tool0".into()),
-        ..Choice::default()
-    };
-    let again = UrdfArm::read(&text, &choice);
-    let again = again.map_err(|error| Failure::internal(format!("the URDF made: {error}")))?;
-    let model = Model::build(flange, &profile.mechanism, &[], &Conditions::default());
-    for k in 0..100 {
-        let q = std::array::from_fn(|i| {
-            let [low, high] = limits[i];
-            low + (high - low) * (0.5 + 0.5 * (f64::from(k) * (i as f64 + 1.7)).sin())
-        });
-        let forward: Pose =
-            model.forward(&profile.mechanism.controller(&q), &Conditions::default());
-        let gap = forward.separation(&again.forward(&q));
-        if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
-            return Err(Failure::internal(format!(
-                "the URDF made is {} mm and {} deg off the profile",
-                mm_from_m(gap.distance_m),
-                gap.angle_rad / DEG
-            )));
-        }
-    }
-    Ok(text)
 }
 
 /// A pose in a comment.
@@ -449,7 +397,7 @@ fn ur_kinematics(profile: &Profile, exported: &Geometry, comments: &[String]) ->
     ];
     for (name, step) in names.iter().zip(&steps) {
         let [x, y, z] = step.translation.map(|x| x + 0.0);
-        let [yaw, pitch, roll] = yaw_pitch_roll(&step.rotation);
+        let [yaw, pitch, roll] = step.rotation.yaw_pitch_roll();
         out += &format!(
             "  {name}:\n    x: {x}\n    y: {y}\n    z: {z}\n    roll: {roll}\n    pitch: \
              {pitch}\n    yaw: {yaw}\n"

@@ -8,6 +8,7 @@ mod import_ur;
 mod krc;
 mod moc;
 mod tool;
+#[cfg(feature = "urdf")]
 mod urdf;
 
 pub use change::{Changed, add_tool, set};
@@ -16,6 +17,7 @@ pub use external::{add_positioner, add_track, import_krc, import_moc};
 pub use facts::Deviation;
 pub use import_ur::{Imported, import_ur};
 pub use tool::tool;
+#[cfg(feature = "urdf")]
 pub use urdf::{FromUrdf, Inputs, from_urdf};
 
 use super::Document;

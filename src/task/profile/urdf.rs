@@ -1,11 +1,16 @@
-//! A profile of a URDF.
+//! A profile of a URDF, and back.
 
+use super::change::check_language;
+use super::export::tools;
 use super::inverse;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{MAKERS, Maker, Profile, ToolOfProfile};
+use crate::model::{Chain, Conditions, Geometry, Model};
 use crate::nearest;
-use crate::program::{LANGUAGES, Source};
+use crate::program::Source;
 use crate::task::{Document, Failure, text};
-use crate::urdf::{About, Choice, Meshes, UrdfArm, UrdfError, profile_text};
+use crate::urdf::{About, Choice, Drawing, Meshes, UrdfArm, UrdfError, profile_text, urdf_text};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -88,16 +93,66 @@ pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
     })
 }
 
-/// That a language is one of those that are read.
-pub(super) fn check_language(language: &str) -> Result<(), Failure> {
-    let ids = || LANGUAGES.iter().map(|known| known.about().id);
-    if ids().any(|id| id == language) {
-        return Ok(());
+/// The text of a URDF of a profile with this geometry up to the flange.
+///
+/// # Errors
+/// A text that, read again, is another arm.
+pub(super) fn to_urdf(
+    profile: &Profile,
+    flange: &Geometry,
+    comments: &[String],
+) -> Result<String, Failure> {
+    let chain = Chain::of(flange, &profile.mechanism);
+    let axes = chain.axes();
+    let mut limits = profile.mechanism.joints.map(|j| [j.min_rad, j.max_rad]);
+    for c in &profile.mechanism.coupling {
+        let by = limits[c.on].map(|angle| c.ratio * angle);
+        limits[c.joint][0] += by[0].min(by[1]);
+        limits[c.joint][1] += by[0].max(by[1]);
     }
-    Err(Failure::with_hint(
-        format!("no language is called `{language}`"),
-        nearest::hint(language, "languages", ids()),
-    ))
+    let masses = std::array::from_fn(|i| {
+        let own = || flange.bodies.iter().filter(|body| body.link == i);
+        let mass: f64 = own().map(|body| body.mass_kg).sum();
+        let centre = own().fold([0.0; 3], |sum: [f64; 3], body| {
+            let cog = chain.turning_from_link(i).transform(body.cog_m);
+            std::array::from_fn(|k| sum[k] + body.mass_kg * cog[k])
+        });
+        (mass > 0.0).then(|| (mass, centre.map(|moment| moment / mass)))
+    });
+    let text = urdf_text(&Drawing {
+        name: &profile.model,
+        comments,
+        axes: &axes,
+        limits,
+        speeds: profile.joint_speeds,
+        masses,
+        tools: tools(profile).collect(),
+    });
+    // what is written is read again
+    let choice = Choice {
+        tip: Some("tool0".into()),
+        ..Choice::default()
+    };
+    let again = UrdfArm::read(&text, &choice);
+    let again = again.map_err(|error| Failure::internal(format!("the URDF made: {error}")))?;
+    let model = Model::build(flange, &profile.mechanism, &[], &Conditions::default());
+    for k in 0..100 {
+        let q = std::array::from_fn(|i| {
+            let [low, high] = limits[i];
+            low + (high - low) * (0.5 + 0.5 * (f64::from(k) * (i as f64 + 1.7)).sin())
+        });
+        let forward: Pose =
+            model.forward(&profile.mechanism.controller(&q), &Conditions::default());
+        let gap = forward.separation(&again.forward(&q));
+        if gap.distance_m > 1e-9 || gap.angle_rad > 1e-9 {
+            return Err(Failure::internal(format!(
+                "the URDF made is {} mm and {} deg off the profile",
+                mm_from_m(gap.distance_m),
+                gap.angle_rad / DEG
+            )));
+        }
+    }
+    Ok(text)
 }
 
 /// A maker that may be a misspelt one.

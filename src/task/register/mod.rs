@@ -1,5 +1,6 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
+#[cfg(feature = "icp")]
 mod cloud;
 mod construct;
 mod matched;
@@ -15,6 +16,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, norm};
 use crate::program::Source;
 use crate::register::frame_file::{Frame, Sigma as Six};
+#[cfg(feature = "icp")]
 use crate::register::icp;
 use crate::register::uncertainty::PoseCovariance;
 use points::Points;
@@ -43,6 +45,7 @@ pub enum Pairing<'a> {
     /// By `id` or by order.
     Rows(&'a Source),
     /// By nearness.
+    #[cfg(feature = "icp")]
     Nearness(&'a Source, icp::Options),
     /// There is no second one: touches make a frame.
     Frame(Construction),
@@ -254,6 +257,7 @@ pub fn register(
     match pairing {
         Pairing::Frame(kind) => construct::construct(&from, *kind, options),
         Pairing::Rows(to) => matched::register(&from, &distinct(&from, to)?, options),
+        #[cfg(feature = "icp")]
         Pairing::Nearness(to, icp) => cloud::register(&from, &distinct(&from, to)?, icp, options),
     }
 }
