@@ -245,7 +245,13 @@ pub fn compensate(
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
     context::leave(&mut program, sources, &mut findings);
-    external::settle(language, &mut program, sources, profile, &mut findings);
+    external::settle(
+        language,
+        &mut program,
+        sources,
+        (profile, &[]),
+        &mut findings,
+    );
     setting::check_measured(&program, &options.given)?;
     setting::check_given(&[&program], &options.given)?;
     if options.each_for_itself {

@@ -50,7 +50,7 @@ impl<'a> Driving<'a> {
             meshes.load(&mut shape.shape, &file.name)?;
         }
         let scene = Scene::new(&shaped, None, &meshes.meshes)
-            .map_err(|missing| Failure::new(missing.to_string()))?;
+            .map_err(|error| Failure::new(error.to_string()))?;
         if let Some(found) = scene.findings.first() {
             let message = format!("{}: {}", found.file, found.message);
             return Err(Failure::with_hint(message, found.hint.clone()));
