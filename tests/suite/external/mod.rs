@@ -5,6 +5,7 @@ mod attached;
 mod checked;
 mod landing;
 mod measured;
+mod named;
 mod others;
 mod plates;
 mod refused;
