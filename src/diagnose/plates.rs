@@ -178,7 +178,10 @@ impl Device {
             return Vec::new();
         };
         let eigen = turned.symmetric_eigen();
-        let Some(modes) = lower.transpose().solve_upper_triangular(&eigen.eigenvectors) else {
+        let Some(modes) = lower
+            .transpose()
+            .solve_upper_triangular(&eigen.eigenvectors)
+        else {
             return Vec::new();
         };
         let of = |mode: usize| {
@@ -389,7 +392,7 @@ impl One {
                 "the residual is {scale:.2} times the noise that sigma_mm states"
             ));
         }
-        let is_better = left
+        let is_better = unused
             .spreads
             .is_some_and(|(before, after)| after.rms < before.rms);
         let verdict = match (found.is_empty(), is_louder) {
