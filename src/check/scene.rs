@@ -173,13 +173,11 @@ impl Scene {
         let empty = Cell::default();
         let cell = cell.unwrap_or(&empty);
         for attached in &cell.attached {
-            let (on, place) = match attached.to {
-                Carrier::Flange => (On::Link(6), profile.link6_from_flange),
-                Carrier::Link(link) => (On::Link(link), Pose::identity()),
-                Carrier::Positioner(_) => {
-                    let of = attached.positioner(&profile.external)?;
-                    (scene.plate(of.expect("a positioner")), Pose::identity())
-                }
+            let positioner = attached.positioner(&profile.external)?;
+            let (on, place) = match (&attached.to, positioner) {
+                (_, Some(positioner)) => (scene.plate(positioner), Pose::identity()),
+                (Carrier::Link(link), None) => (On::Link(*link), Pose::identity()),
+                (_, None) => (On::Link(6), profile.link6_from_flange),
             };
             let shape = Shape {
                 frame_from_shape: place * attached.shape.frame_from_shape,

@@ -215,7 +215,9 @@ fn basis_of(columns: impl Iterator<Item = Column>) -> Vec<Column> {
         let mut column = without(column, &basis);
         let after = dot(&column, &column);
         if after > REDUNDANT * before {
-            column.iter_mut().for_each(|x| *x /= after.sqrt());
+            for x in &mut column {
+                *x /= after.sqrt();
+            }
             basis.push(column);
         }
     }

@@ -230,6 +230,9 @@ pub fn candidates(
     Ok((found.into_iter().map(|(_, q)| q).collect(), met))
 }
 
+/// Configurations, radians, each with the index of the place where it is.
+pub(super) type Drawn = Vec<(usize, [f64; 6])>;
+
 /// As [`candidates`], of those that are `admitted`, each at a random one of several places that an
 /// arm's base is carried to, by its index: the constraints there. There is at least one.
 pub(super) fn candidates_where(
@@ -237,7 +240,7 @@ pub(super) fn candidates_where(
     count: usize,
     seed: u64,
     admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
-) -> Result<(Vec<(usize, [f64; 6])>, f64), IdentifyError> {
+) -> Result<(Drawn, f64), IdentifyError> {
     let (mut random, mut places) = (Random::new(seed), Random::new(seed ^ 0x7ac4));
     let Guard {
         profile,
