@@ -121,7 +121,7 @@ pub(super) fn of_another_robot() -> Remark {
     )
 }
 
-/// Against a base that another robot carries. What else of RoboTeam waits for another robot (`PROGSYNC`,
+/// Against a base that another robot carries. What else of `RoboTeam` waits for another robot (`PROGSYNC`,
 /// `$SYNC_LIST`) moves no frame.
 pub(super) fn linked() -> Remark {
     Remark::error(
