@@ -1,6 +1,7 @@
 //! The cell file: what stands around the robot, what it carries, and how near they may come.
 
 use crate::geometry::units::m_from_mm;
+use crate::model::external::ExternalAxes;
 use crate::model::profile::file::{self, Number};
 use crate::model::profile::shape::with_shape;
 use crate::model::profile::{Fault, ProfileError};
@@ -19,7 +20,7 @@ pub struct Cell {
     pub clearance_m: f64,
     /// Bodies fixed in the world.
     pub bodies: Vec<Named>,
-    /// Bodies that move with the arm.
+    /// Bodies that move with the arm or with positioners.
     pub attached: Vec<Attached>,
     /// What is required of some pairs.
     pub pairs: Vec<Pair>,
@@ -34,7 +35,7 @@ pub struct Named {
     pub shape: Shape,
 }
 
-/// A body on the arm.
+/// A body on the arm or on a positioner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attached {
     /// Its name.
@@ -46,13 +47,57 @@ pub struct Attached {
 }
 
 /// What an attached body moves with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Carrier {
     /// The flange.
     Flange,
     /// The base (0) or a link (1 to 6).
     Link(usize),
+    /// The plate of a positioner of the profile, as written: `positioner1`, or `positioner STN1`.
+    Positioner(String),
 }
+
+/// A body on a positioner that the profile does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{body}` is attached to `{to}`, which the profile does not have")]
+pub struct UnknownPositioner {
+    /// Name of the body.
+    pub body: String,
+    /// What it is attached to.
+    pub to: String,
+    /// What there is.
+    pub known: Vec<String>,
+}
+
+impl Attached {
+    /// Index of the positioner that carries it; `None` where the arm does.
+    ///
+    /// # Errors
+    /// If the profile has no such positioner.
+    pub fn positioner(&self, external: &ExternalAxes) -> Result<Option<usize>, UnknownPositioner> {
+        let Carrier::Positioner(to) = &self.to else {
+            return Ok(None);
+        };
+        let names = external.positioners.iter().zip(1..);
+        let names: Vec<[String; 2]> = names
+            .map(|(is, n)| {
+                [
+                    format!("{POSITIONER}{n}"),
+                    format!("{POSITIONER} {}", is.name),
+                ]
+            })
+            .collect();
+        let found = names.iter().position(|names| names.contains(to));
+        found.map(Some).ok_or_else(|| UnknownPositioner {
+            body: self.name.clone(),
+            to: to.clone(),
+            known: names.into_iter().flatten().collect(),
+        })
+    }
+}
+
+/// How a carrier begins that is a positioner: its number from 1 follows, or its name behind a space.
+const POSITIONER: &str = "positioner";
 
 /// What is required of two bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +130,7 @@ struct CellFile {
     #[serde(default)]
     #[schemars(with = "Vec<BodyFile>")]
     bodies: Vec<Spanned<BodyFile>>,
-    /// Moving with the flange, a link, or the carriage of a track.
+    /// Moving with the flange, a link, the carriage of a track, or the plate of a positioner.
     #[serde(default)]
     #[schemars(with = "Vec<AttachedFile>")]
     attached: Vec<Spanned<AttachedFile>>,
@@ -104,11 +149,12 @@ with_shape! {
 }
 
 with_shape! {
-    /// A body that moves with the arm.
+    /// A body that moves with the arm or with a positioner.
     AttachedFile {
         /// Its name.
         name: String,
-        /// `flange`, `link0` to `link6`, or `track`: the carriage under the base.
+        /// `flange`, `link0` to `link6`, `track`: the carriage under the base, or `positioner1`: the
+        /// plate of the profile's first positioner (`positioner STN1`: by its name).
         to: String,
     }
 }
@@ -231,13 +277,15 @@ fn carrier(name: &str, at: Location) -> Result<Carrier, ProfileError> {
         "flange" => return Ok(Carrier::Flange),
         // what rides on the carriage rides with the base
         "track" => return Ok(Carrier::Link(0)),
+        // which there are the profile says
+        _ if name.starts_with(POSITIONER) => return Ok(Carrier::Positioner(name.to_owned())),
         _ => {}
     }
     let link = LINKS.iter().position(|link| *link == name);
     link.map(Carrier::Link).ok_or_else(|| {
         Fault::UnknownBody {
             name: name.into(),
-            known: ["flange", "track"]
+            known: ["flange", "track", "positioner1"]
                 .iter()
                 .chain(&LINKS)
                 .map(|name| (*name).to_owned())

@@ -18,10 +18,10 @@
 //! (1972) (the search).
 
 use super::query::{Body, Nearest};
-use super::scene::{FixedForm, Other, Scene, Watched};
+use super::scene::{FixedForm, On, Other, Scene, Watched};
 use crate::geometry::{Jet, Pose, Scalar, Vector, norm};
-use crate::model::Model;
 use crate::model::effects::Deflection;
+use crate::model::{Conditions, Model};
 use crate::motion::course::{Leg, Piece};
 use crate::motion::ride::Ride;
 use std::collections::BinaryHeap;
@@ -66,9 +66,51 @@ pub(crate) struct Mover<'a> {
     pub is_real: bool,
 }
 
+/// Bounds of how a frame moves in the world over a piece, by s.
+#[derive(Clone, Copy, Debug)]
+struct Sweep {
+    /// Angular speed and acceleration.
+    turn: f64,
+    gain: f64,
+    /// Of its origin: distance from that of the world, speed and acceleration.
+    far: f64,
+    moving: f64,
+    rising: f64,
+}
+
+impl Sweep {
+    fn of(frame: &Pose<Jet>) -> Self {
+        // dR = [ω] R: of each the largest that it can be
+        let size = |part: fn(&Jet) -> f64| {
+            let all = frame.rotation.0.iter().flatten();
+            (0.5 * all.map(|x| part(x).powi(2)).sum::<f64>()).sqrt()
+        };
+        let length = |part: fn(&Jet) -> f64| {
+            let all = frame.translation.iter();
+            all.map(|x| part(x).powi(2)).sum::<f64>().sqrt()
+        };
+        Self {
+            turn: size(|x| x.slope.magnitude()),
+            gain: size(|x| x.bend.magnitude()),
+            far: length(|x| x.value.magnitude()),
+            moving: length(|x| x.slope.magnitude()),
+            rising: length(|x| x.bend.magnitude()),
+        }
+    }
+
+    /// Speed and acceleration of what is so far from its origin.
+    fn at(&self, far: f64) -> [f64; 2] {
+        let speed = self.moving + self.turn * far;
+        [
+            speed,
+            self.rising + (self.gain + self.turn * self.turn) * far,
+        ]
+    }
+}
+
 /// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it
 /// carries.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Rates {
     /// Angular speed of each joint, radians by s.
     turn: [f64; 6],
@@ -76,6 +118,25 @@ struct Rates {
     gain: [f64; 6],
     /// Rotation and translation of the whole arm in the world: speed and acceleration.
     world: [[f64; 2]; 2],
+    /// Largest distance of that translation.
+    carried: f64,
+    /// The plates that carry bodies.
+    plates: Vec<Sweep>,
+}
+
+/// The frames of all that moves: those of the links, and of the plates that carry bodies.
+struct Frames {
+    links: [Pose; 7],
+    plates: Vec<Pose>,
+}
+
+impl Frames {
+    fn of(&self, on: On) -> &Pose {
+        match on {
+            On::Link(link) => &self.links[link],
+            On::Plate(plate) => &self.plates[plate],
+        }
+    }
 }
 
 impl Mover<'_> {
@@ -88,7 +149,31 @@ impl Mover<'_> {
         }
     }
 
-    fn rates(&self, leg: &Leg, piece: &Piece) -> Rates {
+    /// All frames in the world.
+    fn frames(
+        &self,
+        plates: &[usize],
+        ride: Option<&Ride>,
+        s: f64,
+        joints: &[f64; 6],
+        conditions: &Conditions,
+    ) -> Frames {
+        let links = self.model.link_frames(joints, conditions);
+        let Some(ride) = ride else {
+            let plates = Vec::new();
+            return Frames { links, plates };
+        };
+        let carried = self.carried(ride, s);
+        let plates = plates.iter();
+        Frames {
+            links: links.map(|link| carried * link),
+            plates: plates
+                .map(|plate| ride.world_from_plate(*plate, s, self.is_real))
+                .collect(),
+        }
+    }
+
+    fn rates(&self, plates: &[usize], leg: &Leg, piece: &Piece) -> Rates {
         let mechanism = self.model.mechanism();
         let commanded = mechanism.commanded(&piece.joints);
         let deflection: Deflection<Jet> = self.jet.deflection(&piece.joints, &piece.conditions);
@@ -96,6 +181,8 @@ impl Mover<'_> {
             turn: [0.0; 6],
             gain: [0.0; 6],
             world: [[0.0; 2]; 2],
+            carried: 0.0,
+            plates: Vec::new(),
         };
         for i in 0..6 {
             let real = commanded[i] + deflection.joints[i];
@@ -108,27 +195,12 @@ impl Mover<'_> {
         }
         if let Some(ride) = &leg.ride {
             let s = Jet::variable(piece.from, piece.to);
-            let carried = self.carried(ride, s);
-            // dR = [ω] R: of each the largest that it can be
-            let size = |part: fn(&Jet) -> f64| {
-                let all = carried.rotation.0.iter().flatten();
-                (0.5 * all.map(|x| part(x).powi(2)).sum::<f64>()).sqrt()
-            };
-            let (turn, gain) = (size(|x| x.slope.magnitude()), size(|x| x.bend.magnitude()));
-            let length = |part: fn(&Jet) -> f64| {
-                carried
-                    .translation
-                    .iter()
-                    .map(|x| part(x).powi(2))
-                    .sum::<f64>()
-                    .sqrt()
-            };
-            let far = length(|x| x.value.magnitude());
-            rates.world[0] = [turn, gain];
-            rates.world[1] = [
-                length(|x| x.slope.magnitude()) + turn * far,
-                length(|x| x.bend.magnitude()) + (gain + turn * turn) * far,
-            ];
+            let carried = Sweep::of(&self.carried(ride, s));
+            rates.world = [[carried.turn, carried.gain], carried.at(carried.far)];
+            rates.carried = carried.far;
+            let frames = plates.iter();
+            let frames = frames.map(|plate| ride.world_from_plate(*plate, s, self.is_real));
+            rates.plates = frames.map(|frame| Sweep::of(&frame)).collect();
         }
         for (i, part) in deflection.world.iter().enumerate() {
             let kind = usize::from(i < 3);
@@ -138,9 +210,44 @@ impl Mover<'_> {
         rates
     }
 
-    /// Bounds of speed and acceleration of a body on link `on` seen from link `from` (0 is the
-    /// world), by s.
-    fn speed(
+    /// Bounds of speed and acceleration of the first body of a pair seen from the second, by s; the
+    /// base is so far from the origin of the world.
+    ///
+    /// Seen from a frame that turns, `v' = v − v_o − ω × r` and `a' = a − a_o − α × r − ω × (ω × r) −
+    /// 2 ω × v'` with r from its origin.
+    fn speed(&self, rates: &Rates, scene: &Scene, pair: &Watched, base: f64) -> [f64; 2] {
+        let moving = &scene.moving[pair.a];
+        let extent = moving.body.extent();
+        let from = match pair.b {
+            Other::Moving(b) => Some(scene.moving[b].on),
+            Other::Fixed(_) => None,
+        };
+        let ([speed, gain], far) = match (moving.on, from) {
+            (On::Link(on), Some(On::Link(from))) => {
+                return self.along(rates, Some(from), on, extent, base);
+            }
+            (On::Link(on), _) => {
+                let reach = self.reaches[..on].iter().sum::<f64>() + extent;
+                // the base at home is no farther than where it is carried to, and so far back
+                let far = base + 2.0 * rates.carried + reach;
+                (self.along(rates, None, on, extent, base), far)
+            }
+            (On::Plate(plate), _) => {
+                let plate = rates.plates[plate];
+                (plate.at(extent), plate.far + extent)
+            }
+        };
+        let Some(On::Plate(plate)) = from else {
+            return [speed, gain];
+        };
+        let plate = rates.plates[plate];
+        let [by, bent] = plate.at(far + plate.far);
+        let speed = speed + by;
+        [speed, gain + bent + 2.0 * plate.turn * speed]
+    }
+
+    /// The same of a body on link `on` seen from link `from`, or from the world.
+    fn along(
         &self,
         rates: &Rates,
         from: Option<usize>,
@@ -217,10 +324,8 @@ struct Search<'a> {
     settled: f64,
 }
 
-type Frames = [Pose; 7];
-
 /// The clearance of one move, as far as anything comes within `horizon_m` of what is required of
-/// it.
+/// it. Where all bodies are is known: see [`Scene::is_known`].
 pub(crate) fn clearance(
     scene: &Scene,
     mover: &Mover,
@@ -234,7 +339,10 @@ pub(crate) fn clearance(
         leg,
         horizon_m,
         pieces,
-        rates: pieces.iter().map(|piece| mover.rates(leg, piece)).collect(),
+        rates: pieces
+            .iter()
+            .map(|piece| mover.rates(&scene.plates, leg, piece))
+            .collect(),
         best: Clearance {
             clearance_m: horizon_m,
             sampled_m: f64::INFINITY,
@@ -321,22 +429,16 @@ pub(crate) fn clearance(
 impl Search<'_> {
     fn frames(&self, s: f64, joints: &[f64; 6], node: &Node) -> Frames {
         let conditions = &self.pieces[node.piece as usize].conditions;
-        let frames = self.mover.model.link_frames(joints, conditions);
-        match &self.leg.ride {
-            None => frames,
-            Some(ride) => {
-                let carried = self.mover.carried(ride, s);
-                frames.map(|frame| carried * frame)
-            }
-        }
+        let (plates, ride) = (&self.scene.plates, self.leg.ride.as_deref());
+        self.mover.frames(plates, ride, s, joints, conditions)
     }
 
     /// The first body's pose seen from the second's frame.
     fn relative(&self, frames: &Frames, pair: &Watched) -> Pose {
-        let world_from_a = frames[self.scene.moving[pair.a].link];
+        let world_from_a = *frames.of(self.scene.moving[pair.a].on);
         match pair.b {
             Other::Fixed(_) => world_from_a,
-            Other::Moving(b) => frames[self.scene.moving[b].link].inverse() * world_from_a,
+            Other::Moving(b) => frames.of(self.scene.moving[b].on).inverse() * world_from_a,
         }
     }
 
@@ -346,7 +448,7 @@ impl Search<'_> {
         if margin < self.margin {
             let place = match pair.b {
                 Other::Fixed(_) => Pose::identity(),
-                Other::Moving(b) => frames[self.scene.moving[b].link],
+                Other::Moving(b) => *frames.of(self.scene.moving[b].on),
             };
             self.margin = margin;
             self.best = Clearance {
@@ -409,19 +511,13 @@ impl Search<'_> {
         let begin = self.leg.joints(node.from, &node.joints);
         let ends = [(node.from, begin), (at, middle), (node.to, end)];
         let frames = ends.map(|(s, joints)| self.frames(s, &joints, node));
-        let rates = self.rates[node.piece as usize];
+        let rates = self.rates[node.piece as usize].clone();
         let (mut bound, mut settled, mut items) = (f64::INFINITY, f64::INFINITY, Vec::new());
         for item in &node.items {
             let pair = self.scene.watched[item.pair as usize];
             let moving = &self.scene.moving[pair.a];
-            let from = match pair.b {
-                Other::Moving(b) => Some(self.scene.moving[b].link),
-                Other::Fixed(_) => None,
-            };
-            let base = norm(frames[0][0].translation);
-            let [speed, gain] =
-                self.mover
-                    .speed(&rates, from, moving.link, moving.body.extent(), base);
+            let base = norm(frames[0].links[0].translation);
+            let [speed, gain] = self.mover.speed(&rates, self.scene, &pair, base);
             let poses = [0, 1, 2].map(|i| self.relative(&frames[i], &pair));
             let (moved, sag) = (speed * half, gain * half * half / 8.0);
             // what is farther than this adds nothing; it falls with every sample
@@ -529,14 +625,8 @@ impl Search<'_> {
 
 /// Names of closed meshes, each with a body that is inside it at these joints.
 pub(crate) fn inside(scene: &Scene, mover: &Mover, leg: &Leg, joints: &[f64; 6]) -> Vec<usize> {
-    let frames = mover.model.link_frames(joints, &leg.conditions);
-    let frames = match &leg.ride {
-        None => frames,
-        Some(ride) => {
-            let carried = mover.carried(ride, 0.0);
-            frames.map(|frame| carried * frame)
-        }
-    };
+    let ride = leg.ride.as_deref();
+    let frames = mover.frames(&scene.plates, ride, 0.0, joints, &leg.conditions);
     let mut pairs = Vec::new();
     for (index, pair) in scene.watched.iter().enumerate() {
         let Other::Fixed(k) = pair.b else { continue };
@@ -544,7 +634,7 @@ pub(crate) fn inside(scene: &Scene, mover: &Mover, leg: &Leg, joints: &[f64; 6])
             && mesh.open_edges == 0
         {
             let moving = &scene.moving[pair.a];
-            let point = frames[moving.link].transform(moving.body.some_point());
+            let point = frames.of(moving.on).transform(moving.body.some_point());
             if mesh.contains(point) {
                 pairs.push(index);
             }

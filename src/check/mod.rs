@@ -54,7 +54,7 @@ mod uncertainty;
 mod walk;
 
 pub use crate::motion::ToolRotation;
-pub use scene::{Meshes, MissingMesh, Scene};
+pub use scene::{Meshes, Scene, SceneError};
 
 use crate::compensate::CompensateError;
 use crate::finding::{Finding, Severity};
@@ -281,10 +281,10 @@ pub fn check_telling(
     options: &Options,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Check, CheckError> {
-    let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
+    let walk = Walk::of(subject, subject.sources, options)?;
     let original = subject
         .nominal
-        .map(|sources| Walk::of(subject.language, sources, subject.profile, options))
+        .map(|sources| Walk::of(subject, sources, options))
         .transpose()
         .map_err(CheckError::Nominal)?;
     let of_original = original.iter().map(|original| &original.program);

@@ -49,7 +49,7 @@ pub fn refine(
     decimals: Option<usize>,
     compensation: &mut Compensation,
 ) -> Result<(), CheckError> {
-    let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
+    let walk = Walk::of(subject, subject.sources, options)?;
     let job = Job {
         subject,
         options,

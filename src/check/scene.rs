@@ -1,12 +1,13 @@
 //! All bodies of a check: what moves, what stands, and which pairs are looked at.
 
-use super::cell::{Carrier, Cell, LINKS};
+use super::cell::{Carrier, Cell, LINKS, UnknownPositioner};
 use super::mesh::Mesh;
 use super::query::{Body, Triangles};
 use crate::finding::Finding;
 use crate::geometry::{Pose, Vector};
 use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
+use crate::motion::course::Leg;
 use std::collections::BTreeMap;
 
 /// Meshes by the name that a profile or cell file gives them.
@@ -16,14 +17,23 @@ pub type Meshes = BTreeMap<String, Mesh>;
 /// their capsules overlap.
 const APART: usize = 3;
 
-/// A body that moves with a link.
+/// What a body moves with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum On {
+    /// 0 is the base, 1 to 6 the rows of the chain.
+    Link(usize),
+    /// Index in [`Scene::plates`].
+    Plate(usize),
+}
+
+/// A body that moves.
 #[derive(Clone, Debug)]
 pub(crate) struct Moving {
     /// Index in [`Scene::names`].
     pub name: usize,
-    /// 0 is the base, 1 to 6 the rows of the chain.
-    pub link: usize,
-    /// In the link's frame.
+    /// What it moves with.
+    pub on: On,
+    /// In the frame of that.
     pub body: Body,
 }
 
@@ -63,7 +73,8 @@ impl FixedForm {
 /// Two bodies that must keep apart.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watched {
-    /// Index in [`Scene::moving`]: the body farther out on the arm.
+    /// Index in [`Scene::moving`]: the body farther out on the arm; one on a plate where the other
+    /// is not on the arm.
     pub a: usize,
     /// What it must not come near.
     pub b: Other,
@@ -86,20 +97,28 @@ pub struct Scene {
     pub(crate) moving: Vec<Moving>,
     pub(crate) fixed: Vec<Fixed>,
     pub(crate) watched: Vec<Watched>,
+    /// Indices of the positioners that carry bodies.
+    pub(crate) plates: Vec<usize>,
     /// Bodies whose size is hardly meant.
     pub(crate) findings: Vec<Finding>,
 }
 
-/// A mesh that was not given.
+/// Why bodies are none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the mesh `{file}` is not loaded")]
-pub struct MissingMesh {
-    /// Its name as written.
-    pub file: String,
+pub enum SceneError {
+    /// A mesh that was not given.
+    #[error("the mesh `{file}` is not loaded")]
+    MissingMesh {
+        /// Its name as written.
+        file: String,
+    },
+    /// A body on a positioner that the profile does not have.
+    #[error(transparent)]
+    UnknownPositioner(#[from] UnknownPositioner),
 }
 
 /// A shape as convex bodies in its frame; the triangles of a mesh as their hull.
-fn convex(shape: &Shape, meshes: &Meshes) -> Result<Body, MissingMesh> {
+fn convex(shape: &Shape, meshes: &Meshes) -> Result<Body, SceneError> {
     let place = &shape.frame_from_shape;
     Ok(match &shape.form {
         Form::Capsule {
@@ -124,22 +143,22 @@ fn convex(shape: &Shape, meshes: &Meshes) -> Result<Body, MissingMesh> {
     })
 }
 
-fn loaded<'a>(file: &str, meshes: &'a Meshes) -> Result<&'a Mesh, MissingMesh> {
+fn loaded<'a>(file: &str, meshes: &'a Meshes) -> Result<&'a Mesh, SceneError> {
     meshes
         .get(file)
-        .ok_or_else(|| MissingMesh { file: file.into() })
+        .ok_or_else(|| SceneError::MissingMesh { file: file.into() })
 }
 
 impl Scene {
     /// Brings together the robot's own bodies and those of a cell.
     ///
     /// # Errors
-    /// If a mesh was not loaded.
+    /// If a mesh was not loaded, or the profile lacks a positioner that carries something.
     pub fn new(
         profile: &Profile,
         cell: Option<&Cell>,
         meshes: &Meshes,
-    ) -> Result<Self, MissingMesh> {
+    ) -> Result<Self, SceneError> {
         let mut scene = Self {
             names: LINKS.map(String::from).to_vec(),
             ..Self::default()
@@ -147,16 +166,18 @@ impl Scene {
         for shape in &profile.shapes {
             scene.moving.push(Moving {
                 name: shape.link,
-                link: shape.link,
+                on: On::Link(shape.link),
                 body: convex(&shape.shape, meshes)?,
             });
         }
         let empty = Cell::default();
         let cell = cell.unwrap_or(&empty);
         for attached in &cell.attached {
-            let (link, place) = match attached.to {
-                Carrier::Flange => (6, profile.link6_from_flange),
-                Carrier::Link(link) => (link, Pose::identity()),
+            let positioner = attached.positioner(&profile.external)?;
+            let (on, place) = match (&attached.to, positioner) {
+                (_, Some(positioner)) => (scene.plate(positioner), Pose::identity()),
+                (Carrier::Link(link), None) => (On::Link(*link), Pose::identity()),
+                (_, None) => (On::Link(6), profile.link6_from_flange),
             };
             let shape = Shape {
                 frame_from_shape: place * attached.shape.frame_from_shape,
@@ -164,7 +185,7 @@ impl Scene {
             };
             scene.moving.push(Moving {
                 name: scene.names.len(),
-                link,
+                on,
                 body: convex(&shape, meshes)?,
             });
             scene.names.push(attached.name.clone());
@@ -196,6 +217,15 @@ impl Scene {
         Ok(scene)
     }
 
+    /// The plate of a positioner.
+    fn plate(&mut self, positioner: usize) -> On {
+        let known = self.plates.iter().position(|plate| *plate == positioner);
+        On::Plate(known.unwrap_or_else(|| {
+            self.plates.push(positioner);
+            self.plates.len() - 1
+        }))
+    }
+
     fn watch(&mut self, profile: &Profile, cell: &Cell) {
         let required = |a: usize, b: usize| {
             let (a, b) = (self.names[a].as_str(), self.names[b].as_str());
@@ -210,14 +240,14 @@ impl Scene {
         let mut watched = Vec::new();
         for (i, one) in self.moving.iter().enumerate() {
             for (j, other) in self.moving.iter().enumerate().take(i) {
-                let (a, b) = if one.link >= other.link {
-                    (i, j)
-                } else {
-                    (j, i)
+                let (a, b, apart) = match (one.on, other.on) {
+                    (On::Link(high), On::Link(low)) if high >= low => (i, j, high - low),
+                    (On::Link(low), On::Link(high)) => (j, i, high - low),
+                    (On::Plate(one), On::Plate(other)) if one == other => (i, j, 0),
+                    (On::Plate(_), On::Link(_)) => (j, i, usize::MAX),
+                    _ => (i, j, usize::MAX),
                 };
-                let (high, low) = (self.moving[a].link, self.moving[b].link);
                 let own = is_link(one.name) && is_link(other.name);
-                let apart = high - low;
                 let said = cell.pairs.iter().any(|pair| {
                     let names = [&self.names[one.name], &self.names[other.name]];
                     names.contains(&&pair.a) && names.contains(&&pair.b)
@@ -237,7 +267,7 @@ impl Scene {
                 }
             }
             // the base stands where it was put, and on a track on what it is next to at home
-            let stands = one.link == 0;
+            let stands = one.on == On::Link(0);
             if stands && profile.external.track.is_empty() {
                 continue;
             }
@@ -271,6 +301,12 @@ impl Scene {
     #[must_use]
     pub fn pair_names(&self, found: &super::collision::Clearance) -> Option<(&str, &str)> {
         found.pair.map(|pair| self.names_of(&self.watched[pair]))
+    }
+
+    /// Whether it is known where everything is on a move: plates that carry bodies are where external
+    /// axes stand.
+    pub(crate) fn is_known(&self, leg: &Leg) -> bool {
+        self.plates.is_empty() || leg.ride.is_some()
     }
 
     /// Whether there is anything to look at.

@@ -51,10 +51,10 @@ pub fn trace(
     options: &Options,
     total: usize,
 ) -> Result<Vec<Traced>, CheckError> {
-    let walk = Walk::of(subject.language, subject.sources, subject.profile, options)?;
+    let walk = Walk::of(subject, subject.sources, options)?;
     let original = subject
         .nominal
-        .map(|sources| Walk::of(subject.language, sources, subject.profile, options))
+        .map(|sources| Walk::of(subject, sources, options))
         .transpose()
         .map_err(CheckError::Nominal)?;
     let parts = original

@@ -1,9 +1,9 @@
 //! A program as it is walked: the models of its tools, and its moves as legs.
 
-use super::Options;
 use super::collision::Mover;
 use super::deviation::Models;
 use super::uncertainty::Spread;
+use super::{Options, Subject};
 use crate::compensate::CompensateError;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Jet;
@@ -20,7 +20,7 @@ use crate::motion::ride::Ride;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::program::script::short;
-use crate::program::{Displacement, Language, Motion, Move, Program, Shape, Source, Value};
+use crate::program::{Displacement, Motion, Move, Program, Shape, Source, Value};
 use std::sync::Arc;
 
 /// Models of one tool, for plain numbers and for bounds.
@@ -153,18 +153,26 @@ pub(super) struct Walk {
 }
 
 impl Walk {
+    /// Of these files in the language, with the robot and the scene of what is checked.
     pub(super) fn of(
-        language: &dyn Language,
+        subject: &Subject,
         sources: &[Source],
-        profile: &Profile,
         options: &Options,
     ) -> Result<Self, CompensateError> {
+        let (language, profile) = (subject.language, subject.profile);
         // nothing is rewritten
         let settings = external::settings_of(profile, true);
         let mut program = crate::motion::read(language, sources, &settings)?;
         program.shrink_to_fit();
         let mut findings = std::mem::take(&mut program.findings);
-        external::settle(language, &mut program, sources, profile, &mut findings);
+        let plates = &subject.scene.plates;
+        external::settle(
+            language,
+            &mut program,
+            sources,
+            (profile, plates),
+            &mut findings,
+        );
         let has_numbers = |motion: &Move| {
             let target = program.target_of(motion);
             target.is_some_and(|target| !program.numbers_of(target).is_empty())

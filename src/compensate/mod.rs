@@ -54,6 +54,7 @@ mod rewrite;
 mod shared;
 mod singular;
 mod solve;
+mod strange;
 mod written;
 
 use approach::{Approach, Solved};
@@ -76,7 +77,7 @@ use crate::motion::{external, plausibility, setting};
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, ReadError, Source, sha256};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
@@ -193,6 +194,20 @@ pub enum CompensateError {
         /// Where the base stands.
         base_mm: [f64; 3],
     },
+    /// Not one of several targets can be reached with the rail as the profile has it, but with
+    /// another direction, or another rotation of the base, they can.
+    #[error(
+        "none of the {targets} targets is within reach; with {instead}, which the profile has \
+         otherwise, {fit} are where their configuration data say"
+    )]
+    RailElsewhere {
+        /// How many there are.
+        targets: usize,
+        /// How many fit.
+        fit: usize,
+        /// With what.
+        instead: String,
+    },
     /// Not one of several targets can be reached.
     #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
     NothingInReach {
@@ -200,9 +215,6 @@ pub enum CompensateError {
         targets: usize,
     },
 }
-
-/// Where fewer targets than this are all out of reach, each is reported on its own.
-const FEW: usize = 3;
 
 /// What every step looks at.
 struct Job<'a> {
@@ -226,6 +238,17 @@ pub fn compensate(
     profile: &Profile,
     options: &Options,
 ) -> Result<Compensation, CompensateError> {
+    with(language, sources, profile, options, false)
+}
+
+/// As [`compensate`]; a trial asks nothing of other profiles itself.
+fn with(
+    language: &dyn Language,
+    sources: &[Source],
+    profile: &Profile,
+    options: &Options,
+    is_trial: bool,
+) -> Result<Compensation, CompensateError> {
     let settings = external::settings_of(profile, options.accept_absolutely_accurate);
     // the files are hashed while they are read
     let mut source_sha256 = Vec::new();
@@ -245,7 +268,13 @@ pub fn compensate(
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
     context::leave(&mut program, sources, &mut findings);
-    external::settle(language, &mut program, sources, profile, &mut findings);
+    external::settle(
+        language,
+        &mut program,
+        sources,
+        (profile, &[]),
+        &mut findings,
+    );
     setting::check_measured(&program, &options.given)?;
     setting::check_given(&[&program], &options.given)?;
     if options.each_for_itself {
@@ -288,9 +317,12 @@ pub fn compensate(
     };
     let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
-    refuse_strange_robots(&job, &findings, |profile| {
-        compensate(language, sources, profile, options).map(|compensation| compensation.findings)
-    })?;
+    if !is_trial {
+        let strange = strange::look(&job, &findings, &|profile: &Profile| {
+            with(language, sources, profile, options, true).map(|found| found.findings)
+        });
+        findings.extend(strange?);
+    }
     if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
         return Err(CompensateError::NothingToCorrect);
     }
@@ -419,55 +451,6 @@ impl Compensation {
         outcome::sort(sources, &mut self.findings);
         self.refused = refused::files(&self.program, sources, &self.findings);
     }
-}
-
-/// Where findings say that a target is out of reach.
-fn beyond(findings: &[Finding]) -> BTreeSet<(&str, usize, usize)> {
-    findings
-        .iter()
-        .filter(|finding| finding.id == crate::motion::OUT_OF_REACH)
-        .map(|finding| (finding.file.as_str(), finding.line, finding.column))
-        .collect()
-}
-
-/// Where not one of several targets is within reach, the profile has the base elsewhere or is that
-/// of another robot. `with` gives the findings of another profile.
-fn refuse_strange_robots(
-    job: &Job,
-    findings: &[Finding],
-    with: impl FnOnce(&Profile) -> Result<Vec<Finding>, CompensateError>,
-) -> Result<(), CompensateError> {
-    let program = job.ground.program;
-    let mut asked: Vec<usize> = program
-        .moves
-        .iter()
-        .filter_map(|motion| motion.target)
-        .filter(|target| !approach::stays(job, *target) && !job.ground.is_joints(*target))
-        .collect();
-    asked.sort_unstable();
-    asked.dedup();
-    let targets = asked.len();
-    if targets < FEW || beyond(findings).len() < targets {
-        return Ok(());
-    }
-    let profile = job.ground.profile;
-    let base = profile.world_from_base;
-    if base != Pose::identity() {
-        let at_origin = Profile {
-            world_from_base: Pose::identity(),
-            ..profile.clone()
-        };
-        let in_reach =
-            with(&at_origin).map_or(0, |found| targets - beyond(&found).len().min(targets));
-        if in_reach > 0 {
-            return Err(CompensateError::BaseElsewhere {
-                targets,
-                in_reach,
-                base_mm: base.translation.map(mm_from_m),
-            });
-        }
-    }
-    Err(CompensateError::NothingInReach { targets })
 }
 
 /// What became of all targets.

@@ -30,7 +30,7 @@ pub(super) const ALIKE: f64 = 2e-4;
 const STRAINED: f64 = 1e-4;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its
 /// estimate.
-const LOUDER: f64 = 4.0;
+pub(super) const LOUDER: f64 = 4.0;
 
 /// What a search on one set of assumptions found.
 pub(super) struct Attempt {

@@ -157,7 +157,7 @@ fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
 }
 
 /// A p-value with the number of tests made.
-fn corrected(gain: f64, count: usize, peers: usize) -> f64 {
+pub(super) fn corrected(gain: f64, count: usize, peers: usize) -> f64 {
     (chance(gain, count.max(1)) * (peers * of_arm().count()) as f64).min(1.0)
 }
 

@@ -17,10 +17,10 @@ use std::f64::consts::TAU;
 
 /// Two effects cannot be distinguished where one is better by less than this, in twice a log
 /// likelihood: odds of 1.6.
-const TIE: f64 = 1.0;
+pub(super) const TIE: f64 = 1.0;
 /// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors"
 /// (1995): very strong).
-const CLEAR: f64 = 10.0;
+pub(super) const CLEAR: f64 = 10.0;
 /// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
 const SERIES: usize = 2;
 /// So many functions of one joint's angle, two waves among them, are the series of another, too.
@@ -33,9 +33,9 @@ const FEW_PERIODS: f64 = 2.0;
 /// A value fitted along is clearly below zero by more than this many standard deviations.
 const CLEARLY: f64 = 5.0;
 /// An effect is there by its own evidence where chance does that less often.
-const EVIDENT: f64 = 1e-4;
+pub(super) const EVIDENT: f64 = 1e-4;
 /// And found again in this part of the measurements' parts.
-const AGAIN: f64 = 0.8;
+pub(super) const AGAIN: f64 = 0.8;
 /// Numbers beyond the parameters that tell their own noise: to 7 %.
 const TELLS_NOISE: f64 = 100.0;
 /// Index of a joint's zero in its link's geometry.
@@ -101,6 +101,11 @@ pub(super) fn judge(
     Judged { reasons, verdict }
 }
 
+/// Odds of what is better by so much, in twice a log likelihood.
+pub(super) fn odds_of(behind: f64) -> f64 {
+    (0.5 * behind).clamp(-MOST_LN_ODDS, MOST_LN_ODDS).exp()
+}
+
 /// Says how sure each effect is, and what may be in its place.
 pub(super) fn stand(
     attempt: &Attempt,
@@ -120,7 +125,7 @@ pub(super) fn stand(
         let mut against: Vec<Against> = Vec::new();
         let mut put = |what: String, behind: f64| {
             if behind < CLEAR {
-                let odds = (0.5 * behind).clamp(-MOST_LN_ODDS, MOST_LN_ODDS).exp();
+                let odds = odds_of(behind);
                 against.push(Against { what, odds });
             }
         };
@@ -140,7 +145,7 @@ pub(super) fn stand(
             put(labels.join(" + "), group.behind);
         }
         against.sort_by(|a, b| a.odds.total_cmp(&b.odds));
-        let is_tied = against.first().is_some_and(|a| a.odds < (0.5 * TIE).exp());
+        let is_tied = against.first().is_some_and(|a| a.odds < odds_of(TIE));
         let (times, of) = one.found_again;
         let is_again = times as f64 >= AGAIN * of as f64;
         // the residual is larger than it, or as smooth: the shadow of what is missing may look like

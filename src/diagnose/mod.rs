@@ -54,6 +54,7 @@ pub mod given;
 mod improved;
 mod judgement;
 pub mod noise;
+pub mod plates;
 pub mod poses;
 mod proof;
 pub mod refit;

@@ -32,7 +32,7 @@ const SAME_TURN_RAD: f64 = 1.0 * DEG;
 const SPARE: usize = 10;
 
 /// Least scale of residuals where nothing is known of the noise.
-const LEAST: f64 = 1e-6;
+pub(super) const LEAST: f64 = 1e-6;
 
 /// What is known of the arm before its effects are sought.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
 use super::contact;
+use super::degrees;
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
@@ -264,7 +265,14 @@ pub fn calibrate_telling(
     tell: &mut dyn FnMut(),
 ) -> Result<Calibration, IdentifyError> {
     let measurements = &*measurements.in_world_of(profile)?;
-    let found = identify(profile, measurements, options, tell)?;
+    let mut found = identify(profile, measurements, options, tell)?;
+    let more = degrees::of_rail(profile, measurements, options, &found);
+    let mut options = options.clone();
+    if !more.is_empty() {
+        options.selection.identify.extend(more);
+        found = identify(profile, measurements, &options, tell)?;
+    }
+    let options = &options;
     let missed = |found: &Calibration| misses(&found.problem, &found.solution.estimate);
     plausibility::check_touches(measurements, &missed(&found), |other| {
         Ok(missed(&identify(profile, other, options, tell)?))
@@ -333,7 +341,7 @@ fn by_the_device(
 
 /// As [`calibrate`], with the device where the profile has it, and without asking whether touches
 /// are meant otherwise.
-fn identify(
+pub(super) fn identify(
     profile: &Profile,
     measurements: &Measurements,
     options: &Options,

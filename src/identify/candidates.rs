@@ -202,14 +202,14 @@ impl<'a> Guard<'a> {
         dot(tip.rotation.axis(2), toward) / norm(toward).max(1e-9) >= most.cos()
     }
 
-    /// Whether a configuration meets the constraints, and where it is approached from the boxes.
+    /// Whether a configuration meets the constraints, and all of the path from where it is approached
+    /// from keeps the boxes.
     #[must_use]
     pub fn admits(&self, q: &[f64; 6]) -> bool {
-        let approached = || {
-            self.constraints.approach_rad == 0.0
-                || self.breach(&self.constraints.approach(q)).is_none()
-        };
-        self.is_seen(q) && self.breach(q).is_none() && approached()
+        self.is_seen(q)
+            && self.breach(q).is_none()
+            && (self.constraints.approach_rad == 0.0
+                || self.keeps(&self.constraints.approach(q), q))
     }
 }
 
@@ -225,20 +225,28 @@ pub fn candidates(
     count: usize,
     seed: u64,
 ) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
-    candidates_where(profile, tool, constraints, count, seed, &|_| true)
+    let guards = [Guard::new(profile, tool, constraints)];
+    let (found, met) = candidates_where(&guards, count, seed, &|_| true)?;
+    Ok((found.into_iter().map(|(_, q)| q).collect(), met))
 }
 
-/// As [`candidates`], of those that are `admitted`.
+/// Configurations, radians, each with the index of the place where it is.
+pub(super) type Drawn = Vec<(usize, [f64; 6])>;
+
+/// As [`candidates`], of those that are `admitted`, each at a random one of several places that an
+/// arm's base is carried to, by its index: the constraints there. There is at least one.
 pub(super) fn candidates_where(
-    profile: &Profile,
-    tool: &Mounted,
-    constraints: &Constraints,
+    guards: &[Guard],
     count: usize,
     seed: u64,
     admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
-) -> Result<(Vec<[f64; 6]>, f64), IdentifyError> {
-    let mut random = Random::new(seed);
-    let guard = Guard::new(profile, tool, constraints);
+) -> Result<(Drawn, f64), IdentifyError> {
+    let (mut random, mut places) = (Random::new(seed), Random::new(seed ^ 0x7ac4));
+    let Guard {
+        profile,
+        constraints,
+        ..
+    } = &guards[0];
     let mut range = [[0.0; 2]; 6];
     for (i, joint) in profile.mechanism.joints.iter().enumerate() {
         let low = joint.min_rad + constraints.margin_rad + constraints.approach_rad;
@@ -262,16 +270,19 @@ pub(super) fn candidates_where(
     let mut found = Vec::with_capacity(count);
     let mut draws = 0;
     while found.len() < count {
-        let batch: Vec<[f64; 6]> = (0..BATCH)
-            .map(|_| std::array::from_fn(|i| random.between(range[i][0], range[i][1])))
+        let batch: Vec<(usize, [f64; 6])> = (0..BATCH)
+            .map(|_| {
+                let q = std::array::from_fn(|i| random.between(range[i][0], range[i][1]));
+                (places.below(guards.len()), q)
+            })
             .collect();
         // in the order in which they were drawn, however many judge them
         let met: Vec<bool> = batch
             .par_iter()
             .with_min_len(BATCH / 16)
-            .map(|q| guard.admits(q) && admitted(q))
+            .map(|(place, q)| guards[*place].admits(q) && admitted(q))
             .collect();
-        for (q, is_met) in batch.into_iter().zip(met) {
+        for (one, is_met) in batch.into_iter().zip(met) {
             draws += 1;
             if draws > DRAWS * (found.len() + 1) {
                 return Err(IdentifyError::Suspicious {
@@ -287,7 +298,7 @@ pub(super) fn candidates_where(
                 });
             }
             if is_met {
-                found.push(q);
+                found.push(one);
             }
             if found.len() == count {
                 break;

@@ -51,6 +51,7 @@ pub mod calibration;
 mod candidates;
 pub mod contact;
 mod contact_cells;
+mod degrees;
 mod error;
 mod exchange;
 pub mod expectation;

@@ -88,13 +88,6 @@ pub struct Pick {
 
 /// The word for what is wrong with a track.
 const TRACK: &str = "track";
-/// What it means: in every direction and up to the degrees that a rail of some metres usually has.
-const OF_TRACK: [&str; 4] = [
-    "track_scale",
-    "track_direction",
-    "track_straightness:1-12:y-z:2-3",
-    "track_rotation:1-12:x-z:1-2",
-];
 
 /// The word for what is wrong with a positioner.
 const POSITIONER: &str = "positioner";
@@ -128,12 +121,24 @@ impl Pick {
     }
 
     /// What is wrong with a track, as far as measurements usually tell it.
+    #[must_use]
+    pub fn track() -> Vec<Self> {
+        Self::track_to(0)
+    }
+
+    /// So many degrees there are at most beyond those that a rail of some metres usually has.
+    pub(super) const MOST_MORE_OF_TRACK: u32 = 3;
+
+    /// The same in every direction, so many degrees beyond those that a rail of some metres usually
+    /// has.
     ///
     /// # Panics
     /// Never: the words are ours.
     #[must_use]
-    pub fn track() -> Vec<Self> {
-        together(&OF_TRACK)
+    pub(super) fn track_to(more: u32) -> Vec<Self> {
+        let straightness = format!("track_straightness:1-12:y-z:2-{}", 3 + more.min(3));
+        let rotation = format!("track_rotation:1-12:x-z:1-{}", 2 + more.min(2));
+        together(&["track_scale", "track_direction", &straightness, &rotation])
     }
 
     /// Reads one word.

@@ -25,6 +25,8 @@ const GIVEN_UP: f64 = 0.3;
 /// Candidates that each start is tried to be improved with at a time; the best of them with a whole
 /// [`SHORTLIST`].
 const TRIED: usize = 4;
+/// Places of the base that configurations are drawn at.
+const MOST_PLACES: usize = 2000;
 /// Configurations that tell which parameters can be determined.
 const SAMPLE: usize = 1000;
 
@@ -110,17 +112,17 @@ pub fn plan_telling(
     admitted: &(dyn Fn(&[f64; 6]) -> bool + Sync),
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Plan, IdentifyError> {
-    let (pool, admitted) = candidates_where(
-        profile,
-        tool,
-        &request.constraints,
-        request.candidates,
-        request.seed,
-        admitted,
-    )?;
+    let grid = stations(profile, request)?;
+    let standing: Vec<Profile> = grid.iter().map(|stand| standing(profile, stand)).collect();
+    let guards: Vec<Guard> = standing
+        .iter()
+        .map(|profile| Guard::new(profile, tool, &request.constraints))
+        .collect();
+    let (drawn, admitted) = candidates_where(&guards, request.candidates, request.seed, admitted)?;
+    let (drawn_at, pool): (Vec<usize>, Vec<[f64; 6]>) = drawn.into_iter().unzip();
     let mut all = request.given.clone();
     all.extend(&pool);
-    let (places, at) = stations(profile, request, pool.len())?;
+    let (places, at) = placed(profile, request, drawn_at.iter().map(|place| &grid[*place]));
     // what some hundreds of configurations cannot tell apart, none can
     let every = all.len().div_ceil(SAMPLE).max(1);
     let mut sample: Vec<usize> = (0..all.len()).step_by(every).collect();
@@ -256,67 +258,85 @@ pub(super) fn select(
     })
 }
 
-/// Places of external axes, and at which of them each configuration is: the given ones first.
-/// Without a track there is one, where nothing is said.
-fn stations(
-    profile: &Profile,
-    request: &Request,
-    count: usize,
-) -> Result<(Vec<Stand>, Vec<usize>), IdentifyError> {
+/// Where external axes may stand: every place of every axis of a track. Without a track there is
+/// one, where nothing is said.
+fn stations(profile: &Profile, request: &Request) -> Result<Vec<Stand>, IdentifyError> {
     let track = &profile.external.track;
-    let given = request.given.len();
+    let mut grid = vec![Stand::default()];
     if track.is_empty() {
-        return Ok((vec![Stand::default()], vec![0; given + count]));
+        return Ok(grid);
     }
-    let c = &request.constraints;
-    if c.inside.is_some() || !c.keep_out.is_empty() || c.sight.is_some() {
-        return Err(IdentifyError::Suspicious {
-            message: "boxes of the world and the place of the device are not minded where a track \
-                carries the base"
-                .into(),
-            hint: "leave them out and look where the plan goes, or plan each place of the rail \
-                with a profile that stands there and has no `external_axes`"
-                .into(),
-        });
-    }
-    if request.stations < 2 || given != request.given_stands.len() {
+    let given = request.given.len();
+    let many = request
+        .stations
+        .saturating_pow(u32::try_from(track.len()).unwrap_or(u32::MAX));
+    if request.stations < 2 || many > MOST_PLACES || given != request.given_stands.len() {
         return Err(IdentifyError::Suspicious {
             message: format!(
-                "{} places along the track, and {} of {given} given configurations say where they \
-                 are: at least 2 places, and all",
+                "{} places along each axis of the track, and {} of {given} given configurations \
+                 say where they are: at least 2 places and at most {MOST_PLACES} in all, and all",
                 request.stations,
                 request.given_stands.len()
             ),
             hint: "--stations 11, and columns e1_mm … in --given".into(),
         });
     }
-    let mut places: Vec<Stand> = Vec::new();
-    let mut at = Vec::with_capacity(given + count);
-    let mut place = |stand: Stand| {
-        let known = places.iter().position(|known| *known == stand);
-        at.push(known.unwrap_or_else(|| {
-            places.push(stand);
-            places.len() - 1
-        }));
-    };
-    for stand in &request.given_stands {
-        place(Stand {
-            values: stand.values[..track.len().min(stand.values.len())].to_vec(),
-            directions: Vec::new(),
-        });
-    }
-    let mut random = Random::new(request.seed ^ 0x7ac4);
-    for _ in 0..count {
-        let values = track.iter().map(|axis| {
-            let part = random.below(request.stations) as f64 / (request.stations - 1) as f64;
+    for axis in track {
+        let places = (0..request.stations).map(|k| {
+            let part = k as f64 / (request.stations - 1) as f64;
             axis.min_m + part * (axis.max_m - axis.min_m)
         });
-        place(Stand {
-            values: values.collect(),
+        let places: Vec<f64> = places.collect();
+        let longer = |stand: &Stand, place: f64| Stand {
+            values: stand.values.iter().copied().chain([place]).collect(),
             directions: Vec::new(),
-        });
+        };
+        grid = grid
+            .iter()
+            .flat_map(|stand| places.iter().map(move |place| longer(stand, *place)))
+            .collect();
     }
-    Ok((places, at))
+    Ok(grid)
+}
+
+/// The arm where a track has carried its base.
+fn standing(profile: &Profile, stand: &Stand) -> Profile {
+    if stand.values.is_empty() {
+        return profile.clone();
+    }
+    let (origin, effects) = (profile.world_from_base.translation, profile.real_effects());
+    let carried = profile.external.base_real(stand.at(), origin, &effects);
+    Profile {
+        world_from_base: carried * profile.world_from_base,
+        ..profile.clone()
+    }
+}
+
+/// The places that are used, and at which of them each configuration is: the given ones first.
+fn placed<'a>(
+    profile: &Profile,
+    request: &'a Request,
+    drawn: impl Iterator<Item = &'a Stand>,
+) -> (Vec<Stand>, Vec<usize>) {
+    let axes = profile.external.track.len();
+    let given = request.given.iter().enumerate().map(|(k, _)| {
+        let stand = request.given_stands.get(k);
+        let values = stand.map_or(&[][..], |stand| &stand.values);
+        Stand {
+            values: values[..axes.min(values.len())].to_vec(),
+            directions: Vec::new(),
+        }
+    });
+    let mut places: Vec<Stand> = Vec::new();
+    let at = given.chain(drawn.cloned()).map(|stand| {
+        let known = places.iter().position(|known| *known == stand);
+        known.unwrap_or_else(|| {
+            places.push(stand);
+            places.len() - 1
+        })
+    });
+    let at = at.collect();
+    (places, at)
 }
 
 #[cfg(test)]

@@ -86,12 +86,13 @@ impl Known {
 }
 
 /// Gives moves the stand of external axes, and blocks targets of which it is not known, or beyond
-/// limits.
+/// limits: of the track, of what carries their work frames, and of the positioners next to the
+/// profile, by index.
 pub(crate) fn settle(
     language: &dyn Language,
     program: &mut Program,
     sources: &[Source],
-    profile: &Profile,
+    (profile, positioners): (&Profile, &[usize]),
     findings: &mut Vec<Finding>,
 ) {
     let axes: Vec<Listed> = profile.external.listed().collect();
@@ -100,12 +101,17 @@ pub(crate) fn settle(
     }
     let own = own_values(language, program, &axes);
     let (values, directions) = followed(program, profile, &own, axes.len());
+    let own_of = |at: usize| {
+        let first = profile.external.first_of(at);
+        first..first + profile.external.positioners[at].axes.len()
+    };
     let mut settler = Settler {
         program,
         sources,
         profile,
         findings,
         axes: &axes,
+        looked_at: positioners.iter().flat_map(|at| own_of(*at)).collect(),
         backlash: (0..axes.len())
             .map(|k| has_backlash(&profile.effects, Some(k)))
             .collect(),
@@ -255,6 +261,8 @@ struct Settler<'a> {
     profile: &'a Profile,
     findings: &'a mut Vec<Finding>,
     axes: &'a [Listed<'a>],
+    /// Rotary axes that matter at every move.
+    looked_at: Vec<usize>,
     /// Axes that stand elsewhere when they come from the other side.
     backlash: Vec<bool>,
     made: HashMap<Key, FrameId>,
@@ -303,7 +311,10 @@ impl Settler<'_> {
         };
         let first = positioner.map_or(0, |positioner| external.first_of(positioner));
         let count = positioner.map_or(0, |positioner| external.positioners[positioner].axes.len());
-        let matters = |k: usize| k < external.track.len() || (first..first + count).contains(&k);
+        let matters = |k: usize| {
+            let carries = (first..first + count).contains(&k);
+            k < external.track.len() || carries || self.looked_at.contains(&k)
+        };
         let mut stand = vec![f64::NAN; values.len()];
         for (k, known) in values.iter().enumerate().filter(|(k, _)| matters(*k)) {
             let axis = &self.axes[k];
@@ -317,8 +328,14 @@ impl Settler<'_> {
                 (value * 1e6).round() / 1e6
             };
             let Known::Is(value) = known else {
-                let (why, hint) = self.unknown_value(at, k);
-                return self.block(at, "external-value-unknown", &why, hint);
+                let (mut why, hint) = self.unknown_value(at, k);
+                let severity = if self.looked_at.contains(&k) {
+                    why += "; it carries bodies of the cell";
+                    Severity::Error
+                } else {
+                    self.severity_of(target)
+                };
+                return self.block_as(at, ("external-value-unknown", severity), &why, hint);
             };
             let (low, high) = axis.limits();
             if *value < low - BORDER || *value > high + BORDER {
@@ -438,16 +455,32 @@ impl Settler<'_> {
         self.findings.push(finding);
     }
 
+    /// A joint target that stays as it is does no harm.
+    fn severity_of(&self, target: usize) -> Severity {
+        match self.program.targets[target].layout.shape {
+            Shape::Pose => Severity::Error,
+            Shape::Joints => Severity::Warning,
+        }
+    }
+
     /// The target of a move has to stay as it is.
     fn block(&mut self, at: usize, id: &'static str, why: &str, hint: &str) {
+        let target = self.program.moves[at].target;
+        let severity = self.severity_of(target.expect("moves without a target have no stand"));
+        self.block_as(at, (id, severity), why, hint);
+    }
+
+    fn block_as(
+        &mut self,
+        at: usize,
+        (id, severity): (&'static str, Severity),
+        why: &str,
+        hint: &str,
+    ) {
         let motion: &Move = &self.program.moves[at];
         let target = motion.target.expect("moves without a target have no stand");
         let found = &mut self.program.targets[target];
         found.blocked = true;
-        let severity = match found.layout.shape {
-            Shape::Pose => Severity::Error,
-            Shape::Joints => Severity::Warning,
-        };
         let name = found.name.as_deref().unwrap_or("target");
         let message = format!("{name}: {why}");
         let source = &self.sources[motion.file as usize];

@@ -122,6 +122,22 @@ impl Ride {
         self.external.base_real(at, self.origin, &effects)
     }
 
+    /// Where the plate of a positioner is in the world at `s`, really or as the controller has it.
+    pub(crate) fn world_from_plate<S: Scalar>(
+        &self,
+        positioner: usize,
+        s: S,
+        real: bool,
+    ) -> Pose<S> {
+        let effects = if real { self.effects.as_slice() } else { &[] };
+        let effects: Vec<Effect<S>> = effects.iter().map(Effect::cast).collect();
+        let at = At {
+            values: &self.values(s),
+            directions: &self.directions,
+        };
+        self.external.plate(positioner, at, &effects)
+    }
+
     /// What stands still for the numbers of the move, seen from the controller's arm at home at
     /// `s`.
     pub(crate) fn home_from_part<S: Scalar>(&self, s: S) -> Pose<S> {

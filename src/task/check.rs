@@ -8,11 +8,12 @@ use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
 use crate::check::cell::Cell;
 use crate::check::collision::Clearance as Near;
 use crate::check::{
-    self as engine, Check, CheckError, Meshes, MoveReport, Options, Scene, Subject,
+    self as engine, Check, CheckError, Meshes, MoveReport, Options, Scene, SceneError, Subject,
 };
 use crate::finding::{Acceptance, Finding, accept_errors};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::Profile;
+use crate::nearest;
 use crate::program::{Language, Motion, Source};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
@@ -64,6 +65,19 @@ pub struct Checking<'a> {
     nominal: Vec<String>,
 }
 
+/// Why bodies are none.
+fn unplaced(error: &SceneError, cell: Option<&Source>) -> Failure {
+    let (SceneError::UnknownPositioner(unknown), Some(cell)) = (error, cell) else {
+        return Failure::new(error.to_string());
+    };
+    let known = unknown.known.iter().map(String::as_str);
+    let hint = match unknown.known[..] {
+        [] => "`poseshift profile add-positioner` describes one".into(),
+        _ => nearest::hint(&unknown.to, "positioners of the profile", known),
+    };
+    Failure::with_hint(format!("{}: {error}", cell.name), hint)
+}
+
 /// Follows programs through the real robot; `hear` is called with how many of how many moves are
 /// done.
 ///
@@ -83,7 +97,7 @@ pub fn check<'a>(
     let cell = request.cell.map(|cell| meshes.cell(cell)).transpose()?;
     let Loader { meshes, notes, .. } = meshes;
     let scene = Scene::new(&profile, cell.as_ref(), &meshes)
-        .map_err(|missing| Failure::new(missing.to_string()))?;
+        .map_err(|error| unplaced(&error, request.cell))?;
     let asked = request.language;
     let language = asked.map_or_else(|| common_language(sources, Some(&profile)), Ok)?;
     if let Some(originals) = request.nominal.filter(|_| !request.force) {

@@ -7,13 +7,16 @@ use super::parts::{File, SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::sentences::sentence;
 use super::{Document, PROGRAM};
+use crate::diagnose::plates::{PlateDiagnosis, diagnose_plates};
 use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
     self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::IdentifyError;
 use crate::identify::measurements::Measurements;
+use crate::identify::parameters::Pick;
 use crate::model::effects::Effect as ModelEffect;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -290,6 +293,8 @@ pub struct Diagnosis {
     pub rows: usize,
     /// Effects in the order found; the first ones explain most.
     pub effects: Vec<FoundEffect>,
+    /// What was found of each positioner whose plate the measurements have points on.
+    pub positioners: Vec<PositionerDiagnosis>,
     /// Where the disagreement lies, strongest first.
     #[serde(rename = "where")]
     pub spots: Vec<Spot>,
@@ -352,18 +357,62 @@ impl Document for Diagnosis {
     const KIND: &'static str = "diagnosis/1";
 }
 
-/// Rows of points on plates are left to `calibrate`.
-fn not_of_the_arm(plates: &Measurements, name: &str) -> Option<Finding> {
-    let first = plates.rows.first()?;
+/// What was found of a positioner.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PositionerDiagnosis {
+    /// Its name.
+    pub positioner: String,
+    /// `explained`, `improved`, `nothing_missing` or `undetermined`.
+    pub verdict: &'static str,
+    /// Why, one sentence each.
+    pub reasons: Vec<String>,
+    /// Rows of points on its plate.
+    pub rows: usize,
+    /// At how many stops of its axes.
+    pub stops: usize,
+    /// Effects in the order found; the first ones explain most.
+    pub effects: Vec<FoundEffect>,
+    /// Errors at stops that were left out in turn, of the present model.
+    pub before: Option<SpreadMm>,
+    /// With the effects found.
+    pub after: Option<SpreadMm>,
+    /// Noise of a coordinate.
+    pub noise_mm: Option<f64>,
+    /// The residual of a coordinate.
+    pub left_mm: Option<f64>,
+    /// The same as the engine has it.
+    #[serde(skip)]
+    pub answer: Verdict,
+}
+
+impl From<&PlateDiagnosis> for PositionerDiagnosis {
+    fn from(found: &PlateDiagnosis) -> Self {
+        Self {
+            positioner: found.positioner.clone(),
+            verdict: found.verdict.id(),
+            reasons: found.reasons.clone(),
+            rows: found.rows,
+            stops: found.stops,
+            effects: found.found.iter().map(Into::into).collect(),
+            before: found.held_out.map(|(before, _)| before.into()),
+            after: found.held_out.map(|(_, after)| after.into()),
+            noise_mm: finite(mm_from_m(found.noise_m)),
+            left_mm: finite(mm_from_m(found.residual_m)),
+            answer: found.verdict,
+        }
+    }
+}
+
+/// Rows of points on plates that tell nothing, and why.
+fn left_out(plates: &Measurements, why: &IdentifyError, name: &str) -> Finding {
+    let first = plates.rows.first().map(|row| row.line.to_string());
     let message = format!(
-        "{} rows, from {} on, are of points on plates and show nothing of the arm",
+        "{} rows of points on plates, from {} on, are left out: {why}",
         plates.rows.len(),
-        first.line
+        first.unwrap_or_default()
     );
-    Some(
-        Finding::of_file("plate-rows-left-out", Severity::Note, name, message)
-            .hint("`poseshift calibrate` identifies the positioner with them"),
-    )
+    let hint = why.hint();
+    Finding::of_file("plate-rows-left-out", Severity::Note, name, message).hint(hint)
 }
 
 /// Rows of the tool, and those of points on plates.
@@ -384,6 +433,14 @@ pub(super) fn of_the_arm(
     Ok((tool, plates))
 }
 
+/// What a person asked for of the arm.
+fn of_arm(options: &Options) -> Options {
+    let mut own = options.clone();
+    let of_positioner = |pick: &Pick| pick.kind.is_some_and(|k| k.definition().of_positioner());
+    own.accept.retain(|pick| !of_positioner(pick));
+    own
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -402,9 +459,22 @@ pub fn diagnose(
         ..
     } = measurements;
     let (tool, plates) = of_the_arm(all, &name)?;
-    read.extend(not_of_the_arm(&plates, &name));
-    let d = search(&file.profile, &tool, options, hear)
+    let of_arm = of_arm(options);
+    let d = search(&file.profile, &tool, &of_arm, hear)
         .map_err(|error| identify_failure(&name, &error))?;
+    let positioners = if plates.rows.is_empty() {
+        Vec::new()
+    } else {
+        hear("looking at the plates of positioners");
+        diagnose_plates(&d, &plates, options).unwrap_or_else(|why| {
+            read.push(left_out(&plates, &why, &name));
+            Vec::new()
+        })
+    };
+    let words = positioners.iter().flat_map(|of| &of.found);
+    let words = words.map(|found| Pick::word(&found.effect));
+    let own = (!d.found.is_empty()).then(|| d.accept());
+    let accept: Vec<String> = own.into_iter().chain(words).collect();
     let label = |i: usize| d.found[i].effect.label();
     let labels = |which: &[usize]| which.iter().map(|i| label(*i)).collect::<Vec<_>>();
     let (before, after) = d.held_out.map_or((None, None), |(b, a)| (Some(b), Some(a)));
@@ -488,7 +558,8 @@ pub fn diagnose(
             spots: d.residual_spots.iter().map(Into::into).collect(),
             function: d.unknown.first().map(|u| u.name.clone()),
         },
-        accept: d.accept(),
+        positioners: positioners.iter().map(Into::into).collect(),
+        accept: accept.join(","),
         noise_mm: finite(mm_from_m(d.noise_m)),
         noise_source: match d.noise_source {
             NoiseSource::Given => "sigma_mm",

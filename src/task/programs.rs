@@ -252,6 +252,10 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
              (`poseshift profile set`), or calibrate again with --base controller; nothing is \
                  written",
         ),
+        CompensateError::RailElsewhere { .. } => Failure::with_hint(
+            error.to_string(),
+            "correct `direction` of the track, or `kinematics.base`, in the profile",
+        ),
         CompensateError::NothingInReach { .. } => Failure::with_hint(
             error.to_string(),
             "check the tool and the work frame, too; nothing is written",

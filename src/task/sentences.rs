@@ -165,12 +165,12 @@ pub(super) fn sentence(effect: &Effect, base_m: Vector) -> String {
         Kind::PositionerRipple => format!(
             "{axis} runs fast and slow by {}°, {} times a revolution",
             deg(length(&p[..2])),
-            site.order
+            site.periods()
         ),
         Kind::PositionerRunout => format!(
             "{axis} wobbles by {} mm, {} times a revolution",
             mm(length(&p[..2])),
-            site.order
+            site.periods()
         ),
         Kind::PositionerPlate => format!(
             "The plate on {axis} sits {} mm and {}° from where the profile has it",

@@ -143,6 +143,9 @@ function detailOf(box, cell, table, findings) {
       list.append(element("dt", {}, "joints, deg"), element("dd", {}, joints.slice(6 * row, 6 * row + 6).map((q) => text(q)).join("  ")));
     }
     const own = findings(row);
+    const { external, at } = cell.points;
+    const axes = (external?.length ?? 0) / (at.length / 3);
+    if (axes) list.append(element("dt", {}, "external axes, mm or deg"), element("dd", {}, external.slice(axes * row, axes * (row + 1)).map((e) => (e == null ? "?" : text(e))).join("  ")));
     const said = own.map((finding) => element("li", { className: "severity " + finding.severity }, `${finding.severity} ${finding.id}: ${finding.message}`));
     box.replaceChildren(...shown, list, said.length ? element("ul", { className: "found" }, ...said) : "");
   };

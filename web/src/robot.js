@@ -84,7 +84,51 @@ export function frames(robot, joints) {
   return out;
 }
 
-/** A robot that can be posed. */
+/** The linear axes that carry a base, each a bar along its travel and carried by those below it. */
+function makeTrack(track, base, thick) {
+  const group = new Group();
+  const origin = new Vector3().setFromMatrixPosition(matrix(base));
+  const material = solid(new Color(0x6d7684), { opacity: 0.7 });
+  const rails = track.map(({ direction, zero, min, max }) => {
+    const along = new Vector3(...direction);
+    const [from, to] = [min, max].map((e) => origin.clone().addScaledVector(along, e - zero).toArray());
+    const bar = new Mesh(between(from, to, thick, (half, length) => new BoxGeometry(2 * half, length, 2 * half)), material);
+    group.add(bar);
+    return { bar, along, zero };
+  });
+  /** Where the base is carried to. */
+  const pose = (values) => {
+    const moved = new Vector3();
+    rails.forEach(({ bar, along, zero }, axis) => {
+      bar.position.copy(moved);
+      moved.addScaledVector(along, (values?.[axis] ?? zero) - zero);
+    });
+    return moved;
+  };
+  return { group, pose };
+}
+
+/** The plate of a positioner with what rides on it; it is not shown where nobody knows where its axes stand. */
+function makeStation({ first, axes, plate, shapes }, radius) {
+  const group = new Group();
+  group.matrixAutoUpdate = false;
+  const disc = new Mesh(new CylinderGeometry(radius, radius, 0.08 * radius, 48).rotateX(Math.PI / 2).translate(0, 0, -0.04 * radius), solid(new Color(0x6d7684), { opacity: 0.7 }));
+  group.add(disc, triad(0.6 * radius));
+  for (const shape of shapes) group.add(bodyOf(shape, 0x9a7b4f, 0.6));
+  const pose = (values) => {
+    group.visible = axes.every((_, k) => values?.[first + k] != null);
+    if (!group.visible) return;
+    const frame = new Matrix4();
+    axes.forEach(({ at, sign, zero }, k) => {
+      frame.multiply(matrix(at)).multiply(new Matrix4().makeRotationZ(sign * (values[first + k] - zero) * RAD));
+    });
+    group.matrix.copy(frame.multiply(matrix(plate)));
+    group.matrixWorldNeedsUpdate = true;
+  };
+  return { group, pose };
+}
+
+/** A robot that can be posed, with the rail that carries it and the positioners next to it. */
 export function makeRobot(robot) {
   const group = new Group();
   const links = Array.from({ length: 7 }, () => new Group());
@@ -105,9 +149,14 @@ export function makeRobot(robot) {
   const tip = triad(Math.max(20, reach * 0.06));
   tip.matrixAutoUpdate = false;
   group.add(tip);
+  const track = makeTrack(robot.external?.track ?? [], robot.base, reach * 0.02);
+  const stations = (robot.external?.positioners ?? []).map((station) => makeStation(station, reach * 0.12));
+  group.add(track.group, ...stations.map((station) => station.group));
 
-  function pose(joints, tool) {
-    const all = frames(robot, joints);
+  function pose(joints, tool, values) {
+    const carried = new Matrix4().setPosition(track.pose(values));
+    for (const station of stations) station.pose(values);
+    const all = frames(robot, joints).map((frame) => carried.clone().multiply(frame));
     const flange = all[6].clone().multiply(matrix(robot.flange));
     const end = flange.clone().multiply(matrix(robot.tools[tool] ?? robot.tools[0]));
     all.forEach((frame, index) => {

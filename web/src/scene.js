@@ -208,14 +208,15 @@ export class View {
   }
 
   select(row) {
-    const { at, joints, tool } = this.cell.points;
+    const { at, joints, tool, external } = this.cell.points;
+    const axes = (external?.length ?? 0) / (at.length / 3);
     this.mark.visible = at[3 * row] != null;
     if (this.mark.visible) {
       const size = this.extent * 0.009;
       this.mark.position.fromArray(at, 3 * row);
       this.mark.scale.setScalar(size);
     }
-    if (this.robot && joints && joints[6 * row] != null) this.robot.pose(joints.slice(6 * row, 6 * row + 6), tool?.[row] ?? 0);
+    if (this.robot && joints && joints[6 * row] != null) this.robot.pose(joints.slice(6 * row, 6 * row + 6), tool?.[row] ?? 0, external?.slice(axes * row, axes * (row + 1)));
     this.draw();
   }
 

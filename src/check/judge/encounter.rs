@@ -142,6 +142,9 @@ impl Job<'_> {
             let stop = original.stops.all[part.stop]?;
             let arriving = original.leg(part.stop, self.options.turning);
             let leg = arriving.unwrap_or_else(|| original.standing(part.stop, &stop));
+            if !scene.is_known(&leg) {
+                return None;
+            }
             let mover = original.arms(&stop).mover(Which::Controller);
             let pieces = leg.pieces();
             return Some(collision::clearance(scene, &mover, &leg, &pieces, horizon));

@@ -70,7 +70,8 @@ impl Job<'_> {
             self.judge_limits(index, &leg, &stop, &asked, &mut findings);
             report.limits = Some(asked.limits);
         }
-        if !self.subject.scene.is_empty() {
+        let scene = self.subject.scene;
+        if !scene.is_empty() && scene.is_known(&leg) {
             self.judge_collisions(
                 index,
                 (&leg, &pieces),

@@ -16,8 +16,9 @@ use crate::identify::external::{places, plate_of};
 use crate::identify::identifiability::Identifiable;
 use crate::identify::input_checks::plausibility;
 use crate::identify::measurements::{Measurements, Purpose};
-use crate::identify::parameters::{Level, Parameter, Pick, Selection, Wanted, at};
+use crate::identify::parameters::{Level, Parameter, Pick, Selection, Subject, Wanted, at};
 use crate::identify::problem::{Estimate, NamedPoint, PointRef, Problem};
+use crate::identify::robust::Shape;
 use crate::identify::solver::solve;
 use crate::identify::start::Start;
 use crate::identify::statistics::{Quality, misses};
@@ -232,6 +233,46 @@ impl PlateRows {
         wanted.parameters(profile, selection, Vec::new(), &unknown)
     }
 
+    /// What is usually sought of the positioners in use, their zeros, and where coordinates of
+    /// points are known the plate.
+    fn effects(&self, profile: &Profile) -> Vec<Effect> {
+        let usual = Pick::positioner();
+        let usual = usual.iter().flat_map(|pick| {
+            let own = pick.effects().into_iter();
+            own.filter(|effect| {
+                is_of_profile(effect, &profile.external) && self.shows(pick, effect)
+            })
+        });
+        let mut all: Vec<Effect> = usual.collect();
+        for (positioner, axes) in &self.used {
+            let last = axes.end - 1;
+            let is_given = self.is_given(*positioner);
+            // the zero of the last axis is where unknown points are
+            let zeros = axes.clone().filter(|axis| is_given || *axis != last);
+            all.extend(zeros.map(|axis| at(Kind::PositionerZero, axis)));
+            all.extend(is_given.then(|| at(Kind::PositionerPlate, last)));
+        }
+        all
+    }
+
+    /// Axes that have not moved enough to show.
+    fn still(&self, profile: &Profile) -> Vec<String> {
+        let axes = self.used.iter().flat_map(|(_, axes)| axes.clone());
+        let still = axes.filter(|axis| !self.has_rotated(*axis));
+        let said = still.map(|axis| {
+            let (values, span_rad) = self.stood[axis];
+            let name = profile.external.listed().nth(axis);
+            format!(
+                "{} stood at {values} angles over {:.1} deg: an axis shows from {LEAST_VALUES} \
+                 angles over {:.0} deg on",
+                name.map_or_else(String::new, |axis| axis.name().to_owned()),
+                span_rad / DEG,
+                LEAST_SPAN_RAD / DEG
+            )
+        });
+        said.collect()
+    }
+
     /// Refuses what cannot tell an axis, or the plate that is to be sought.
     fn refuse(&self, profile: &Profile, selection: &Selection) -> Result<(), IdentifyError> {
         let asked = |kind: Kind| {
@@ -298,6 +339,43 @@ fn begin(
     let rows_on_plates = PlateRows::of(profile, rows, selection.wants_points())?;
     rows_on_plates.refuse(profile, selection)?;
     Ok(Problem::on_plates(profile, rows, selection, rows_on_plates))
+}
+
+/// What points on one plate may show.
+pub(crate) struct Shown {
+    /// The rows; unknown coordinates of points are its parameters.
+    pub problem: Problem,
+    /// With these coordinates fitted.
+    pub estimate: Estimate,
+    /// Effects of the positioner that the rows may tell.
+    pub effects: Vec<Effect>,
+    /// Which axes they do not, and why, one sentence each.
+    pub still: Vec<String>,
+}
+
+/// Points on the plate of one positioner, in the controller's world, as the profile has it.
+///
+/// # Errors
+/// Coordinates that do not follow; points that are nowhere near where the axes take them.
+pub(crate) fn shown(profile: &Profile, rows: &Measurements) -> Result<Shown, IdentifyError> {
+    let of = PlateRows::of(profile, rows, false)?;
+    let (effects, still) = (of.effects(profile), of.still(profile));
+    let selection = Selection::level(Level::Frames);
+    let (mut problem, begun) = Problem::on_plates(profile, rows, &selection, of);
+    (problem.parameters).retain(|p| matches!(p.subject, Subject::Point { .. }));
+    let estimate = if problem.parameters.is_empty() {
+        begun
+    } else {
+        solve(&problem, begun, Shape::Huber, false)?.estimate
+    };
+    let found = Quality::of(&problem.rows, &misses(&problem, &estimate));
+    refuse_astray(&found, ELSEWHERE_M)?;
+    Ok(Shown {
+        problem,
+        estimate,
+        effects,
+        still,
+    })
 }
 
 /// A selection of frames alone: where the plate is, or its points.

@@ -1,8 +1,9 @@
 //! Calls of routines and functions, and what runs concurrently with the program.
 
+use super::frames::State;
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{computed, passed};
+use super::remarks::{computed, conveyor, passed};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
@@ -11,6 +12,10 @@ use crate::program::script::{Argument, Call, Expr, How, Place, Start, short};
 
 /// Calls in one expression; a line of the controller has no room for more.
 const MOST_CALLS: usize = 64;
+
+/// How the routines of KUKA.ConveyorTech begin, which couple `$BASE` to a conveyor: not checked on
+/// files.
+const CONVEYORS: [&[u8]; 2] = [b"CONV_", b"CONVEYOR"];
 
 /// What a routine of the controller or of its packages does with what it is given.
 enum Known {
@@ -39,6 +44,7 @@ fn known(word: &[u8]) -> Option<Known> {
         | b"INVERSE"
         | b"INV_POS"
         | b"EK"
+        | b"LK"
         | b"K_ROOT"
         | b"K_TYPE"
         | b"K_OFFS"
@@ -156,7 +162,15 @@ impl Reader {
                     }
                 }
             }
-            (callee, _) => self.emit(place, symbol, callee, arguments, is_statement),
+            (callee, _) => {
+                self.emit(place, symbol, callee, arguments, is_statement);
+                let word = capitals(cursor.text(name), &mut buffer);
+                if callee.is_none() && CONVEYORS.iter().any(|begins| word.starts_with(begins)) {
+                    let spelled = self.names.symbols.spelling(symbol).to_owned();
+                    let base = self.unknown(conveyor(&spelled));
+                    self.set(place, State::Base, base);
+                }
+            }
         }
     }
 

@@ -121,6 +121,25 @@ pub(super) fn of_another_robot() -> Remark {
     )
 }
 
+/// Against a base that another robot carries. What else of `RoboTeam` waits for another robot (`PROGSYNC`,
+/// `$SYNC_LIST`) moves no frame.
+pub(super) fn linked() -> Remark {
+    Remark::error(
+        "two-robots",
+        "another robot carries the base (LK): where it is only that one knows",
+        "moves on another robot's part are not compensated",
+    )
+}
+
+/// Against moves behind a routine of a conveyor that is not in the files.
+pub(super) fn conveyor(name: &str) -> Remark {
+    Remark::error(
+        "moving-frame",
+        format!("since {name} the base may follow a conveyor"),
+        "set $BASE behind it where it does not, or give the file with the routine, too",
+    )
+}
+
 pub(super) fn turned() -> Remark {
     Remark {
         id: "relative-joint-move",

@@ -5,7 +5,7 @@ use super::data::{Carried, fdat, is_external, load};
 use super::frames::{Choice, State, Table, carried_record, part, record, unit};
 use super::names::{Index, Stored, whole};
 use super::reader::Reader;
-use super::remarks::{carried, frame_assigned, moving};
+use super::remarks::{carried, frame_assigned, linked, moving};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;
@@ -187,6 +187,7 @@ impl Reader {
                 }
                 (b"EK", Some(inner)) if table == Table::Base => self.carried(called, inner)?,
                 (b"EK", None) if table == Table::Base => self.unknown(moving()),
+                (b"LK", _) if table == Table::Base => self.unknown(linked()),
                 _ => self.chosen(),
             });
         }

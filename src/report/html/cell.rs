@@ -1,14 +1,18 @@
 //! The view in space: a robot, bodies, items that can be chosen, and paths with deviations. Lengths
 //! in mm, angles in degrees.
 
+mod external;
+
 use super::numbers::{Number, fixed};
 use super::page::Tone;
 use crate::check::Meshes;
 use crate::check::cell::{Carrier, Cell as CellFile};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector, norm, sub};
+use crate::model::external::Listed;
 use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
+use external::External;
 use serde::Serialize;
 
 /// Triangles that a page draws of one mesh; a finer one is coarsened.
@@ -61,6 +65,10 @@ pub(crate) struct Points {
     /// Six joint angles of each; empty without a robot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Number>,
+    /// Where each external axis stands at each item, mm and degrees, in the order of the profile;
+    /// empty where nobody knows.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub external: Vec<Number>,
     /// Index of each item's tool among the robot's; empty where there is one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tool: Vec<u32>,
@@ -81,6 +89,17 @@ impl Points {
         self.at.extend(place);
         let joints = joints.map_or([Number(f64::NAN); 6], |q| q.map(|q| fixed(q / DEG, 2)));
         self.joints.extend(joints);
+    }
+
+    /// Adds where external axes stand at the item that was added last, metres and radians.
+    pub(crate) fn push_stand(&mut self, profile: &Profile, values: Option<&[f64]>) {
+        let listed = profile.external.listed().enumerate();
+        let shown = listed.map(|(k, axis)| match (values.map(|values| values[k]), axis) {
+            (None, _) => Number(f64::NAN),
+            (Some(value), Listed::Track(_)) => length(value),
+            (Some(value), Listed::Rotary(..)) => fixed(value / DEG, 3),
+        });
+        self.external.extend(shown);
     }
 }
 
@@ -162,6 +181,8 @@ pub(crate) struct Robot {
     flange: Vec<Number>,
     tools: Vec<Vec<Number>>,
     shapes: Vec<Solid>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    external: Option<External>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -349,6 +370,7 @@ impl Robot {
             let (link, place) = match attached.to {
                 Carrier::Flange => (6, profile.link6_from_flange),
                 Carrier::Link(link) => (link, Pose::identity()),
+                Carrier::Positioner(_) => continue,
             };
             let shape = Shape {
                 frame_from_shape: place * attached.shape.frame_from_shape,
@@ -382,6 +404,7 @@ impl Robot {
             flange: matrix(&profile.link6_from_flange),
             tools: tools.iter().map(matrix).collect(),
             shapes,
+            external: External::of(profile, cell, meshes),
         }
     }
 }

@@ -4,7 +4,9 @@ use super::fixed;
 use crate::diagnose::{NoiseSource, Verdict};
 use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
 use crate::report::{LEAST_PROBABILITY, Style};
-use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup};
+use crate::task::diagnose::{
+    Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup, PositionerDiagnosis,
+};
 use crate::task::parts::Statistics;
 
 /// The answer: the verdict in one line, each effect with its standing, the residual.
@@ -14,12 +16,8 @@ fn summary(d: &Diagnosis) -> String {
         .as_ref()
         .map_or_else(String::new, |drift| drift.sentence() + "\n");
     out += &(verdict(d) + "\n");
-    for (effect, sentence) in d.effects.iter().map(|f| (f, &f.sentence)) {
-        out += &format!("{:<9} {sentence}", effect.standing);
-        if let Some(first) = effect.against.first() {
-            out += &format!(" Or {}: {}.", first.what, odds(first.odds));
-        }
-        out.push('\n');
+    for effect in &d.effects {
+        out += &found(effect);
     }
     out += &residual(d);
     if !d.reasons.is_empty() {
@@ -31,7 +29,50 @@ fn summary(d: &Diagnosis) -> String {
             out += &format!("  - {reason}\n");
         }
     }
+    out += &d.positioners.iter().map(positioner).collect::<String>();
     out
+}
+
+/// What was found of a positioner, by the rows of points on its plate.
+fn positioner(of: &PositionerDiagnosis) -> String {
+    let words = match of.answer {
+        Verdict::Explained => "the effects found account for the disagreement",
+        Verdict::Improved => "predicted better with what was found; something is still missing",
+        Verdict::NothingMissing => "nothing is missing",
+        Verdict::Undetermined => "what is missing cannot be determined",
+    };
+    let mut out = format!(
+        "\npositioner {}, {} rows at {} stops: {words}.\n",
+        of.positioner, of.rows, of.stops
+    );
+    for effect in &of.effects {
+        out += &found(effect);
+    }
+    if let Some((before, after)) = of.before.zip(of.after).filter(|_| !of.effects.is_empty()) {
+        let [before, after] = [before, after].map(|spread| spread.numbers().mean);
+        out += &format!("{before:.3} → {after:.3} mm at stops that were left out in turn.\n");
+    }
+    out += &format!(
+        "{:<9} {} mm a coordinate.\n",
+        "residual",
+        fixed(of.left_mm, 4)
+    );
+    for reason in &of.reasons {
+        out += &format!("  - {reason}\n");
+    }
+    if !of.effects.is_empty() {
+        out += "`poseshift calibrate` puts them into the profile.\n";
+    }
+    out
+}
+
+/// An effect with its standing and what it may be instead.
+fn found(effect: &FoundEffect) -> String {
+    let mut out = format!("{:<9} {}", effect.standing, effect.sentence);
+    if let Some(first) = effect.against.first() {
+        out += &format!(" Or {}: {}.", first.what, odds(first.odds));
+    }
+    out + "\n"
 }
 
 /// The verdict in words, with what it is worth on rows that were not used.

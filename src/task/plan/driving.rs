@@ -50,7 +50,7 @@ impl<'a> Driving<'a> {
             meshes.load(&mut shape.shape, &file.name)?;
         }
         let scene = Scene::new(&shaped, None, &meshes.meshes)
-            .map_err(|missing| Failure::new(missing.to_string()))?;
+            .map_err(|error| Failure::new(error.to_string()))?;
         if let Some(found) = scene.findings.first() {
             let message = format!("{}: {}", found.file, found.message);
             return Err(Failure::with_hint(message, found.hint.clone()));
@@ -71,10 +71,10 @@ impl<'a> Driving<'a> {
         touching(&self.scene, &self.arm, q).is_none()
     }
 
-    /// Whether the arm comes to this configuration from where it is approached from, and touches
-    /// nothing on that path.
+    /// Whether the arm comes to this configuration from where it is approached from, and does not
+    /// touch itself on that path, wherever its base is.
     pub(super) fn admits(&self, q: &[f64; 6]) -> bool {
-        self.stands(q) && self.is_free(&self.constraints.approach(q), q)
+        self.stands(q) && self.is_clear(&self.constraints.approach(q), q)
     }
 
     /// Postures along a move of joints, coarse ones first.
@@ -100,15 +100,21 @@ impl<'a> Driving<'a> {
         })
     }
 
-    /// Whether a move meets nothing: everywhere on its path, not only at samples, where the arm's
-    /// programs can be followed.
+    /// Whether a move meets nothing. Boxes of the world are where they are for a base that is carried
+    /// nowhere: for one that is, on moves between places of a track, nothing is said of them.
     fn is_free(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
-        self.guard.keeps(from, to)
-            && match &self.passage {
-                _ if self.scene.is_empty() => true,
-                Some(passage) => passage.is_clear(&self.scene, from, to, ROOM_M),
-                None => Self::along(from, to).all(|q| self.stands(&q)),
-            }
+        let on_track = !self.profile.external.track.is_empty();
+        (on_track || self.guard.keeps(from, to)) && self.is_clear(from, to)
+    }
+
+    /// Whether the arm does not touch itself: everywhere on its path, not only at samples, where
+    /// its programs can be followed.
+    fn is_clear(&self, from: &[f64; 6], to: &[f64; 6]) -> bool {
+        match &self.passage {
+            _ if self.scene.is_empty() => true,
+            Some(passage) => passage.is_clear(&self.scene, from, to, ROOM_M),
+            None => Self::along(from, to).all(|q| self.stands(&q)),
+        }
     }
 
     /// An order in which as few moves as possible meet anything.

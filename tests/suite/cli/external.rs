@@ -311,3 +311,60 @@ fn an_archive_of_a_kuka_controller_says_what_its_axes_carry() {
         assert!(!folder.path().join("bad.yaml").exists());
     }
 }
+
+#[test]
+fn a_profile_that_is_there_is_written_over_only_by_force() {
+    let folder = scratch();
+    let put = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        let parent = path.parent().expect("a folder");
+        std::fs::create_dir_all(parent).expect("a writable folder");
+        std::fs::write(path, text).expect("a writable folder");
+    };
+    put("MOC.cfg", MOC);
+    put("KRC/R1/Mada/$machine.dat", MACHINE);
+    put("KRC/R1/System/$config.dat", CONFIG);
+    let shipped = |name: &str| std::fs::read_to_string(repository(name)).expect("shipped");
+    put("abb.yaml", &shipped("robots/abb_irb120.yaml"));
+    put("kuka.yaml", &shipped("robots/kuka_kr6_r900.yaml"));
+    let table = "E2=900,-250,300,0,90,180,-90,90";
+    for command in [
+        &[
+            "add-track",
+            "abb.yaml",
+            "E1",
+            "--direction",
+            "1,0,0",
+            "--min-mm",
+            "0",
+            "--max-mm",
+            "3000",
+        ][..],
+        &["add-positioner", "abb.yaml", "STN1", "--axis", table],
+        &[
+            "import-moc",
+            "MOC.cfg",
+            "--profile",
+            "abb.yaml",
+            "--axis",
+            "eax_a",
+        ],
+        &["import-krc", "KRC", "--profile", "kuka.yaml"],
+    ] {
+        put("there.yaml", "mine\n");
+        let mut all = vec!["profile"];
+        all.extend(command);
+        all.extend(["-o", "there.yaml"]);
+        let (status, reported) = run(folder.path(), &all);
+        let kept = std::fs::read_to_string(folder.path().join("there.yaml")).expect("there");
+        assert!(
+            status == 2 && kept == "mine\n" && reported.contains("--force"),
+            "{command:?}: {status} {reported}"
+        );
+        all.push("--force");
+        let (status, reported) = run(folder.path(), &all);
+        assert_eq!(status, 0, "{command:?}: {reported}");
+        let (_, found) = read(&folder.path().join("there.yaml"));
+        assert!(!found.external.is_empty(), "{command:?}");
+    }
+}

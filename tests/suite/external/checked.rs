@@ -80,7 +80,7 @@ fn list(numbers: &[f64]) -> String {
 }
 
 /// The tool of these programs.
-fn tooldata() -> String {
+pub(super) fn tooldata() -> String {
     let tool = frame(&[0.03, -0.02, 0.11, 0.1, 0.2, -0.3]);
     let n = numbers_of(Said::Rapid, &tool);
     format!(

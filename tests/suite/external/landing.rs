@@ -14,13 +14,13 @@ const LANDS_MM: f64 = 0.004;
 const TARGETS: usize = 300;
 
 /// A cell as the reference knows it.
-struct Cell {
-    external: &'static str,
-    effects: Vec<String>,
+pub(super) struct Cell {
+    pub(super) external: &'static str,
+    pub(super) effects: Vec<String>,
     rails: Vec<Rail>,
-    tables: Vec<Table>,
-    on_axis: M4,
-    plate_fault: [f64; 6],
+    pub(super) tables: Vec<Table>,
+    pub(super) on_axis: M4,
+    pub(super) plate_fault: [f64; 6],
     /// The names of its axes in each language.
     names: [&'static [&'static str]; 4],
 }
@@ -132,7 +132,7 @@ fn rail_cell() -> Cell {
 
 const PLATE: [f64; 6] = [0.02, -0.01, 0.05, 0.1, -0.2, 0.3];
 
-fn table_cell(axes: usize) -> Cell {
+pub(super) fn table_cell(axes: usize) -> Cell {
     let rad = f64::to_radians;
     let one = "        - {axis: AXIS1, at: {x_mm: 700, y_mm: -150, z_mm: 600, rx_deg: 5, ry_deg: \
         20, rz_deg: 40}, sign: -1, zero_deg: 10, min_deg: -180, max_deg: 180}\n";

@@ -1,9 +1,11 @@
 //! Tracks and positioners: where the real tool lands on the real part, by a reference that shares
 //! no code with the product.
 
+mod attached;
 mod checked;
 mod landing;
 mod measured;
+mod named;
 mod others;
 mod plates;
 mod refused;

@@ -1,9 +1,16 @@
 //! What something else carries or moves is refused, each with its reason: conveyors, other robots,
 //! groups without geometry, a seventh joint.
 
-use super::{profile, rapid, run};
+use super::landing::{Said, numbers_of};
+use super::{profile, rapid, run, tool};
+use crate::physics::external::{Rail, carried};
+use crate::physics::matrix::{shift, times, turn_z};
+use crate::physics::{Moment, Robot, tool_pose};
+use crate::trial::truth::robot_of;
 use poseshift::finding::Severity;
 use poseshift::model::profile::Profile;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 const ARM: &str = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
 
@@ -42,6 +49,21 @@ fn conveyors_are_refused_in_every_language() {
         ids == ["moving-frame"] || ids == ["positioner-unknown"],
         "{ids:?} {reported}"
     );
+    // ConveyorTech: until a base is set
+    let fixed = "$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\n";
+    let conveyor = |behind: &str| {
+        format!(
+            "DEF t()\n$TOOL=TOOL_DATA[1]\n{fixed}PTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}}\nCONV_FOLLOW(1,100)\n{behind}LIN {{X 640,Y 200,Z 700,A 10,B 5,C 170}}\nEND\n"
+        )
+    };
+    says(
+        &[("t.src", &conveyor(""))],
+        &["moving-frame"],
+        "since CONV_FOLLOW the base may follow a conveyor",
+    );
+    says(&[("t.src", &conveyor(fixed))], &[], "");
+    let own = conveyor("") + "DEF CONV_FOLLOW(n:IN,m:IN)\nINT n,m\nEND\n";
+    says(&[("t.src", &own)], &[], "");
     let points = "P[1]{\n   GP1:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX =  640.000  mm,\tY =  200.000  mm,\tZ =  700.000  mm,\n\tW =  170.000 deg,\tP =    5.000 deg,\tR =   10.000 deg\n};\n";
     let fanuc = format!(
         "/PROG  TEST\n/ATTR\nLINE_COUNT = 1;\n/APPL\n  LINE_TRACK;\n    LINE_TRACK_SCHEDULE_NUMBER      : 1;\n/MN\n   1:L P[1] 100mm/sec FINE    ;\n/POS\n{points}/END\n"
@@ -74,6 +96,26 @@ fn moves_with_a_second_robot_are_refused_in_every_language_that_has_them() {
     // each task for itself, in a fixed frame
     let own = rapid(&data("", "TRUE"), body);
     says(&[("t.mod", &own)], &[], "");
+    // RoboTeam: on what another robot carries, and waiting for it in a frame of one's own
+    let krl = |base: &str, with: &str| {
+        format!(
+            "DEF t()\n$TOOL=TOOL_DATA[1]\n{base}\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0}}\nSLIN {{X 640,Y 200,Z 700,A 10,B 5,C 170}}{with}\nEND\n"
+        )
+    };
+    let linked = krl(
+        "$BASE=LK(MACHINE_DEF[2].ROOT,MACHINE_DEF[2].MECH_TYPE,BASE_DATA[3])",
+        "",
+    );
+    says(
+        &[("t.src", &linked)],
+        &["two-robots"],
+        "another robot carries the base (LK)",
+    );
+    let waits = krl(
+        "$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}",
+        " WITH $SYNC_ID[]=\"AutoSync\", $SYNC_LIST='B0011'",
+    );
+    says(&[("t.src", &waits)], &[], "");
     for (moves, words) in [
         ("MOVL C00001 V=30.0 +MOVL C00002\n", "second robot"),
         ("SMOVL C00001 V=30.0 +MOVL C00002\n", "SMOV"),
@@ -119,4 +161,87 @@ fn the_seventh_joint_of_an_arm_is_no_external_axis() {
     let body = "MoveAbsJ [[0,0,10,0,60,0],[0,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nMoveL [[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,1010],[-101.9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n";
     let text = rapid("", body);
     says(&[("t.mod", &text)], &["seven-axis-arm"], "seventh joint");
+}
+
+/// A program of an arm on a rail with the configuration data of the controller, whose cell has the
+/// rail along `direction` and the base rotated by `yaw_deg` more than the profile's.
+fn configured(direction: f64, yaw_deg: f64) -> String {
+    let plain = profile("", &[]);
+    let mut random = StdRng::seed_from_u64(4);
+    let rail = Rail {
+        direction: [0.6 * direction, 0.8 * direction, 0.0],
+        up: [0.0, 0.0, 1.0],
+        zero: 1.5,
+        low: 0.0,
+        high: 3.0,
+        faults: Vec::new(),
+    };
+    let mut robot = robot_of(&plain, &tool());
+    let place: [f64; 3] = std::array::from_fn(|i| robot.base[i][3]);
+    robot.base = times(
+        &times(&shift(place), &turn_z(yaw_deg.to_radians())),
+        &times(&shift(place.map(|x| -x)), &robot.base),
+    );
+    let mut body = String::new();
+    for _ in 0..12 {
+        let q: [f64; 6] = [
+            [-150.0, 150.0],
+            [-20.0, 40.0],
+            [-20.0, 30.0],
+            [-80.0, 80.0],
+            [20.0, 90.0],
+            [-170.0, 170.0],
+        ]
+        .map(|[low, high]| random.random_range(low..high));
+        let e = random.random_range(1.2..1.8_f64);
+        let at = Robot {
+            base: carried(&rail, &robot.base, e, 1.0),
+            ..robot.clone()
+        };
+        let rad = q.map(f64::to_radians);
+        let pose = tool_pose(&at, &[], &rad, &Moment::default());
+        let n = numbers_of(Said::Rapid, &pose);
+        // quarters of a revolution; the arm stands forward, elbow up, wrist down
+        let [cf1, _, _, cf4, _, cf6] = q.map(|q| (q / 90.0).floor());
+        let list = |n: &[f64]| {
+            n.iter()
+                .map(|x| format!("{x:.6}"))
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        body += &format!(
+            "MoveJ [[{}],[{}],[{cf1},{cf4},{cf6},0],[{:.4},9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n",
+            list(&n[..3]),
+            list(&n[3..]),
+            1e3 * e
+        );
+    }
+    format!("MODULE t\nPROC main()\nConfJ\\On;\n{body}ENDPROC\nENDMODULE\n")
+}
+
+#[test]
+fn a_rail_that_contradicts_the_configuration_data_is_reported() {
+    let track = "external_axes:\n  track:\n    - {axis: eax_a, direction: [0.6, 0.8, 0.0], up: [0, 0, 1], zero_mm: 1500, min_mm: 0, max_mm: 3000}\n";
+    let of = |text: &str| {
+        let done = run(&profile(track, &[ARM]), &[("t.mod", text)]);
+        done.map(|done| {
+            let found = done.findings.iter();
+            let said = found.filter(|f| f.id == "external-axis-direction");
+            said.map(|f| f.message.clone()).collect::<Vec<_>>()
+        })
+    };
+    // as it is
+    let said = of(&configured(1.0, 0.0)).expect("read");
+    assert!(said.is_empty(), "{said:?}");
+    for (direction, yaw_deg, words) in [
+        (-1.0, 0.0, "eax_a in the opposite direction 12 are"),
+        (1.0, 180.0, "the base rotated by 180 deg about z 12 are"),
+        (1.0, 90.0, "the base rotated by 90 deg about z 12 are"),
+    ] {
+        let said = of(&configured(direction, yaw_deg)).expect("some are within reach");
+        assert!(
+            said.len() == 1 && said[0].ends_with(words),
+            "{direction} {yaw_deg}: {said:?}"
+        );
+    }
 }

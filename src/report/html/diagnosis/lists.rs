@@ -2,7 +2,7 @@
 
 use crate::report::html::numbers::{Column, DIGITS, Number, Table, fixed, significant};
 use crate::report::html::page::Page;
-use crate::report::text::{labelled, together};
+use crate::report::text::{fixed as decimals, labelled, together};
 use crate::task::diagnose::{Diagnosis, Effect, FoundEffect, ImpossibleGroup};
 
 /// The least sure first.
@@ -46,6 +46,48 @@ pub(super) fn show_standing(page: &mut Page, found: &Diagnosis) {
     let residual = crate::report::text::residual(found);
     let residual = residual.split_whitespace().collect::<Vec<_>>().join(" ");
     page.show("standing", "How sure each effect is", &residual, table);
+}
+
+/// What was found of positioners, each effect a row.
+pub(super) fn show_positioners(page: &mut Page, found: &Diagnosis) {
+    for (number, of) in found.positioners.iter().enumerate() {
+        let table = Table {
+            columns: vec![
+                Column::texts("standing", of.effects.iter().map(|f| f.standing.to_owned())),
+                Column::texts("effect", of.effects.iter().map(|f| f.effect.label.clone())),
+                Column::texts("what it is", of.effects.iter().map(|f| f.sentence.clone())),
+                Column::texts(
+                    "may be instead",
+                    of.effects.iter().map(|f| {
+                        let first = f.against.first();
+                        first.map_or_else(String::new, |against| against.what.clone())
+                    }),
+                ),
+            ],
+        };
+        let errors = match (&of.before, &of.after) {
+            (Some(before), Some(after)) => format!(
+                "; {} \u{2192} {} mm at stops that were left out in turn",
+                decimals(before.mean_mm, 3),
+                decimals(after.mean_mm, 3)
+            ),
+            _ => String::new(),
+        };
+        let note = format!(
+            "{}: {} rows at {} stops{errors}. {}",
+            of.verdict.replace('_', " "),
+            of.rows,
+            of.stops,
+            of.reasons.join("; ")
+        );
+        let title = format!("Positioner {}", of.positioner);
+        page.show(
+            &format!("positioner{}", number + 1),
+            &title,
+            note.trim(),
+            table,
+        );
+    }
 }
 
 fn labels(found: &Diagnosis, which: &[String]) -> String {

@@ -100,6 +100,7 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
         }));
     }
     lists::show_standing(&mut page, of);
+    lists::show_positioners(&mut page, of);
     show_steps(&mut page, of);
     for (number, one) in found.found.iter().enumerate() {
         show_effect(&mut page, of, number, one);

@@ -1,8 +1,8 @@
 //! The page of `check`.
 
 use super::{
-    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, path, thinned, title_of, tools_of,
-    wanted,
+    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, path, stand_of, thinned, title_of,
+    tools_of, wanted,
 };
 use crate::check::Check;
 use crate::check::trace::{Traced, trace};
@@ -118,6 +118,7 @@ fn page(of: &Checked) -> Page {
         row_of[report.motion] = Some(k);
         let (at, joints) = (found.commanded(report), found.joints(report));
         points.push(Some(at.translation), Some(*joints));
+        points.push_stand(of.scenery.profile, stand_of(&found.program, report.motion));
         let tool = found.program.moves[report.motion].tool;
         points.tool.push(u32::try_from(tool).unwrap_or(0));
         points.error.push(fixed(mm_from_m(error(*row)), 4));

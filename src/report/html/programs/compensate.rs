@@ -1,8 +1,8 @@
 //! The page of `compensate`.
 
 use super::{
-    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, moved, path, thinned, title_of,
-    tools_of, wanted,
+    Lines, SAMPLES, Scenery, answer, join, kept, largest, lead, moved, path, stand_of, thinned,
+    title_of, tools_of, wanted,
 };
 use crate::check::trace::Traced;
 use crate::compensate::Compensation;
@@ -226,6 +226,8 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         let place = first_move[*row].map(|one| moved(of.work_offset, one.commanded.translation));
         let joints = reports[*row].q.or(first_move[*row].map(|one| one.joints));
         points.push(place, joints);
+        let stand = first_move[*row].and_then(|one| stand_of(program, one.motion));
+        points.push_stand(of.scenery.profile, stand);
         points.tool.push(reports[*row].tool.unwrap_or(0));
         points
             .error

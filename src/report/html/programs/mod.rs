@@ -75,6 +75,12 @@ fn kept(count: usize, measure: &dyn Fn(usize) -> f64) -> Vec<usize> {
     rows
 }
 
+/// Where external axes stand at the end of a move, as far as the profile lists any.
+fn stand_of(program: &Program, motion: usize) -> Option<&[f64]> {
+    let frame = &program.frames[program.moves[motion].frame];
+    frame.stand.as_ref().map(|stand| &*stand.values)
+}
+
 fn thinned(rows: &[usize], all: usize, what: &str) -> String {
     if rows.len() == all {
         return String::new();
