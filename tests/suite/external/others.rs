@@ -164,8 +164,9 @@ fn the_seventh_joint_of_an_arm_is_no_external_axis() {
 }
 
 /// A program of an arm on a rail with the configuration data of the controller, whose cell has the
-/// rail along `direction` and the base rotated by `yaw_deg` more than the profile's.
-fn configured(direction: f64, yaw_deg: f64) -> String {
+/// rail along `direction` and the base rotated by `yaw_deg` more than the profile's: at places of the
+/// rail between two.
+fn configured(direction: f64, yaw_deg: f64, [low_m, high_m]: [f64; 2]) -> String {
     let plain = profile("", &[]);
     let mut random = StdRng::seed_from_u64(4);
     let rail = Rail {
@@ -193,7 +194,7 @@ fn configured(direction: f64, yaw_deg: f64) -> String {
             [-170.0, 170.0],
         ]
         .map(|[low, high]| random.random_range(low..high));
-        let e = random.random_range(1.2..1.8_f64);
+        let e = random.random_range(low_m..high_m);
         let at = Robot {
             base: carried(&rail, &robot.base, e, 1.0),
             ..robot.clone()
@@ -230,18 +231,26 @@ fn a_rail_that_contradicts_the_configuration_data_is_reported() {
             said.map(|f| f.message.clone()).collect::<Vec<_>>()
         })
     };
+    let near = [1.2, 1.8];
     // as it is
-    let said = of(&configured(1.0, 0.0)).expect("read");
+    let said = of(&configured(1.0, 0.0, near)).expect("read");
     assert!(said.is_empty(), "{said:?}");
     for (direction, yaw_deg, words) in [
         (-1.0, 0.0, "eax_a in the opposite direction 12 are"),
         (1.0, 180.0, "the base rotated by 180 deg about z 12 are"),
         (1.0, 90.0, "the base rotated by 90 deg about z 12 are"),
     ] {
-        let said = of(&configured(direction, yaw_deg)).expect("some are within reach");
+        let said = of(&configured(direction, yaw_deg, near)).expect("some are within reach");
         assert!(
             said.len() == 1 && said[0].ends_with(words),
             "{direction} {yaw_deg}: {said:?}"
         );
     }
+    // metres from where the rail is zero nothing is within reach the other way round
+    let error = of(&configured(-1.0, 0.0, [2.6, 3.0])).expect_err("nothing is within reach");
+    let said = error.to_string();
+    assert!(
+        said.contains("none of the 12 targets") && said.contains("eax_a in the opposite direction"),
+        "{said}"
+    );
 }
