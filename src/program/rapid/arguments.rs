@@ -189,12 +189,13 @@ impl Reader<'_> {
         Ok(Amount::Computed)
     }
 
-    /// `{2}` or `{1,3}` where it stands; its names are not noted.
+    /// `{2}` or `{1,3}` where it stands. Its names are of no expression; they stay in the list, as
+    /// what functions in it are given may refer to them.
     pub(super) fn index(&mut self) -> Result<Index, Fault> {
         if !self.token.is(b'{') {
             return Ok(Index::Whole);
         }
-        let (mark, mentions) = (self.mark(), self.parsed.mentions.len());
+        let mark = self.mark();
         self.advance()?;
         let mut constants = [0; 3];
         for constant in &mut constants {
@@ -218,7 +219,6 @@ impl Reader<'_> {
         }
         self.rewind(mark);
         self.braces()?;
-        self.parsed.mentions.truncate(mentions);
         Ok(Index::Variable)
     }
 
@@ -317,7 +317,6 @@ impl Reader<'_> {
                 value,
             });
         }
-        self.parsed.mentions.truncate(mentions as usize);
         if let Some(fault) = bad_value(shape, &self.parsed.numbers[start..]) {
             self.parsed.bad_values.push(BadValue { target, fault });
         }

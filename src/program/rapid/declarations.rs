@@ -50,9 +50,7 @@ impl Reader<'_> {
                 }
                 Type::Num if storage == Storage::Constant && dimensions == 0 => self.constant()?,
                 _ => {
-                    let mentions = self.parsed.mentions.len();
                     self.expression()?;
-                    self.parsed.mentions.truncate(mentions);
                     Stored::Computed
                 }
             };
