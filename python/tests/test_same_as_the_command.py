@@ -8,6 +8,7 @@ to the equal document of `calibrate`: its covariance, of which that has the root
 from __future__ import annotations
 
 import inspect
+import itertools
 import json
 import math
 import re
@@ -259,17 +260,26 @@ def test_compensate_and_check(run: Run, tmp_path: Path, monkeypatch: pytest.Monk
     assert by_command | {"output": None} == done.document | {"output": None}
     written = {path.relative_to("out").as_posix(): path.read_bytes() for path in Path("out").rglob("*") if path.is_file()}
     assert {name.removeprefix("in/"): data for name, data in done.files.items()} == written
+    # what was written, or the program itself where it is refused, against what it was made from
+    keywords = {name: keywords[name] for name in ("context", "tool", "frame", "frames") if name in keywords}
+    of = sorted(path for path in Path("out").rglob("*") if path.is_file()) if written else files
+    options = ["--nominal", "in"] if written else []
+    for word, value in itertools.pairwise(said["options"]):
+        options += [word, value] if word in {"--with", "--tool", "--frame"} else []
 
+    def check() -> ps.Check:
+        return ps.check(of, profile, nominal=files if written else None, **keywords)
 
-def test_check(run: Run, root: Path, profile: ps.Profile, tmp_path: Path) -> None:
-    program, robot = root / "programs/rapid/olp/in/Deburr.mod", root / "robots/abb_irb120_thesis.yaml"
-    run("compensate", program, "--profile", robot, "-o", "out.mod")
-    out = tmp_path / "out.mod"
-    by_command = run("check", out, "--profile", robot, "--nominal", program, "--junit", "junit.xml")
-    checked = ps.check(out, profile, nominal=program)
+    try:
+        by_command = run("check", of[0].parts[0], "--profile", robot, *options, "--junit", "junit.xml", status=None)
+    except json.JSONDecodeError:
+        # it cannot be checked: neither can it here
+        with pytest.raises(ps.PoseshiftError):
+            check()
+        return
+    checked = check()
     assert by_command == checked.document
-    assert checked.junit() == (tmp_path / "junit.xml").read_text()
-    assert checked.refused is False
+    assert checked.junit() == Path("junit.xml").read_text()
     assert checked.moves.rows == checked.summary["moves"]
 
 
