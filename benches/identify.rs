@@ -2,9 +2,11 @@
 //! 120.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
+use poseshift::identify::base::BasePolicy;
+use poseshift::identify::calibration::{Options, calibrate};
 use poseshift::identify::measurements::Measurements;
-use poseshift::identify::parameters::{Level, Pick, Selection};
+use poseshift::identify::parameters::{Level, Selection};
+use poseshift::identify::pick::Pick;
 use poseshift::identify::plan::{Constraints, Request, plan};
 use poseshift::identify::problem::Problem;
 use poseshift::identify::random::Random;

@@ -12,7 +12,7 @@ mod trial;
 
 use clap::Parser;
 use poseshift::diagnose::{Diagnosis, Found, Options, Standing, Verdict, diagnose};
-use poseshift::identify::parameters::Pick;
+use poseshift::identify::pick::Pick;
 use poseshift::model::effects::Effect;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -1,7 +1,8 @@
 //! What commands that read measurements share.
 
 use super::files::Files;
-use crate::identify::parameters::{Level, Pick};
+use crate::identify::parameters::Level;
+use crate::identify::pick::Pick;
 use crate::task::{Failure, ProfileFile, Rows, Said};
 use clap::Args;
 use std::path::PathBuf;

@@ -14,7 +14,7 @@ use super::unknown::{Library, Likeness, Unknown, chance, likeness};
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
-use crate::identify::parameters::Pick;
+use crate::identify::pick::Pick;
 use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::model::profile::Profile;
 

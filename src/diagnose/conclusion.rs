@@ -20,7 +20,7 @@ use super::whereabouts::spots;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
-use crate::identify::parameters::Pick;
+use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;

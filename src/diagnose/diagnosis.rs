@@ -13,7 +13,7 @@ use super::whereabouts::Spot;
 use crate::geometry::Vector;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
-use crate::identify::parameters::Pick;
+use crate::identify::pick::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
 use crate::identify::{IdentifyError, Line};

@@ -5,7 +5,7 @@ use super::fit::{Fit, Gain, Held};
 use super::scan::View;
 use super::table::{Column, Layout};
 use super::weights::{Plain, Weighted};
-use crate::identify::parameters::Pick;
+use crate::identify::pick::Pick;
 use crate::model::effects::{Effect, Kind, of_arm};
 
 /// An effect must be better than nothing by this, in units of twice a log likelihood.

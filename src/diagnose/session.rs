@@ -9,24 +9,18 @@ use super::table::{Column, Layout, table};
 use super::waves;
 use super::weights::Plain;
 use crate::geometry::Pose;
-use crate::geometry::units::DEG;
 use crate::identify::IdentifyError;
-use crate::identify::calibration::{
-    BasePolicy, Options as CalibrationOptions, calibrate, fit_frames,
-};
+use crate::identify::base::{BasePolicy, is_same_place};
+use crate::identify::calibration::{Options as CalibrationOptions, calibrate, fit_frames};
 use crate::identify::input_checks::{Remark, screening};
 use crate::identify::measurements::{Measurements, Purpose};
-use crate::identify::parameters::{Level, Pick, Selection, Subject};
+use crate::identify::parameters::{Level, Selection, Subject};
+use crate::identify::pick::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::start::{self, base_gap};
 use crate::model::effects::{Effect, Kind};
 use crate::model::profile::{ControllerModel, Profile};
-
-/// The device stands where the profile has the base if it is nearer than this, metres.
-const SAME_PLACE_M: f64 = 0.02;
-/// And rotated by less, radians.
-const SAME_TURN_RAD: f64 = 1.0 * DEG;
 
 /// Numbers beyond the parameters that an estimate of the noise takes.
 const SPARE: usize = 10;
@@ -188,10 +182,9 @@ pub fn session(
         .as_ref()
         .map_or(profile.world_from_base, |g| g.world_from_base);
     let real = profile.world_from_real_base();
-    let (far, turned) = base_gap(&real, &base);
     // a track would take a turned device for its own error
     let on_track = !profile.external.track.is_empty();
-    let elsewhere = on_track || far > SAME_PLACE_M || turned > SAME_TURN_RAD;
+    let elsewhere = on_track || !is_same_place(base_gap(&real, &base));
     let nearer = if elsewhere {
         real * base.inverse()
     } else {

@@ -1,5 +1,6 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
+use super::base::{BasePolicy, base_policy, device_of, refuse_other_world};
 use super::contact;
 use super::degrees;
 use super::error::IdentifyError;
@@ -11,26 +12,20 @@ use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
-use super::solver::{Solution, Stop, absorb_base, belongs, solve, solve_telling};
-use super::start::{self, Start, base_gap};
+use super::solver::{Solution, Stop, solve, solve_telling};
+use super::start::{self, Start};
 use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::units::DEG;
 use crate::geometry::{Pose, dot, norm, scale};
 use crate::model::effects::Kind;
 use crate::model::profile::{DevicePlace, Profile};
 use std::borrow::Cow;
-use std::f64::consts::TAU;
 
 /// A row is an outlier whose residual is beyond this many times the limit of normal ones.
 pub const OUTLIER: f64 = 1.6;
 /// Residuals below this are nobody's outliers, metres.
 const SMALL_M: f64 = 1e-6;
-/// The profile's base is believed to be in the device's frame where the measured one is nearer than
-/// this, metres.
-const SAME_PLACE_M: f64 = 0.02;
-/// And rotated by less than this, radians.
-const SAME_TURN_RAD: f64 = 1.0 * DEG;
 /// Gravity along the device's z is tried where that is tilted from the profile's by so much,
 /// radians.
 const TILTED_RAD: f64 = 3.0 * DEG;
@@ -41,24 +36,6 @@ const MOST_TILTED_RAD: f64 = 60.0 * DEG;
 const STRONG: f64 = 6.0;
 /// Correlations above this are reported.
 pub const STRONG_CORRELATION: f64 = 0.9;
-
-/// What becomes of the measured place of the base.
-///
-/// A device sees the base in its own frame: `device_from_base`, the product of where the device
-/// stands and where the base stands. No measurement of the arm divides that product; something else
-/// must say where one of the two is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BasePolicy {
-    /// The base is where the controller has it, with the effects `base_frame` of the profile; what
-    /// was measured is where the device stands.
-    Controller,
-    /// It is the device's world that counts: `kinematics.base` is replaced.
-    Device,
-    /// The profile's base counts: the difference is the effect `base_frame`.
-    Profile,
-    /// `Profile` where they are within 20 mm and 1°, else `Device`.
-    Nearest,
-}
 
 /// How to identify.
 #[derive(Clone, Debug, PartialEq)]
@@ -220,8 +197,7 @@ pub(super) fn begin_frames(
 ) -> Result<(Problem, Estimate), IdentifyError> {
     let mut selection = Selection::level(Level::Frames);
     if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
-        selection.identify =
-            super::parameters::Pick::parse_list("points").expect("a word of the list");
+        selection.identify = super::pick::Pick::parse_list("points").expect("a word of the list");
     }
     let guess = start::find(profile, measurements);
     let base = guess
@@ -534,23 +510,6 @@ pub(super) fn observability_of(
     observability(factor.unwrap_or_default(), configurations)
 }
 
-/// A track's direction stands in the profile's world: another world needs another direction.
-fn refuse_other_world(profile: &Profile, base: &Pose) -> Result<(), IdentifyError> {
-    let (far, turned) = base_gap(&profile.world_from_base, base);
-    if profile.external.is_empty() || far < SAME_PLACE_M && turned < SAME_TURN_RAD {
-        return Ok(());
-    }
-    Err(IdentifyError::Suspicious {
-        message: format!(
-            "the base is {:.1} mm and {:.1} deg from where the profile has it, and `external_axes` \
-             of the profile stand in the profile's world",
-            mm_from_m(far),
-            turned / DEG
-        ),
-        hint: "leave --base out: where the device stands is then identified apart".into(),
-    })
-}
-
 /// Quality of an estimate on other measurements of the same set-up.
 ///
 /// # Errors
@@ -576,103 +535,6 @@ pub fn judge(
     contact::carry((problem, estimate), &mut other, &mut values)?;
     other.sort_rigs(&values.effects);
     Ok(Quality::of(&other.rows, &misses(&other, &values)))
-}
-
-/// Puts the measured base where the policy wants it. Whether it replaces the profile's.
-fn base_policy(
-    policy: BasePolicy,
-    profile: &Profile,
-    solution: &mut Solution,
-) -> Result<bool, IdentifyError> {
-    if policy == BasePolicy::Controller {
-        absorb_base(&mut solution.estimate);
-        return Ok(false);
-    }
-    let measured = solution.estimate.world_from_base;
-    let (far, turned) = base_gap(&profile.world_from_base, &measured);
-    let near = far < SAME_PLACE_M && turned < SAME_TURN_RAD;
-    if policy == BasePolicy::Device || policy == BasePolicy::Nearest && !near {
-        absorb_base(&mut solution.estimate);
-        return Ok(true);
-    }
-    if turned > 60.0 * DEG {
-        return Err(IdentifyError::Suspicious {
-            message: format!(
-                "the base is {:.1} mm and {:.1} deg from where the profile has it",
-                mm_from_m(far),
-                turned / DEG
-            ),
-            hint: "with --base device the measured place replaces the profile's".into(),
-        });
-    }
-    let deviation = (profile.world_from_base.inverse() * measured).xyz_rxryrz();
-    for effect in solution
-        .estimate
-        .effects
-        .iter_mut()
-        .filter(|e| e.kind == Kind::BaseFrame)
-    {
-        effect.parameters = deviation;
-    }
-    solution.estimate.world_from_base = profile.world_from_base;
-    Ok(false)
-}
-
-/// Where the device stands, of rows in a frame that `frame_from_device` maps into, with the
-/// standard deviations of its numbers.
-///
-/// `world_from_device = real_base · (measured_base · T(δ))⁻¹ · frame_from_device` with the
-/// deviation δ of the base, whose covariance is propagated by central differences. No deviation is
-/// known where one of the six is not determined.
-fn device_of(
-    profile: &Profile,
-    solution: &Solution,
-    uncertainty: &Uncertainty,
-    frame_from_device: &Pose,
-) -> DevicePlace {
-    const STEP: f64 = 1e-6;
-    let estimate = &solution.estimate;
-    let place = |deviation: [f64; 6]| {
-        let base = estimate.world_from_base * Pose::from_xyz_rxryrz(deviation);
-        profile.world_from_real_base() * base.inverse() * *frame_from_device
-    };
-    let parameters = solution.parameters.iter().enumerate();
-    let of_base: Vec<(usize, usize, f64)> = parameters
-        .filter(|(_, p)| belongs(estimate, p, Kind::BaseFrame))
-        .filter_map(|(i, p)| match p.subject {
-            Subject::Effect(slot) => Some((i, slot.parameter, p.scale)),
-            _ => None,
-        })
-        .collect();
-    let slopes: Vec<[f64; 6]> = of_base
-        .iter()
-        .map(|(_, number, scale)| {
-            let ends = [-STEP, STEP].map(|step| {
-                let mut deviation = [0.0; 6];
-                deviation[*number] = step;
-                place(deviation).xyz_rxryrz()
-            });
-            std::array::from_fn(|k| {
-                let change = ends[1][k] - ends[0][k];
-                // an angle may pass a half revolution between the two
-                let turns = if k < 3 { 0.0 } else { (change / TAU).round() };
-                scale * (change - turns * TAU) / (2.0 * STEP)
-            })
-        })
-        .collect();
-    let sigma = std::array::from_fn(|k| {
-        let mut variance = 0.0;
-        for (a, (i, ..)) in of_base.iter().enumerate() {
-            for (b, (j, ..)) in of_base.iter().enumerate() {
-                variance += slopes[a][k] * uncertainty.covariance[(*i, *j)] * slopes[b][k];
-            }
-        }
-        variance.max(0.0).sqrt()
-    });
-    DevicePlace {
-        world_from_device: place([0.0; 6]),
-        sigma: (of_base.len() == 6).then_some(sigma),
-    }
 }
 
 pub(super) fn outliers(

@@ -8,7 +8,8 @@
 
 use super::calibration::{Calibration, Options, identify};
 use super::measurements::{Measurements, Purpose};
-use super::parameters::{Level, Pick, Selection};
+use super::parameters::{Level, Selection};
+use super::pick::Pick;
 use crate::model::effects::Kind;
 use crate::model::profile::Profile;
 use rayon::prelude::*;

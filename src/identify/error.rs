@@ -37,7 +37,7 @@ impl SelectionError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::UnknownEffect { id } => nearest::hint(id, "names", super::parameters::words()),
+            Self::UnknownEffect { id } => nearest::hint(id, "names", super::pick::words()),
             _ => "`poseshift effects` lists every effect with its parameters; write \
                 joint_compliance:2-6 or link_geometry:3.beta_deg"
                 .into(),

@@ -398,8 +398,7 @@ mod tests {
                 .collect();
             let mut selection = Selection::level(Level::Compliance);
             if !named.is_empty() {
-                selection.identify =
-                    super::super::parameters::Pick::parse_list(named).expect("a word");
+                selection.identify = super::super::pick::Pick::parse_list(named).expect("a word");
             }
             let (problem, estimate) = {
                 let none = Stand::default();

@@ -38,6 +38,7 @@ pub mod measurements;
 pub mod normal;
 pub mod observation;
 pub mod parameters;
+pub mod pick;
 pub mod plan;
 pub mod plates;
 pub mod problem;
@@ -47,6 +48,7 @@ pub mod simulate;
 pub mod solver;
 pub mod start;
 
+pub mod base;
 pub mod calibration;
 mod candidates;
 pub mod contact;
@@ -71,6 +73,7 @@ pub mod table;
 pub mod uncertainty;
 pub mod validation;
 
-pub use calibration::{BasePolicy, Calibration, Options, calibrate};
+pub use base::BasePolicy;
+pub use calibration::{Calibration, Options, calibrate};
 pub use error::{IdentifyError, SelectionError};
 pub use line::Line;

@@ -317,7 +317,8 @@ impl Normal {
 mod tests {
     use super::*;
     use crate::identify::measurements::Measurements;
-    use crate::identify::parameters::{Level, Pick, Selection};
+    use crate::identify::parameters::{Level, Selection};
+    use crate::identify::pick::Pick;
     use crate::identify::random::Random;
     use crate::identify::simulate::{Command, Session, simulate};
     use crate::model::external::Stand;

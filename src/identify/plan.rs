@@ -353,7 +353,7 @@ mod tests {
             .expect("a shipped profile");
         let tool = profile.tool("artifact").expect("its tool");
         let mut selection = Selection::level(Level::Compliance);
-        selection.fix = super::super::parameters::Pick::parse_list("tool_frame").expect("a word");
+        selection.fix = super::super::pick::Pick::parse_list("tool_frame").expect("a word");
         let request = |starts| Request {
             count: 20,
             candidates: 400,
@@ -442,8 +442,7 @@ mod tests {
         let tool = profile.tool("artifact").expect("its tool");
         let mut selection = Selection::level(Level::Compliance);
         selection.fix =
-            super::super::parameters::Pick::parse_list("tool_frame,link_geometry:6.d_mm")
-                .expect("words");
+            super::super::pick::Pick::parse_list("tool_frame,link_geometry:6.d_mm").expect("words");
         let request = Request {
             count: 50,
             candidates: 5000,

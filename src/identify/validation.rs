@@ -414,8 +414,7 @@ fn cross_validate(
         .any(|row| row.point.is_some() && row.point_in_tool_m.is_none());
     let mut selection = Selection::level(Level::Frames);
     if free {
-        selection.identify =
-            super::parameters::Pick::parse_list("points").expect("a word of the list");
+        selection.identify = super::pick::Pick::parse_list("points").expect("a word of the list");
     }
     let guess = start::find(profile, measurements);
     let base = guess

@@ -162,8 +162,7 @@ pub enum AxesError {
     /// The swept joint hardly moves.
     #[error(
         "sweep of joint {joint}: it rotates by {rotated_deg:.3} deg only (limit {limit_deg:.1} \
-         deg); \
-         is the column sweep right, and are the angles in degrees?"
+         deg); is the column sweep right, and are the angles in degrees?"
     )]
     Short {
         /// From 1.
@@ -176,8 +175,8 @@ pub enum AxesError {
     /// Measured and commanded angles do not belong together.
     #[error(
         "sweep of joint {joint}: the points rotate by {measured_deg:.2} deg where the joint \
-         rotates by \
-         {commanded_deg:.2} deg: angles in radians, another joint, or rows in another order"
+         rotates by {commanded_deg:.2} deg: angles in radians, another joint, or rows in another \
+         order"
     )]
     Unlike {
         /// From 1.

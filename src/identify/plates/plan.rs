@@ -41,9 +41,9 @@ pub fn plan_plates(
     if !reflectors.is_empty() {
         let named = reflectors.iter().zip(1..);
         own.points = named.map(|(p, n)| (format!("r{n}"), *p)).collect();
-        selection.identify.extend(
-            crate::identify::parameters::Pick::parse_list("points").expect("a word of the list"),
-        );
+        selection
+            .identify
+            .extend(crate::identify::pick::Pick::parse_list("points").expect("a word of the list"));
     }
     let (name, points) = (own.name.clone(), own.points.clone());
     if points.is_empty() {

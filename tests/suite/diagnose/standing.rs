@@ -5,7 +5,7 @@ use super::{group, with_csv, without_sigma};
 use crate::support::scratch;
 use crate::trial::{Case, case, label};
 use poseshift::diagnose::{Diagnosis, NoiseSource, Options, Standing, Verdict, diagnose};
-use poseshift::identify::parameters::Pick;
+use poseshift::identify::pick::Pick;
 use poseshift::model::effects::{Effect, Kind, Site};
 use poseshift::model::{Conditions, Model};
 use serde_json::Value;

@@ -3,9 +3,11 @@
 
 use crate::support::{random_joints, repository};
 use poseshift::geometry::{Pose, norm, sub};
-use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
+use poseshift::identify::base::BasePolicy;
+use poseshift::identify::calibration::{Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Observed};
-use poseshift::identify::parameters::{Level, Pick, Selection};
+use poseshift::identify::parameters::{Level, Selection};
+use poseshift::identify::pick::Pick;
 use poseshift::identify::robust::Shape;
 use poseshift::identify::simulate::{Command, Device, Session, simulate};
 use poseshift::identify::validation::{Refit, validate};

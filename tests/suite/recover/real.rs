@@ -2,7 +2,8 @@
 //! figures.
 
 use crate::support::{repository, skipped};
-use poseshift::identify::calibration::{BasePolicy, Options, calibrate};
+use poseshift::identify::base::BasePolicy;
+use poseshift::identify::calibration::{Options, calibrate};
 use poseshift::identify::measurements::{Measurements, Observed, Purpose};
 use poseshift::identify::parameters::{Level, Selection};
 use poseshift::identify::statistics::Quality;

@@ -1,126 +1,30 @@
 //! `diagnose`: where model and measurement disagree, and which effect is missing.
 
+mod effects;
+mod plates;
+
+pub use effects::{Against, Effect, Evidence, FoundEffect};
+pub use plates::PositionerDiagnosis;
+pub(super) use plates::of_the_arm;
+
 use super::drift::Drift;
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::parts::{File, SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
-use super::sentences::sentence;
 use super::{Document, PROGRAM};
-use crate::diagnose::plates::{PlateDiagnosis, diagnose_plates};
+use crate::diagnose::plates::diagnose_plates;
 use crate::diagnose::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
     self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::identify::IdentifyError;
-use crate::identify::measurements::Measurements;
-use crate::identify::parameters::Pick;
-use crate::model::effects::Effect as ModelEffect;
+use crate::identify::pick::Pick;
+use plates::{left_out, of_arm};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
-
-/// An effect with its place and its parameters in the units of files.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Effect {
-    /// Its id `effect`, and its place: `joint`, `link`, `on`, `order`, `row`, `tool`.
-    #[serde(flatten)]
-    pub head: Map<String, Value>,
-    /// Its values by the keys of files.
-    pub parameters: Map<String, Value>,
-    /// Its name and place for people.
-    #[serde(skip)]
-    pub label: String,
-    /// Key, value and unit of each parameter.
-    #[serde(skip)]
-    pub values: Vec<(&'static str, f64, &'static str)>,
-}
-
-impl Effect {
-    /// Its id.
-    #[must_use]
-    pub fn id(&self) -> &str {
-        self.head
-            .get("effect")
-            .and_then(Value::as_str)
-            .unwrap_or_default()
-    }
-}
-
-impl From<&ModelEffect> for Effect {
-    fn from(effect: &ModelEffect) -> Self {
-        let definition = effect.definition();
-        let (mut head, mut parameters) = (Map::new(), Map::new());
-        for (key, value) in effect.to_entry() {
-            if definition.parameters.iter().any(|p| p.key == key) {
-                parameters.insert(key.into(), value);
-            } else {
-                head.insert(key.into(), value);
-            }
-        }
-        let known = definition.parameters.iter().zip(effect.parameters);
-        Self {
-            head,
-            parameters,
-            label: effect.label(),
-            values: known
-                .map(|(p, x)| (p.key, x / p.unit.in_si(), p.unit.symbol()))
-                .collect(),
-        }
-    }
-}
-
-/// Why an effect is believed.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Evidence {
-    /// Fall of chi squared when it is added to the others.
-    pub chi_squared_fall: Option<f64>,
-    /// Probability of that by chance, times the number of tests made.
-    pub p_value: Option<f64>,
-    /// Fall of the information criterion.
-    pub bic_fall: Option<f64>,
-    /// In how many of the parts of the measurements it was found without them.
-    pub found_again: usize,
-    /// How many parts there are.
-    pub found_again_of: usize,
-    /// Whether a person asked for it.
-    pub accepted_by_hand: bool,
-}
-
-/// An effect that was found.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct FoundEffect {
-    /// The effect.
-    #[serde(flatten)]
-    pub effect: Effect,
-    /// Standard deviations by the keys of files.
-    pub sigma: Map<String, Value>,
-    /// Why it is believed.
-    pub evidence: Evidence,
-    /// Errors on rows not used for its choice, with the effects before it.
-    pub before: Option<SpreadMm>,
-    /// With it.
-    pub after: Option<SpreadMm>,
-    /// Whether it is of the session and not of the robot.
-    pub of_data: bool,
-    /// `certain`, `likely` or `possible`.
-    pub standing: &'static str,
-    /// What it may be instead, the likeliest first.
-    pub against: Vec<Against>,
-    /// It in a sentence.
-    pub sentence: String,
-}
-
-/// What may be in the place of an effect found.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Against {
-    /// An effect, several, or a function outside the registry.
-    pub what: String,
-    /// Odds of the effect found against it.
-    pub odds: f64,
-}
 
 /// The residual that remains.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -357,90 +261,6 @@ impl Document for Diagnosis {
     const KIND: &'static str = "diagnosis/1";
 }
 
-/// What was found of a positioner.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct PositionerDiagnosis {
-    /// Its name.
-    pub positioner: String,
-    /// `explained`, `improved`, `nothing_missing` or `undetermined`.
-    pub verdict: &'static str,
-    /// Why, one sentence each.
-    pub reasons: Vec<String>,
-    /// Rows of points on its plate.
-    pub rows: usize,
-    /// At how many stops of its axes.
-    pub stops: usize,
-    /// Effects in the order found; the first ones explain most.
-    pub effects: Vec<FoundEffect>,
-    /// Errors at stops that were left out in turn, of the present model.
-    pub before: Option<SpreadMm>,
-    /// With the effects found.
-    pub after: Option<SpreadMm>,
-    /// Noise of a coordinate.
-    pub noise_mm: Option<f64>,
-    /// The residual of a coordinate.
-    pub left_mm: Option<f64>,
-    /// The same as the engine has it.
-    #[serde(skip)]
-    pub answer: Verdict,
-}
-
-impl From<&PlateDiagnosis> for PositionerDiagnosis {
-    fn from(found: &PlateDiagnosis) -> Self {
-        Self {
-            positioner: found.positioner.clone(),
-            verdict: found.verdict.id(),
-            reasons: found.reasons.clone(),
-            rows: found.rows,
-            stops: found.stops,
-            effects: found.found.iter().map(Into::into).collect(),
-            before: found.held_out.map(|(before, _)| before.into()),
-            after: found.held_out.map(|(_, after)| after.into()),
-            noise_mm: finite(mm_from_m(found.noise_m)),
-            left_mm: finite(mm_from_m(found.residual_m)),
-            answer: found.verdict,
-        }
-    }
-}
-
-/// Rows of points on plates that tell nothing, and why.
-fn left_out(plates: &Measurements, why: &IdentifyError, name: &str) -> Finding {
-    let first = plates.rows.first().map(|row| row.line.to_string());
-    let message = format!(
-        "{} rows of points on plates, from {} on, are left out: {why}",
-        plates.rows.len(),
-        first.unwrap_or_default()
-    );
-    let hint = why.hint();
-    Finding::of_file("plate-rows-left-out", Severity::Note, name, message).hint(hint)
-}
-
-/// Rows of the tool, and those of points on plates.
-///
-/// # Errors
-/// There are none of the tool.
-pub(super) fn of_the_arm(
-    all: Measurements,
-    name: &str,
-) -> Result<(Measurements, Measurements), Failure> {
-    let (tool, plates) = all.split();
-    if tool.rows.is_empty() {
-        return Err(Failure::with_hint(
-            format!("{name}: every row is of a point on a plate, which shows nothing of the arm"),
-            "`poseshift calibrate` identifies the positioner with them",
-        ));
-    }
-    Ok((tool, plates))
-}
-
-/// What a person asked for of the arm.
-fn of_arm(options: &Options) -> Options {
-    let mut own = options.clone();
-    let of_positioner = |pick: &Pick| pick.kind.is_some_and(|k| k.definition().of_positioner());
-    own.accept.retain(|pick| !of_positioner(pick));
-    own
-}
-
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -665,40 +485,6 @@ impl Diagnosis {
         });
         let header = super::table::JOINTS.join(",") + "\n";
         (!self.telling_poses.is_empty()).then(|| header + &rows.collect::<String>())
-    }
-}
-
-impl From<&engine::Found> for FoundEffect {
-    fn from(f: &engine::Found) -> Self {
-        let definition = f.effect.definition();
-        let sigma = f.sought.iter().zip(&f.sigmas).map(|(n, s)| {
-            let p = &definition.parameters[*n];
-            (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
-        });
-        let (found_again, found_again_of) = f.found_again;
-        Self {
-            effect: (&f.effect).into(),
-            sigma: sigma.collect(),
-            evidence: Evidence {
-                chi_squared_fall: finite(f.gain),
-                p_value: finite(f.p_value),
-                bic_fall: finite(f.bic),
-                found_again,
-                found_again_of,
-                accepted_by_hand: f.accepted,
-            },
-            before: f.before.map(Into::into),
-            after: f.after.map(Into::into),
-            of_data: definition.of_data,
-            standing: f.standing.id(),
-            against: (f.against.iter())
-                .map(|a| Against {
-                    what: a.what.clone(),
-                    odds: a.odds,
-                })
-                .collect(),
-            sentence: sentence(&f.effect, f.base_m),
-        }
     }
 }
 

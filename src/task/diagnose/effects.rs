@@ -1,0 +1,143 @@
+//! The effects that were found, each with its evidence.
+
+use crate::diagnose as engine;
+use crate::model::effects::Effect as ModelEffect;
+use crate::task::parts::{SpreadMm, finite};
+use crate::task::sentences::sentence;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// An effect with its place and its parameters in the units of files.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Effect {
+    /// Its id `effect`, and its place: `joint`, `link`, `on`, `order`, `row`, `tool`.
+    #[serde(flatten)]
+    pub head: Map<String, Value>,
+    /// Its values by the keys of files.
+    pub parameters: Map<String, Value>,
+    /// Its name and place for people.
+    #[serde(skip)]
+    pub label: String,
+    /// Key, value and unit of each parameter.
+    #[serde(skip)]
+    pub values: Vec<(&'static str, f64, &'static str)>,
+}
+
+impl Effect {
+    /// Its id.
+    #[must_use]
+    pub fn id(&self) -> &str {
+        self.head
+            .get("effect")
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    }
+}
+
+impl From<&ModelEffect> for Effect {
+    fn from(effect: &ModelEffect) -> Self {
+        let definition = effect.definition();
+        let (mut head, mut parameters) = (Map::new(), Map::new());
+        for (key, value) in effect.to_entry() {
+            if definition.parameters.iter().any(|p| p.key == key) {
+                parameters.insert(key.into(), value);
+            } else {
+                head.insert(key.into(), value);
+            }
+        }
+        let known = definition.parameters.iter().zip(effect.parameters);
+        Self {
+            head,
+            parameters,
+            label: effect.label(),
+            values: known
+                .map(|(p, x)| (p.key, x / p.unit.in_si(), p.unit.symbol()))
+                .collect(),
+        }
+    }
+}
+
+/// Why an effect is believed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Evidence {
+    /// Fall of chi squared when it is added to the others.
+    pub chi_squared_fall: Option<f64>,
+    /// Probability of that by chance, times the number of tests made.
+    pub p_value: Option<f64>,
+    /// Fall of the information criterion.
+    pub bic_fall: Option<f64>,
+    /// In how many of the parts of the measurements it was found without them.
+    pub found_again: usize,
+    /// How many parts there are.
+    pub found_again_of: usize,
+    /// Whether a person asked for it.
+    pub accepted_by_hand: bool,
+}
+
+/// An effect that was found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct FoundEffect {
+    /// The effect.
+    #[serde(flatten)]
+    pub effect: Effect,
+    /// Standard deviations by the keys of files.
+    pub sigma: Map<String, Value>,
+    /// Why it is believed.
+    pub evidence: Evidence,
+    /// Errors on rows not used for its choice, with the effects before it.
+    pub before: Option<SpreadMm>,
+    /// With it.
+    pub after: Option<SpreadMm>,
+    /// Whether it is of the session and not of the robot.
+    pub of_data: bool,
+    /// `certain`, `likely` or `possible`.
+    pub standing: &'static str,
+    /// What it may be instead, the likeliest first.
+    pub against: Vec<Against>,
+    /// It in a sentence.
+    pub sentence: String,
+}
+
+/// What may be in the place of an effect found.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Against {
+    /// An effect, several, or a function outside the registry.
+    pub what: String,
+    /// Odds of the effect found against it.
+    pub odds: f64,
+}
+
+impl From<&engine::Found> for FoundEffect {
+    fn from(f: &engine::Found) -> Self {
+        let definition = f.effect.definition();
+        let sigma = f.sought.iter().zip(&f.sigmas).map(|(n, s)| {
+            let p = &definition.parameters[*n];
+            (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
+        });
+        let (found_again, found_again_of) = f.found_again;
+        Self {
+            effect: (&f.effect).into(),
+            sigma: sigma.collect(),
+            evidence: Evidence {
+                chi_squared_fall: finite(f.gain),
+                p_value: finite(f.p_value),
+                bic_fall: finite(f.bic),
+                found_again,
+                found_again_of,
+                accepted_by_hand: f.accepted,
+            },
+            before: f.before.map(Into::into),
+            after: f.after.map(Into::into),
+            of_data: definition.of_data,
+            standing: f.standing.id(),
+            against: (f.against.iter())
+                .map(|a| Against {
+                    what: a.what.clone(),
+                    odds: a.odds,
+                })
+                .collect(),
+            sentence: sentence(&f.effect, f.base_m),
+        }
+    }
+}
