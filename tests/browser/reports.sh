@@ -20,6 +20,10 @@ say check programs/rapid/olp/in/Deburr.mod --profile $profile --cell "$out/crowd
   --report "$out/collision.html" --json > "$out/collision.json"
 say compensate programs/krl/cam/in/pocket.src --profile programs/krl/profile.yaml -o "$out/pocket.src" \
   --report "$out/krl.html" --json > "$out/krl.json"
+say check programs/rapid/rail/in/Beam.mod --profile programs/rapid/rail/profile.yaml \
+  --report "$out/rail.html" --json > "$out/rail.json"
+say check programs/krl/positioner/in/pipe.src --profile programs/krl/positioner/profile.yaml \
+  --report "$out/positioner.html" --json > "$out/positioner.json"
 
 # measurements: the shipped robot measured by `simulate`, with two more errors than its profile tells
 sed 's/^  effects:$/&\n    - {effect: joint_harmonic, joint: 4, order: 1, cos_deg: 0.03, sin_deg: 0.02}\n    - {effect: joint_scale, joint: 1, ratio: 0.0004}/' \

@@ -26,7 +26,7 @@ function agrees(shown, value, what) {
 }
 
 test("there is a report of every kind", () => {
-  const wished = ["axes", "calibrate", "check", "collision", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "icp", "krl", "many", "plan", "reach", "register", "taught", "validate"];
+  const wished = ["axes", "calibrate", "check", "collision", "compensate", "diagnose", "empty", "evil", "handeye", "hexapod", "icp", "krl", "many", "plan", "positioner", "rail", "reach", "register", "taught", "validate"];
   assert.deepEqual(kinds.toSorted(), wished);
 });
 

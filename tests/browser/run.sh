@@ -18,4 +18,4 @@ fi
 reports=$(mktemp -d)
 trap 'rm -rf "$reports"' EXIT
 ./reports.sh "$program" "$reports" > /dev/null
-REPORTS="$reports" node --test --test-reporter=spec reports.test.mjs layout.test.mjs
+REPORTS="$reports" node --test --test-reporter=spec reports.test.mjs layout.test.mjs external.test.mjs

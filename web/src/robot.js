@@ -109,8 +109,9 @@ function makeTrack(track, base, thick) {
 }
 
 /** The plate of a positioner with what rides on it; it is not shown where nobody knows where its axes stand. */
-function makeStation({ first, axes, plate, shapes }, radius) {
+function makeStation({ name, first, axes, plate, shapes }, radius) {
   const group = new Group();
+  group.name = `plate of ${name}`;
   group.matrixAutoUpdate = false;
   const disc = new Mesh(new CylinderGeometry(radius, radius, 0.08 * radius, 48).rotateX(Math.PI / 2).translate(0, 0, -0.04 * radius), solid(new Color(0x6d7684), { opacity: 0.7 }));
   group.add(disc, triad(0.6 * radius));
@@ -132,10 +133,11 @@ function makeStation({ first, axes, plate, shapes }, radius) {
 export function makeRobot(robot) {
   const group = new Group();
   const links = Array.from({ length: 7 }, () => new Group());
-  for (const link of links) {
+  links.forEach((link, index) => {
+    link.name = index ? `link ${index}` : "base";
     link.matrixAutoUpdate = false;
     group.add(link);
-  }
+  });
   const sticks = new Group();
   const stick = solid(new Color(0x8a94a3));
   group.add(sticks);
@@ -147,6 +149,7 @@ export function makeRobot(robot) {
   }
   const reach = robot.rows.reduce((sum, row) => sum + Math.abs(row[1]) + Math.abs(row[4]), 1);
   const tip = triad(Math.max(20, reach * 0.06));
+  tip.name = "tool";
   tip.matrixAutoUpdate = false;
   group.add(tip);
   const track = makeTrack(robot.external?.track ?? [], robot.base, reach * 0.02);
