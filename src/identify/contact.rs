@@ -508,7 +508,6 @@ pub(super) fn carry(
 
 impl Problem {
     /// What the row's contact leaves with the ball's centre here; nothing of a row without contact.
-    #[inline(always)]
     pub(super) fn touch(&self, estimate: &Estimate, row: &Row, ball_m: Vector) -> Touch {
         match row.touched {
             Some((feature, probe_radius_m)) => {

@@ -25,7 +25,6 @@ pub struct Plate {
 impl Holder {
     /// Where the points' frame is in the world at the controller's joint angles `q`, radians;
     /// `motions` receives one motion a parameter.
-    #[inline(always)]
     pub fn evaluate(&self, q: &[f64; 6], conditions: &Conditions, motions: &mut [Motion]) -> Pose {
         match self {
             Self::Arm(arm) => arm.evaluate(q, conditions, motions),

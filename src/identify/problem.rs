@@ -584,7 +584,6 @@ impl Problem {
     }
 
     /// What the model with its tool at this pose expects of a row.
-    #[inline(always)]
     #[must_use]
     pub fn observe<'a>(
         &self,

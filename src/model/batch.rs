@@ -41,7 +41,7 @@ impl pulp::NullaryFnOnce for Kernel<'_> {
             // past the end the last posture is repeated and its pose dropped
             let lanes: [usize; WIDTH] = std::array::from_fn(|lane| (start + lane).min(count - 1));
             let q = side_by_side(lanes.map(|i| &self.q[i]));
-            let pose = self.model.forward(&q, self.conditions);
+            let pose = self.model.forward_here(&q, self.conditions);
             for lane in 0..WIDTH.min(count - start) {
                 self.poses.push(lane_of(&pose, lane));
             }

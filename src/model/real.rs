@@ -65,9 +65,15 @@ impl<S: Scalar> Model<S> {
     }
 
     /// `world_from_tool` at the controller's joint angles `q`, radians.
-    #[inline(always)]
     #[must_use]
     pub fn forward(&self, q: &[S; 6], conditions: &Conditions) -> Pose<S> {
+        self.forward_here(q, conditions)
+    }
+
+    /// [`Model::forward`] as a part of the caller, which a vector kernel needs; elsewhere it would be
+    /// compiled once a call.
+    #[inline(always)]
+    pub(super) fn forward_here(&self, q: &[S; 6], conditions: &Conditions) -> Pose<S> {
         let commanded = self.mechanism.commanded(q);
         self.forward_turned(&commanded, &AxisRotation::of_each(&commanded), conditions)
     }

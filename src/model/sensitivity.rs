@@ -410,7 +410,6 @@ impl Sensitivity {
 
     /// `world_from_tool` at the controller's joint angles `q` in radians; `motions` receives one
     /// motion a parameter.
-    #[inline(always)]
     pub fn evaluate(&self, q: &[f64; 6], conditions: &Conditions, motions: &mut [Motion]) -> Pose {
         let model = &self.model;
         let commanded = model.mechanism.commanded(q);
