@@ -7,7 +7,7 @@ use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
-    BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, shown_by_tool,
+    BASE, Effect, Kind, List, MOST_PARAMETERS, Need, Sets, Site, SiteKey, shown_by_tool,
 };
 use crate::model::{JOINTS, Slot};
 
@@ -145,61 +145,41 @@ type Variant = (Vec<usize>, Option<(usize, f64)>);
 
 /// Which parameters are sought together, and the values of those that are chosen from a list.
 fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
-    let all: Vec<usize> = (0..kind.definition().parameters.len()).collect();
-    let plain = |list: &[&[usize]]| list.iter().map(|sought| (sought.to_vec(), None)).collect();
-    match kind {
-        Kind::LinkGeometry => {
+    let definition = kind.definition();
+    let all = 0..definition.parameters.len();
+    match definition.search.sets {
+        Sets::All => vec![(all.collect(), None)],
+        Sets::Of(sets) => sets.iter().map(|set| (set.to_vec(), None)).collect(),
+        Sets::Minimal => {
             let own = &tried.geometry[site.index];
             let each = own.iter().map(|n| (vec![*n], None));
             let together = (own.len() > 2).then(|| (own.clone(), None));
             each.chain(together).collect()
         }
-        Kind::BaseFrame | Kind::FrameShift | Kind::ToolFrame => {
-            plain(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]])
-        }
-        Kind::LinkCompliance
-        | Kind::BaseCompliance
-        | Kind::ToolCompliance
-        | Kind::TrackDirection => plain(&[&[0], &[1], &[0, 1]]),
-        Kind::PayloadError => plain(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
-        Kind::ThermalGrowth => tried
-            .references
-            .iter()
-            .map(|t| (vec![0], Some((1, *t))))
-            .collect(),
-        Kind::ComplianceKnee => tried.knees[site.index]
-            .iter()
-            .map(|t| (vec![1], Some((0, *t))))
-            .collect(),
-        Kind::WarmUpDrift | Kind::SessionDrift => {
-            let sought: &[usize] = if site.index == BASE { &[1, 2, 3] } else { &[0] };
-            let constants = match kind {
-                Kind::WarmUpDrift => &tried.constants,
-                _ => &tried.row_constants,
+        Sets::At(number, list) => {
+            let here = Effect {
+                kind,
+                site: site.clone(),
+                parameters: [0.0; MOST_PARAMETERS],
             };
-            constants
-                .iter()
-                .map(|t| (sought.to_vec(), Some((4, *t))))
-                .collect()
+            let others = all.filter(|n| *n != number && here.has(definition.parameters[*n].key));
+            let others: Vec<usize> = others.collect();
+            let values = match list {
+                List::Temperatures => &tried.references,
+                List::Torques => &tried.knees[site.index],
+                List::Times => &tried.constants,
+                List::Rows => &tried.row_constants,
+            };
+            let with = |value: &f64| (others.clone(), Some((number, *value)));
+            values.iter().map(with).collect()
         }
-        _ => vec![(all, None)],
     }
 }
 
 /// The smallest value of a parameter that is physical, SI.
 pub(super) fn least(kind: Kind, parameter: usize) -> Option<f64> {
-    match (kind, parameter) {
-        (
-            Kind::JointCompliance
-            | Kind::LinkCompliance
-            | Kind::BaseCompliance
-            | Kind::ToolCompliance,
-            _,
-        )
-        | (Kind::ComplianceKnee, 1)
-        | (Kind::ThermalGrowth, 0) => Some(0.0),
-        _ => None,
-    }
+    let search = &kind.definition().search;
+    search.never_negative.contains(&parameter).then_some(0.0)
 }
 
 /// Values that are chosen from lists.
@@ -462,8 +442,9 @@ impl Candidates {
                             wanted[at].1.push(*number);
                         }
                     }
-                    let listed = value.is_some() && kind != Kind::ThermalGrowth;
-                    groups.push((at, sought, usize::from(listed)));
+                    let listed = kind.definition().listed();
+                    let is_choice = listed.is_some_and(|(_, list)| list.is_a_choice());
+                    groups.push((at, sought, usize::from(is_choice)));
                 }
                 places += usize::from(any);
             }

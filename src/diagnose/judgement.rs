@@ -374,7 +374,7 @@ struct Series {
 /// slow ones, without two whole periods in its range, where a harmonic is among them; or more of
 /// them and of waves than an eccentric gear has.
 fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
-    let is_wave = |i: &usize| found[*i].effect.kind == Kind::JointHarmonic;
+    let is_wave = |i: &usize| found[*i].effect.definition().is_wave();
     let is_slow = |i: &usize| !is_wave(i) || periods(attempt, &found[*i]) < FEW_PERIODS;
     let is_low = |i: &usize| !is_wave(i) || found[*i].effect.site.periods() < TEETH;
     (0..JOINTS).find_map(|joint| {
@@ -397,9 +397,6 @@ fn is_of_angle(joint: usize, found: &Found) -> bool {
     if effect.site.index != joint || found.accepted {
         return false;
     }
-    match effect.kind {
-        Kind::JointScale | Kind::JointHarmonic => true,
-        Kind::LinkGeometry => found.sought.contains(&THETA),
-        _ => false,
-    }
+    effect.definition().of_joint_angle()
+        || effect.kind == Kind::LinkGeometry && found.sought.contains(&THETA)
 }

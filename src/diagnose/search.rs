@@ -24,37 +24,6 @@ const SAME_ROW: u32 = 3;
 /// Odds of an effect that every arm has in some measure against one that only some have.
 const ODDS: f64 = 5.0;
 
-/// Effects that only some arms have: a structure that bends, a gear with two stiffnesses, a load
-/// that is not what was stated, axes that take each other along. Frames, geometry, the gears'
-/// ratio, stiffness, backlash and waves are in every arm, and what needs a column of its own (time,
-/// temperature, order) is distinguished from them by that.
-const fn rare(kind: Kind) -> bool {
-    matches!(
-        kind,
-        Kind::LinkCompliance
-            | Kind::BaseCompliance
-            | Kind::ComplianceKnee
-            | Kind::PayloadError
-            | Kind::JointCoupling
-            | Kind::FrictionBacklash
-            | Kind::ToolCompliance
-            | Kind::Settling
-            | Kind::MeasurementScale
-    )
-}
-
-/// Kinds of one cause: a gear that gives way, a structure that bends, something that moved; each
-/// other kind is its own.
-const fn cause(kind: Kind) -> Kind {
-    match kind {
-        Kind::ComplianceKnee => Kind::JointCompliance,
-        Kind::BaseCompliance | Kind::ToolCompliance => Kind::LinkCompliance,
-        Kind::FrictionBacklash => Kind::Backlash,
-        Kind::ToolSlip | Kind::SessionDrift => Kind::FrameShift,
-        other => other,
-    }
-}
-
 /// Everything that the search looks at.
 #[derive(Clone, Debug)]
 pub struct World<'a> {
@@ -141,10 +110,7 @@ fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 
 /// Sought twice: the same place and a parameter in common.
 pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
-    let listed = matches!(
-        a.effect.kind,
-        Kind::ComplianceKnee | Kind::WarmUpDrift | Kind::SessionDrift | Kind::ThermalGrowth
-    );
+    let listed = a.effect.definition().listed().is_some();
     same(a, row, b) && (listed || row.is_some() || a.sought.iter().any(|n| b.sought.contains(n)))
 }
 
@@ -157,7 +123,7 @@ impl World<'_> {
         parameters * self.ln_numbers
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()
-            + if rare(candidate.effect.kind) {
+            + if candidate.effect.definition().search.rare {
                 2.0 * ODDS.ln()
             } else {
                 0.0
@@ -416,14 +382,19 @@ impl World<'_> {
             let Some(best) = best.filter(|best| best.merit() > 0.0) else {
                 break;
             };
-            // the springs of a robot come as a set: a load bends all joints at once
-            let mut springs = view.all_of(self, &chosen, Kind::JointCompliance);
-            springs.retain(|s| self.allowed(s));
-            let together: f64 = springs.iter().map(Scored::merit).sum();
-            if springs.len() > 1 && together > best.merit() {
-                chosen.extend(springs.iter().map(|s| self.chosen(s)));
-            } else {
-                chosen.push(self.chosen(&best));
+            let merit = |set: &[Scored]| set.iter().map(Scored::merit).sum::<f64>();
+            let set = of_arm()
+                .filter(|kind| kind.definition().search.as_a_set)
+                .map(|kind| {
+                    let mut all = view.all_of(self, &chosen, kind);
+                    all.retain(|s| self.allowed(s));
+                    all
+                })
+                .filter(|set| set.len() > 1 && merit(set) > best.merit())
+                .max_by(|a, b| merit(a).total_cmp(&merit(b)));
+            match set {
+                Some(set) => chosen.extend(set.iter().map(|s| self.chosen(s))),
+                None => chosen.push(self.chosen(&best)),
             }
         }
         chosen
@@ -446,7 +417,10 @@ impl World<'_> {
                 fit.gain(&group, &vec![None; group.len()])
                     .map_or(0.0, |gain| gain.gain)
             };
-            let of = |c: &Chosen| cause(c.candidate.effect.kind);
+            let of = |c: &Chosen| {
+                let kind = c.candidate.effect.kind;
+                kind.definition().search.cause.unwrap_or(kind)
+            };
             let last = ordered.last().map(of);
             let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
             // what is lost without it: causes that imitate each other share what either explains

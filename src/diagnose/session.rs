@@ -93,17 +93,12 @@ fn selection(profile: &Profile) -> Selection {
     selection.fix = Pick::track();
     let own = profile.effects.iter().filter(|e| {
         let is_of_arm = !e.definition().of_external_axis();
-        is_of_arm
-            && !matches!(
-                e.kind,
-                Kind::BaseFrame
-                    | Kind::ToolFrame
-                    | Kind::LinkGeometry
-                    | Kind::ThermalGrowth
-                    | Kind::WarmUpDrift
-                    | Kind::ComplianceKnee
-                    | Kind::PayloadError
-            )
+        // of frames and geometry the level says what is fitted
+        let is_of_level = matches!(
+            e.kind,
+            Kind::BaseFrame | Kind::ToolFrame | Kind::LinkGeometry
+        );
+        is_of_arm && !is_of_level && !e.definition().search.held
     });
     selection.identify = own.map(Pick::of).collect();
     selection
@@ -393,10 +388,9 @@ impl Session {
         (self.candidates).add_waves(&self.problem, &self.estimate, peaks);
         for found in chosen {
             let effect = &found.candidate.effect;
-            let number = match effect.kind {
-                Kind::ComplianceKnee => 0,
-                Kind::WarmUpDrift | Kind::SessionDrift => 4,
-                _ => continue,
+            let listed = effect.definition().listed();
+            let Some((number, _)) = listed.filter(|(_, list)| list.is_a_choice()) else {
+                continue;
             };
             let at = effect.parameters[number];
             let near: Vec<f64> = self

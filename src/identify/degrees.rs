@@ -10,7 +10,6 @@ use super::calibration::{Calibration, Options, identify};
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Selection};
 use super::pick::Pick;
-use crate::model::effects::Kind;
 use crate::model::profile::Profile;
 use rayon::prelude::*;
 
@@ -68,10 +67,7 @@ pub(super) fn of_rail(
 
 /// Whether a rail is sought without a word about its degrees.
 fn is_open(profile: &Profile, selection: &Selection) -> bool {
-    let is_power = |pick: &&Pick| {
-        let kinds = [Kind::TrackStraightness, Kind::TrackRotation];
-        pick.kind.is_some_and(|kind| kinds.contains(&kind))
-    };
+    let is_power = |pick: &&Pick| pick.kind.is_some_and(|kind| kind.definition().is_power());
     let is_sought = matches!(selection.level, Level::Geometry | Level::Compliance);
     let named: Vec<&Pick> = selection.identify.iter().filter(is_power).collect();
     !profile.external.track.is_empty()

@@ -2,7 +2,7 @@
 //! apart.
 
 use super::pick::Pick;
-use crate::model::effects::{BASE, Effect, Kind, MOST_PARAMETERS, Site, SiteKey, Unit};
+use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site, Unit};
 use crate::model::profile::Profile;
 use crate::model::{JOINTS, Slot};
 
@@ -65,17 +65,6 @@ impl Parameter {
             format!("{x:.5}")
         }
     }
-}
-
-/// Whether a number of an effect means something at its place: a joint drifts by an angle, the base
-/// by lengths.
-fn means_something(effect: &Effect, key: &str) -> bool {
-    !effect.definition().site.contains(&SiteKey::JointOrBase)
-        || match key {
-            "angle_deg" => effect.site.index != BASE,
-            "x_mm" | "y_mm" | "z_mm" => effect.site.index == BASE,
-            _ => true,
-        }
 }
 
 /// How much of the arm is identified.
@@ -198,7 +187,7 @@ fn rank(profile: &Profile, effect: &Effect, key: &str) -> u32 {
         },
         Kind::PositionerPlate => 1,
         Kind::PositionerAxis => 2,
-        Kind::PositionerScale | Kind::PositionerZero => 3,
+        _ if effect.definition().of_positioner() && !effect.definition().has_periods() => 3,
         _ => 7,
     }
 }
@@ -340,9 +329,7 @@ pub(super) fn choose(
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
-            wanted.add(&effect, &|key| {
-                pick.holds(&effect, key) && means_something(&effect, key)
-            });
+            wanted.add(&effect, &|key| pick.holds(&effect, key) && effect.has(key));
         }
     }
     let features = seen.features.clone();

@@ -10,7 +10,7 @@ use super::parameters::{Parameter, Seen, Selection, Subject, choose};
 use super::pick::Pick;
 use super::plates::PlateRows;
 use crate::geometry::{Pose, Vector};
-use crate::model::effects::{Effect, Kind, Need};
+use crate::model::effects::{Effect, List, Need};
 use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile, is_of_profile};
 use crate::model::{Conditions, Geometry, Mechanism, Sensitivity, Slot};
@@ -441,7 +441,10 @@ impl Problem {
             };
             let effect = &effects[slot.effect];
             let definition = effect.definition();
-            if effect.kind == Kind::ComplianceKnee && effect.parameters[0] == 0.0 {
+            let listed = definition
+                .listed()
+                .filter(|(_, list)| *list == List::Torques);
+            if listed.is_some_and(|(number, _)| effect.parameters[number] == 0.0) {
                 return Err(IdentifyError::Missing {
                     id: definition.id,
                     need: "a torque_n_m in the profile to begin with (`poseshift diagnose` \

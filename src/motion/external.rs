@@ -11,7 +11,7 @@
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Vector};
-use crate::model::effects::{Effect, Kind};
+use crate::model::effects::Effect;
 use crate::model::external::{At, ExternalAxes, Follows, Listed};
 use crate::model::profile::Profile;
 use crate::program::{
@@ -246,7 +246,7 @@ fn followed(
 /// Whether an axis, or any, stands elsewhere when it comes from the other side.
 fn has_backlash(effects: &[Effect], axis: Option<usize>) -> bool {
     effects.iter().any(|effect| {
-        effect.kind == Kind::TrackBacklash
+        effect.definition().needs_external_directions()
             && !effect.is_zero()
             && axis.is_none_or(|axis| axis == effect.site.index)
     })
@@ -277,8 +277,7 @@ fn measured(profile: &Profile) -> Vec<Option<[f64; 2]>> {
     let of = |k: usize| {
         let mut powers = profile.effects.iter();
         let is_bent = powers.any(|effect| {
-            let kinds = [Kind::TrackStraightness, Kind::TrackRotation];
-            kinds.contains(&effect.kind) && effect.site.index == k && !effect.is_zero()
+            effect.definition().is_power() && effect.site.index == k && !effect.is_zero()
         });
         let span = profile.quality.as_ref()?.get("track_mm")?.get(k)?;
         let span = [span.get(0)?.as_f64()?, span.get(1)?.as_f64()?];

@@ -42,7 +42,6 @@ pub mod programs;
 pub mod reading;
 pub mod register;
 mod schema;
-mod sentences;
 pub mod simulate;
 mod table;
 pub mod validate;

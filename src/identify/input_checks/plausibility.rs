@@ -9,7 +9,8 @@ use crate::identify::measurements::{Measurements, Observed};
 use crate::identify::parameters::{FIRST_PHYSICAL, Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, quantile};
-use crate::model::effects::Kind;
+use crate::model::Slot;
+use crate::model::effects::Unit;
 use std::collections::BTreeSet;
 
 /// A fit that misses by more is not of this robot, metres.
@@ -254,20 +255,14 @@ pub(crate) fn check_values(
             NOT_OF_THIS_ROBOT,
         ));
     }
+    // a spring: what gives way by a torque, against it
+    let springs = |slot: Slot| {
+        let definition = estimate.effects[slot.effect].definition();
+        definition.search.never_negative.contains(&slot.parameter)
+            && definition.parameters[slot.parameter].unit == Unit::RadPerNm
+    };
     let negative = physical.clone().find(|(p, sigma)| {
-        let kind = match p.subject {
-            Subject::Effect(slot) => Some(estimate.effects[slot.effect].kind),
-            _ => None,
-        };
-        matches!(
-            kind,
-            Some(
-                Kind::JointCompliance
-                    | Kind::LinkCompliance
-                    | Kind::BaseCompliance
-                    | Kind::ToolCompliance
-            )
-        ) && value(p) < -SURELY * **sigma
+        matches!(p.subject, Subject::Effect(slot) if springs(slot)) && value(p) < -SURELY * **sigma
     });
     if let Some((p, sigma)) = negative {
         let message = format!(

@@ -194,11 +194,8 @@ impl PlateRows {
         }
         let wave = || self.stood[axis].0 as f64 >= 2.0 * effect.site.periods() + 2.0;
         pick.is_of_one()
-            || match effect.kind {
-                Kind::PositionerRunout | Kind::PositionerRipple => self.has_rotated(axis) && wave(),
-                Kind::PositionerAxis | Kind::PositionerScale => self.has_rotated(axis),
-                _ => true,
-            }
+            || matches!(effect.kind, Kind::PositionerPlate | Kind::PositionerZero)
+            || self.has_rotated(axis) && (!effect.definition().has_periods() || wave())
     }
 
     /// The effects and parameters that are sought:

@@ -1,8 +1,10 @@
 //! Backlash between gears.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// a joint stands half the width before or after its command, by the direction in which it last moved (negative width: it lags).
 pub(super) struct Backlash;
@@ -20,6 +22,8 @@ impl Equation for Backlash {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Direction,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
@@ -27,5 +31,13 @@ impl Equation for Backlash {
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let half = S::constant(0.5 * state.conditions.direction[site.index]);
         deflection.joints[site.index] += half * p[0];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        if effect.parameters[0] < 0.0 {
+            format!("{} loses {}° when it reverses", joint(effect), deg(-effect.parameters[0]))
+        } else {
+            format!("{} runs {}° ahead when it reverses", joint(effect), deg(effect.parameters[0]))
+        }
     }
 }

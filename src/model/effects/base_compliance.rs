@@ -1,8 +1,10 @@
 //! Tilting of the pedestal.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Rotation, Scalar, add, cross, sub};
+use super::search::{Search, Sets, Shown};
+use super::words::{deg, length};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Rotation, Scalar, Vector, add, cross, sub};
 
 /// The base rotates about x and y of its frame in proportion to the moment of the arm about its origin.
 pub(super) struct BaseCompliance;
@@ -23,6 +25,14 @@ impl Equation for BaseCompliance {
         deflects: true,
         bends: true,
         of_data: false,
+        shown_against: Shown::Torque(Some(1)),
+        search: Search {
+            rare: true,
+            cause: Some(Kind::LinkCompliance),
+            never_negative: &[0, 1],
+            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -42,5 +52,9 @@ impl Equation for BaseCompliance {
             deflection.world[k] += shift[k];
             deflection.world[3 + k] += turn[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("The pedestal tilts: {}° under 100 N m", deg(100.0 * length(&effect.parameters[..2])))
     }
 }

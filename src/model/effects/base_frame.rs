@@ -1,8 +1,10 @@
 //! Where the base really stands.
 
 use super::definition::{Definition, frame_parameters};
-use super::{Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Pose, Scalar};
+use super::search::{FRAME, Search, Shown};
+use super::words::{deg, length, mm};
+use super::{Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Pose, Scalar, Vector};
 use crate::model::{Conditions, Geometry};
 
 /// `world_from_base · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the base's own frame.
@@ -21,9 +23,22 @@ impl Equation for BaseFrame {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search {
+            sets: FRAME,
+            ..Search::PLAIN
+        },
     };
 
     fn change_geometry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
         geometry.world_from_base = geometry.world_from_base * Pose::from_xyz_rxryrz(*p);
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The base stands {} mm from where the profile has it and rotated by {}°",
+            mm(length(&effect.parameters[..3])),
+            deg(length(&effect.parameters[3..]))
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! A gearbox that is softer near zero load.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{List, Search, Sets, Shown};
+use super::words::{deg, digits, joint};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A joint that is more compliant while its torque is below the knee: beyond it the additional deflection stays.
 pub(super) struct ComplianceKnee;
@@ -25,6 +27,15 @@ impl Equation for ComplianceKnee {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Torque(None),
+        search: Search {
+            rare: true,
+            cause: Some(Kind::JointCompliance),
+            held: true,
+            never_negative: &[1],
+            sets: Sets::At(0, List::Torques),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -32,5 +43,14 @@ impl Equation for ComplianceKnee {
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let knee = p[0].abs();
         deflection.joints[site.index] += p[1] * state.torques[site.index].min(knee).max(-knee);
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} is soft near zero load: {}° more up to {} N m",
+            joint(effect),
+            deg(effect.parameters[0] * effect.parameters[1]),
+            digits(effect.parameters[0])
+        )
     }
 }

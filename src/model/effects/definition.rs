@@ -1,5 +1,6 @@
 //! What the registry knows of an effect besides its equation.
 
+use super::search::{List, Search, Sets, Shown};
 use crate::geometry::units;
 use serde_json::{Value, json};
 
@@ -30,6 +31,10 @@ pub struct Definition {
     /// It is an effect of the data, not of the robot: it repairs the analysis of measurements and
     /// never enters a profile.
     pub of_data: bool,
+    /// What the residual without it is drawn against.
+    pub shown_against: Shown,
+    /// How a diagnosis seeks it.
+    pub search: Search,
 }
 
 impl Definition {
@@ -49,6 +54,53 @@ impl Definition {
     #[must_use]
     pub fn of_positioner(&self) -> bool {
         self.of_external_axis() && self.id.starts_with("positioner_")
+    }
+
+    /// Whether it belongs to a joint, or to each of them.
+    #[must_use]
+    pub fn of_joint(&self) -> bool {
+        self.site.contains(&SiteKey::Joint)
+    }
+
+    /// Whether it is a function of its joint's angle alone.
+    #[must_use]
+    pub fn of_joint_angle(&self) -> bool {
+        self.of_joint() && self.shown_against == Shown::Angle
+    }
+
+    /// Whether it repeats with its joint's angle.
+    #[must_use]
+    pub fn is_wave(&self) -> bool {
+        self.of_joint() && self.has_periods()
+    }
+
+    /// Whether it has a number of periods in one revolution.
+    #[must_use]
+    pub fn has_periods(&self) -> bool {
+        self.site.contains(&SiteKey::Order)
+    }
+
+    /// Whether it is a power of the place of its axis, which grows beyond what was measured.
+    #[must_use]
+    pub fn is_power(&self) -> bool {
+        self.site
+            .iter()
+            .any(|key| matches!(key, SiteKey::Degree(..)))
+    }
+
+    /// Whether it depends on the side its external axis comes from.
+    #[must_use]
+    pub fn needs_external_directions(&self) -> bool {
+        self.needs.contains(&Need::ExternalDirections)
+    }
+
+    /// The parameter whose value is chosen from a list, and the list.
+    #[must_use]
+    pub fn listed(&self) -> Option<(usize, List)> {
+        match self.search.sets {
+            Sets::At(number, list) => Some((number, list)),
+            _ => None,
+        }
     }
 
     /// Whether torques or moments enter.

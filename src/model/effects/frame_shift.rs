@@ -1,8 +1,10 @@
 //! A step of the measuring device or the base during the session.
 
 use super::definition::{Definition, Need, SiteKey, frame_parameters};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{FRAME, Search, Shown};
+use super::words::mm;
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Pose, Scalar, Vector, norm, sub};
 
 /// From one row of the measurements on, everything is seen moved in the world. An effect of the data, not of the robot.
 pub(super) struct FrameShift;
@@ -20,6 +22,11 @@ impl Equation for FrameShift {
         deflects: true,
         bends: true,
         of_data: true,
+        shown_against: Shown::Time,
+        search: Search {
+            sets: FRAME,
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -30,5 +37,15 @@ impl Equation for FrameShift {
                 deflection.world[k] += p[k];
             }
         }
+    }
+
+    fn sentence(effect: &Effect, base_m: Vector) -> String {
+        // a rotation about the device far away moves it by the lever
+        let moved = Pose::from_xyz_rxryrz(effect.parameters).transform(base_m);
+        format!(
+            "The measuring device or the base moved before row {} by {} mm where the robot stands",
+            effect.site.order,
+            mm(norm(sub(moved, base_m)))
+        )
     }
 }

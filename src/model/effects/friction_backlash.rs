@@ -1,8 +1,10 @@
 //! Lost motion that grows with the load.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A joint stands before or after its command by the direction in which it last moved, the more the higher its torque.
 pub(super) struct FrictionBacklash;
@@ -21,6 +23,12 @@ impl Equation for FrictionBacklash {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Torque(None),
+        search: Search {
+            rare: true,
+            cause: Some(Kind::Backlash),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -28,5 +36,14 @@ impl Equation for FrictionBacklash {
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let direction = S::constant(state.conditions.direction[site.index]);
         deflection.joints[site.index] += p[0] * state.torques[site.index].abs() * direction;
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} {} {}° under 100 N m by the side it comes from",
+            joint(effect),
+            if effect.parameters[0] < 0.0 { "is held back" } else { "runs ahead" },
+            deg(100.0 * effect.parameters[0].abs())
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! A gearbox that is not stiff.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// a gearbox twists under the torque of gravity and external force.
 pub(super) struct JointCompliance;
@@ -19,11 +21,21 @@ impl Equation for JointCompliance {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Torque(None),
+        search: Search {
+            as_a_set: true,
+            never_negative: &[0],
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         deflection.joints[site.index] += p[0] * state.torques[site.index];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} yields by {}° under 100 N m", joint(effect), deg(100.0 * effect.parameters[0]))
     }
 }

@@ -1,8 +1,11 @@
 //! A joint that another one rotates along.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::units::DEG;
+use crate::geometry::{Scalar, Vector};
 
 /// motion of one joint leaks into another.
 pub(super) struct JointCoupling;
@@ -19,10 +22,24 @@ impl Equation for JointCoupling {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::OtherAngle,
+        search: Search {
+            rare: true,
+            ..Search::PLAIN
+        },
     };
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         deflection.joints[site.index] += p[0] * state.commanded[site.on];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} is taken along by J{}: {}° in 90°",
+            joint(effect),
+            effect.site.on + 1,
+            deg(effect.parameters[0] * 90.0 * DEG)
+        )
     }
 }

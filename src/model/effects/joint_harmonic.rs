@@ -1,8 +1,10 @@
 //! A joint whose error repeats with its angle.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint, length};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// an eccentric gear or encoder adds a wave of so many periods in one revolution.
 pub(super) struct JointHarmonic;
@@ -21,11 +23,22 @@ impl Equation for JointHarmonic {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Angle,
+        search: Search::PLAIN,
     };
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let (sine, cosine) = (S::constant(site.periods()) * state.commanded[site.index]).sin_cos();
         deflection.joints[site.index] += p[0] * cosine + p[1] * sine;
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} runs fast and slow by {}°, {} times a revolution (eccentric gear or encoder)",
+            joint(effect),
+            deg(length(&effect.parameters[..2])),
+            effect.site.periods()
+        )
     }
 }

@@ -1,8 +1,11 @@
 //! A joint that turns in proportion to its command, but not one to one.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{deg, joint};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::units::DEG;
+use crate::geometry::{Scalar, Vector};
 
 /// a joint rotates more or less than commanded, in proportion.
 pub(super) struct JointScale;
@@ -19,10 +22,16 @@ impl Equation for JointScale {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Angle,
+        search: Search::PLAIN,
     };
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         deflection.joints[site.index] += p[0] * state.commanded[site.index];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} rotates {}° too far in 90°", joint(effect), deg(effect.parameters[0] * 90.0 * DEG))
     }
 }

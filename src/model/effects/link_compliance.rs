@@ -1,8 +1,10 @@
 //! Bending of a link.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Sets, Shown};
+use super::words::{deg, length};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A link, and everything behind it, rotates about x and y of its frame in proportion to the moment it carries.
 pub(super) struct LinkCompliance;
@@ -25,6 +27,13 @@ impl Equation for LinkCompliance {
         deflects: true,
         bends: true,
         of_data: false,
+        shown_against: Shown::Torque(None),
+        search: Search {
+            rare: true,
+            never_negative: &[0, 1],
+            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -34,5 +43,9 @@ impl Equation for LinkCompliance {
         let moment = frames.links[site.index].rotation.transpose() * frames.moments[site.index];
         deflection.links[site.index][0] += p[0] * moment[0];
         deflection.links[site.index][1] += p[1] * moment[1];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("Link {} bends: {}° under 100 N m", effect.site.index + 1, deg(100.0 * length(&effect.parameters[..2])))
     }
 }

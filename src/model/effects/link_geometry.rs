@@ -1,8 +1,9 @@
 //! Manufacturing and assembly errors of one link.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Sets, Shown};
+use super::{Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 use crate::model::{Conditions, Geometry};
 
 /// Deviations of one row of the chain; θ is the joint's zero offset in the sense of the chain.
@@ -29,6 +30,11 @@ impl Equation for LinkGeometry {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Angle,
+        search: Search {
+            sets: Sets::Minimal,
+            ..Search::PLAIN
+        },
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
@@ -38,5 +44,9 @@ impl Equation for LinkGeometry {
         link.beta_rad += p[2];
         link.theta_rad += p[3];
         link.d_m += p[4];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("Link {} differs from the profile", effect.site.index + 1)
     }
 }

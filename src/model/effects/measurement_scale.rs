@@ -1,8 +1,10 @@
 //! A measuring device whose lengths are too long or too short.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::digits;
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// The device sees everything farther away from its origin than it is. An effect of the data, not of the robot.
 pub(super) struct MeasurementScale;
@@ -21,6 +23,11 @@ impl Equation for MeasurementScale {
         deflects: true,
         bends: true,
         of_data: true,
+        shown_against: Shown::Order,
+        search: Search {
+            rare: true,
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -30,5 +37,13 @@ impl Equation for MeasurementScale {
         for k in 0..3 {
             deflection.world[k] += p[0] * frames.tool.translation[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The measuring device's lengths are {} ppm too {}",
+            digits(1e6 * effect.parameters[0].abs()),
+            if effect.parameters[0] < 0.0 { "short" } else { "long" }
+        )
     }
 }

@@ -1,20 +1,24 @@
 //! The registry of effects: each physical cause of error is one file that states its equation once.
 //!
 //! An effect's file has a type that implements `Equation`: its [`Definition`] (name, equation,
-//! source, parameters with units and priors, what it needs) and one or both of its two functions.
-//! Profile keys, JSON Schema, help, identification, diagnosis and the law tests follow from the
-//! list in [`registry!`](self); nothing else names an effect.
+//! source, parameters with units and priors, what it needs, how a diagnosis seeks it and what it is
+//! drawn against), its sentence, and its functions. Profile keys, JSON Schema, help, identification,
+//! diagnosis, pages and the law tests follow from the list in [`registry!`](self); elsewhere only
+//! places and lengths are named (frames, geometry, what a level of `calibrate` holds).
 //!
 //! To add one: write the file, add its line to the list.
 
 mod definition;
 mod entry;
+mod search;
+mod words;
 
 #[cfg(test)]
 mod laws;
 
 pub use definition::{Definition, MOST_EXTERNAL_AXES, Need, Parameter, SiteKey, Unit};
 pub use entry::{EntryError, entry_schema};
+pub use search::{List, Search, Sets, Shown};
 
 use super::chain::Frames;
 use super::conditions::Conditions;
@@ -67,6 +71,10 @@ trait Equation {
     ) {
         let _ = (site, p, at, error);
     }
+
+    /// The effect in one sentence that a person understands; the robot stands at `base_m` in the
+    /// world.
+    fn sentence(effect: &Effect, base_m: Vector) -> String;
 }
 
 /// Where an external axis stands.
@@ -140,6 +148,15 @@ macro_rules! registry {
             #[must_use]
             pub const fn definition(self) -> &'static Definition {
                 match self { $(Kind::$name => const { &$file::$name::DEFINITION },)+ }
+            }
+        }
+
+        impl Effect {
+            /// The effect in one sentence that a person understands; the robot stands at `base_m` in the world.
+            #[must_use]
+            pub fn sentence(&self, base_m: Vector) -> String {
+                let text = match self.kind { $(Kind::$name => $file::$name::sentence(self, base_m),)+ };
+                format!("{text} ({}).", self.definition().id)
             }
         }
 
@@ -301,6 +318,18 @@ impl Effect {
             site: self.site.clone(),
             parameters: self.parameters.map(S::constant),
         }
+    }
+
+    /// Whether the parameter of this key means something at its place: a joint drifts by an angle,
+    /// the base by lengths.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        !self.definition().site.contains(&SiteKey::JointOrBase)
+            || match key {
+                "angle_deg" => self.site.index != BASE,
+                "x_mm" | "y_mm" | "z_mm" => self.site.index == BASE,
+                _ => true,
+            }
     }
 
     /// Whether every parameter is zero, so that it does nothing.

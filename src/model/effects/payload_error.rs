@@ -1,8 +1,10 @@
 //! The load on the flange is not the one in the profile.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, add};
+use super::search::{Search, Sets, Shown};
+use super::words::{digits, length, mm};
+use super::{Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector, add};
 use crate::model::{Conditions, Geometry};
 
 /// The tool weighs more, or elsewhere: seen only through what bends under it.
@@ -27,6 +29,13 @@ impl Equation for PayloadError {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Torque(Some(1)),
+        search: Search {
+            rare: true,
+            held: true,
+            sets: Sets::Of(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
+            ..Search::PLAIN
+        },
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
@@ -34,5 +43,13 @@ impl Equation for PayloadError {
             let (mass, cog) = geometry.load.unwrap_or((S::zero(), [S::zero(); 3]));
             geometry.load = Some((mass + p[0], add(cog, [p[1], p[2], p[3]])));
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The load on the flange is {} kg heavier than the profile says, its centre of gravity {} mm elsewhere",
+            digits(effect.parameters[0]),
+            mm(length(&effect.parameters[1..4]))
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! Where a rotary axis of a positioner really is.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg, length, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Along and about the axis itself nothing shows: that is `positioner_zero` and the plate.
 pub(super) struct PositionerAxis;
@@ -25,6 +27,8 @@ impl Equation for PositionerAxis {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
@@ -32,5 +36,14 @@ impl Equation for PositionerAxis {
         for k in 0..4 {
             error.place[k] += p[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} is {} mm and {}° from where the profile has it",
+            axis(effect),
+            mm(length(&effect.parameters[..2])),
+            deg(length(&effect.parameters[2..4]))
+        )
     }
 }

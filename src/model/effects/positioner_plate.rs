@@ -1,8 +1,10 @@
 //! How the plate sits on its axis.
 
 use super::definition::{Definition, SiteKey, frame_parameters};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg, length, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// `axis` is the positioner’s last one. Eccentricity is x and y.
 pub(super) struct PositionerPlate;
@@ -20,6 +22,8 @@ impl Equation for PositionerPlate {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
@@ -27,5 +31,14 @@ impl Equation for PositionerPlate {
         for k in 0..6 {
             error.plate[k] += p[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The plate on {} sits {} mm and {}° from where the profile has it",
+            axis(effect),
+            mm(length(&effect.parameters[..3])),
+            deg(length(&effect.parameters[3..]))
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! What repeats in each rotation of a positioner’s axis.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg, length};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// As `joint_harmonic` of an arm’s joint.
 pub(super) struct PositionerRipple;
@@ -23,11 +25,22 @@ impl Equation for PositionerRipple {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], at: &AxisState<S>, error: &mut AxisError<S>) {
         let (sine, cosine) = (S::constant(site.periods()) * at.moved).sin_cos();
         error.angle += p[0] * cosine + p[1] * sine;
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} runs fast and slow by {}°, {} times a revolution",
+            axis(effect),
+            deg(length(&effect.parameters[..2])),
+            effect.site.periods()
+        )
     }
 }

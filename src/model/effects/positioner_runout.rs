@@ -1,8 +1,10 @@
 //! How a rotary axis wobbles.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, length, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Radial and axial error motion.
 pub(super) struct PositionerRunout;
@@ -24,11 +26,22 @@ impl Equation for PositionerRunout {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], at: &AxisState<S>, error: &mut AxisError<S>) {
         let (sine, cosine) = (S::constant(site.periods()) * at.moved).sin_cos();
         error.offset[site.on] += p[0] * cosine + p[1] * sine;
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} wobbles by {} mm, {} times a revolution",
+            axis(effect),
+            mm(length(&effect.parameters[..2])),
+            effect.site.periods()
+        )
     }
 }

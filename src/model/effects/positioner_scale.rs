@@ -1,8 +1,11 @@
 //! How far a rotary axis goes.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::units::DEG;
+use crate::geometry::{Scalar, Vector};
 
 /// The angle from its zero, times a ratio.
 pub(super) struct PositionerScale;
@@ -22,10 +25,16 @@ impl Equation for PositionerScale {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
         error.scale += p[0];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} rotates {}° too far in 90°", axis(effect), deg(effect.parameters[0] * 90.0 * DEG))
     }
 }

@@ -1,8 +1,10 @@
 //! Where a rotary axis has its zero.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// The same as a rotation of the plate about the last axis: known only where the plate is.
 pub(super) struct PositionerZero;
@@ -22,10 +24,16 @@ impl Equation for PositionerZero {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
         error.angle += p[0];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} has its zero {}° elsewhere", axis(effect), deg(effect.parameters[0]))
     }
 }

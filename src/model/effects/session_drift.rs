@@ -1,8 +1,10 @@
 //! Drift in the course of a session of which nobody wrote down the time.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{List, Search, Sets, Shown};
+use super::words::{deg, joint, length, mm};
+use super::{BASE, Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A joint or the base moves with the row number to its last place, exponentially. An effect of the data.
 pub(super) struct SessionDrift;
@@ -30,6 +32,12 @@ impl Equation for SessionDrift {
         deflects: true,
         bends: true,
         of_data: true,
+        shown_against: Shown::Order,
+        search: Search {
+            cause: Some(Kind::FrameShift),
+            sets: Sets::At(4, List::Rows),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -44,5 +52,15 @@ impl Equation for SessionDrift {
         for k in 0..3 {
             deflection.world[k] += p[1 + k] * gone;
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        let (what, by) = if effect.site.index == BASE {
+            ("The base or the measuring device".to_owned(), mm(length(&effect.parameters[1..4])) + " mm")
+        } else {
+            (joint(effect), deg(effect.parameters[0]) + "°")
+        };
+        let rows = effect.parameters[4];
+        format!("{what} drifts by {by} in the course of the session, most of it in {rows:.0} rows")
     }
 }

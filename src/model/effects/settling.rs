@@ -1,8 +1,10 @@
 //! A joint that is read before it has come to rest.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{digits, joint};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A part of the joint's last move is still missing when it is read.
 pub(super) struct Settling;
@@ -22,6 +24,11 @@ impl Equation for Settling {
         deflects: true,
         bends: false,
         of_data: false,
+        shown_against: Shown::Move,
+        search: Search {
+            rare: true,
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -29,5 +36,14 @@ impl Equation for Settling {
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let moved = S::constant(-state.conditions.moved[site.index]);
         deflection.joints[site.index] += moved * p[0];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "{} is read before it rests: {} % of its last move {}",
+            joint(effect),
+            digits(100.0 * effect.parameters[0].abs()),
+            if effect.parameters[0] < 0.0 { "too far" } else { "is missing" }
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! Lengths that grow with temperature.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, sub};
+use super::search::{List, Search, Sets, Shown};
+use super::words::mm;
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector, sub};
 
 /// All lengths of the arm from the base to the last link grow alike, so that the flange moves away from the base's origin.
 pub(super) struct ThermalGrowth;
@@ -23,6 +25,13 @@ impl Equation for ThermalGrowth {
         deflects: true,
         bends: true,
         of_data: false,
+        shown_against: Shown::Temperature,
+        search: Search {
+            held: true,
+            never_negative: &[0],
+            sets: Sets::At(1, List::Temperatures),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -36,5 +45,9 @@ impl Equation for ThermalGrowth {
         for k in 0..3 {
             deflection.world[k] += part * reach[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("The arm grows with temperature: {} mm a metre in 10 K", mm(10.0 * effect.parameters[0]))
     }
 }

@@ -1,8 +1,10 @@
 //! A tool that bends under its own weight.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, cross, sub};
+use super::search::{Search, Sets, Shown};
+use super::words::{deg, length};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector, cross, sub};
 
 /// The tool rotates about x and y of the flange in proportion to the moment of its own weight there.
 pub(super) struct ToolCompliance;
@@ -23,6 +25,14 @@ impl Equation for ToolCompliance {
         deflects: true,
         bends: true,
         of_data: false,
+        shown_against: Shown::Torque(Some(4)),
+        search: Search {
+            rare: true,
+            cause: Some(Kind::LinkCompliance),
+            never_negative: &[0, 1],
+            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -39,5 +49,9 @@ impl Equation for ToolCompliance {
             deflection.tool[k] += shift[k];
             deflection.tool[3 + k] += turn[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("The tool bends at the flange: {}° under 10 N m", deg(10.0 * length(&effect.parameters[..2])))
     }
 }

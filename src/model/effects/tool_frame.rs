@@ -1,8 +1,10 @@
 //! What the tool really is.
 
 use super::definition::{Definition, SiteKey, frame_parameters};
-use super::{Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Pose, Scalar};
+use super::search::{FRAME, Search, Shown};
+use super::words::{length, mm};
+use super::{Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Pose, Scalar, Vector};
 use crate::model::{Conditions, Geometry};
 
 /// `flange_from_tool · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the tool's own frame.
@@ -21,11 +23,20 @@ impl Equation for ToolFrame {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search {
+            sets: FRAME,
+            ..Search::PLAIN
+        },
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
         if site.tool.as_ref().is_none_or(|tool| *tool == geometry.tool_name) {
             geometry.flange_from_tool = geometry.flange_from_tool * Pose::from_xyz_rxryrz(*p);
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("The tool's tip is {} mm from where the profile has it", mm(length(&effect.parameters[..3])))
     }
 }

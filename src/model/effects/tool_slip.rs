@@ -1,8 +1,10 @@
 //! A step of the tool or the reflector on the flange during the session.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{length, mm};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// From one row of the measurements on, the tool stands elsewhere on the flange. An effect of the data, not of the robot.
 pub(super) struct ToolSlip;
@@ -24,6 +26,11 @@ impl Equation for ToolSlip {
         deflects: true,
         bends: true,
         of_data: true,
+        shown_against: Shown::Time,
+        search: Search {
+            cause: Some(Kind::FrameShift),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -34,5 +41,13 @@ impl Equation for ToolSlip {
                 deflection.tool[k] += p[k];
             }
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The tool or the reflector slipped before row {} by {} mm",
+            effect.site.order,
+            mm(length(&effect.parameters[..3]))
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! From which side a linear axis comes.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Half the width in the direction of the last motion; nothing where that is not known.
 pub(super) struct TrackBacklash;
@@ -22,10 +24,16 @@ impl Equation for TrackBacklash {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], at: &AxisState<S>, error: &mut AxisError<S>) {
         error.offset[0] += p[0] * S::constant(0.5 * at.direction);
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} loses {} mm when it reverses", axis(effect), mm(effect.parameters[0]))
     }
 }

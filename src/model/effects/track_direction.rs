@@ -1,8 +1,10 @@
 //! In which direction a linear axis runs.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Sets, Shown};
+use super::words::{axis, deg, length};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Pitch (about y) and yaw (about z) of the rail.
 pub(super) struct TrackDirection;
@@ -23,6 +25,11 @@ impl Equation for TrackDirection {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search {
+            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -30,5 +37,9 @@ impl Equation for TrackDirection {
         for k in 0..2 {
             error.direction[k] += p[k];
         }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} runs {}° off the direction of the profile", axis(effect), deg(length(&effect.parameters[..2])))
     }
 }

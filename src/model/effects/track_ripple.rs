@@ -1,8 +1,10 @@
 //! What repeats along a rail.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, length, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Zero in the middle of the rail, where `base_frame` stands for the constant part.
 pub(super) struct TrackRipple;
@@ -25,6 +27,8 @@ impl Equation for TrackRipple {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
@@ -32,5 +36,14 @@ impl Equation for TrackRipple {
         let turns = S::constant(std::f64::consts::TAU / site.period_m());
         let (sine, cosine) = (turns * at.moved).sin_cos();
         error.offset[site.on] += p[0] * (cosine - S::one()) + p[1] * sine;
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!(
+            "The error of {} repeats every {} mm, by {} mm",
+            axis(effect),
+            mm(effect.site.period_m()),
+            mm(length(&effect.parameters[..2]))
+        )
     }
 }

@@ -1,8 +1,10 @@
 //! How a carriage rotates along its rail.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site, power};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, deg};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site, power};
+use crate::geometry::{Scalar, Vector};
 
 /// A power of the place on the rail about x (roll), y (pitch) or z (yaw); gravity stays in the world.
 pub(super) struct TrackRotation;
@@ -23,10 +25,16 @@ impl Equation for TrackRotation {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], at: &AxisState<S>, error: &mut AxisError<S>) {
         error.turn[site.on] += p[0] * power(at.part, site.order);
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("The carriage of {} rotates by {}° to its ends", axis(effect), deg(effect.parameters[0]))
     }
 }

@@ -1,8 +1,10 @@
 //! How far a linear axis goes.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use crate::geometry::{Scalar, Vector};
 
 /// Travel counted from the middle of the axis’ limits, times a ratio.
 pub(super) struct TrackScale;
@@ -22,10 +24,16 @@ impl Equation for TrackScale {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
         error.scale += p[0];
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} goes {} mm too far in a metre", axis(effect), mm(effect.parameters[0]))
     }
 }

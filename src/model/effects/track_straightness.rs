@@ -1,8 +1,10 @@
 //! How a rail is bent.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::{AxisError, AxisState, Equation, MOST_PARAMETERS, Site, power};
-use crate::geometry::Scalar;
+use super::search::{Search, Shown};
+use super::words::{axis, mm};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site, power};
+use crate::geometry::{Scalar, Vector};
 
 /// A power of the place on the rail; degree 1 is `track_direction`, degree 0 `base_frame`.
 pub(super) struct TrackStraightness;
@@ -23,10 +25,16 @@ impl Equation for TrackStraightness {
         deflects: false,
         bends: false,
         of_data: false,
+        shown_against: Shown::Order,
+        search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
 
     fn carry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], at: &AxisState<S>, error: &mut AxisError<S>) {
         error.offset[site.on] += p[0] * power(at.part, site.order);
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        format!("{} is bent by {} mm at its ends", axis(effect), mm(effect.parameters[0]))
     }
 }

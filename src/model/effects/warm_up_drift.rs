@@ -1,8 +1,10 @@
 //! Drift while the robot warms up.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::{Deflection, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::Scalar;
+use super::search::{List, Search, Sets, Shown};
+use super::words::{deg, joint, length, mm};
+use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use crate::geometry::{Scalar, Vector};
 
 /// A joint or the base moves to its warm place, exponentially.
 pub(super) struct WarmUpDrift;
@@ -30,6 +32,12 @@ impl Equation for WarmUpDrift {
         deflects: true,
         bends: true,
         of_data: false,
+        shown_against: Shown::Time,
+        search: Search {
+            held: true,
+            sets: Sets::At(4, List::Times),
+            ..Search::PLAIN
+        },
     };
     const READS_ANGLES: bool = false;
 
@@ -43,6 +51,15 @@ impl Equation for WarmUpDrift {
         }
         for k in 0..3 {
             deflection.world[k] += p[1 + k] * warm;
+        }
+    }
+
+    fn sentence(effect: &Effect, _: Vector) -> String {
+        let minutes = effect.parameters[4] / 60.0;
+        if effect.site.index == BASE {
+            format!("The base drifts by {} mm while it warms up, in some {minutes:.0} min", mm(length(&effect.parameters[1..4])))
+        } else {
+            format!("{} drifts by {}° while it warms up, in some {minutes:.0} min", joint(effect), deg(effect.parameters[0]))
         }
     }
 }

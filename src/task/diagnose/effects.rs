@@ -3,7 +3,6 @@
 use crate::diagnose as engine;
 use crate::model::effects::Effect as ModelEffect;
 use crate::task::parts::{SpreadMm, finite};
-use crate::task::sentences::sentence;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -137,7 +136,7 @@ impl From<&engine::Found> for FoundEffect {
                     odds: a.odds,
                 })
                 .collect(),
-            sentence: sentence(&f.effect, f.base_m),
+            sentence: f.effect.sentence(f.base_m),
         }
     }
 }

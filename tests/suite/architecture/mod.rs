@@ -242,3 +242,52 @@ fn every_shipped_profile_is_built_in() {
         .collect();
     assert_eq!(files, built_in);
 }
+
+/// Kinds of effects that say where something is or how long a link is.
+const PLACES: [&str; 8] = [
+    "BaseFrame",
+    "ToolFrame",
+    "LinkGeometry",
+    "FrameShift",
+    "ToolSlip",
+    "PositionerAxis",
+    "PositionerPlate",
+    "PositionerZero",
+];
+/// Kinds that a file names besides, and why.
+const NAMED: [(&str, &str); 3] = [
+    // what the levels `joints` and `compliance` of `calibrate` are
+    ("identify/parameters.rs", "JointScale"),
+    ("identify/parameters.rs", "JointCompliance"),
+    // what sag is
+    ("register/axes/sag.rs", "JointCompliance"),
+];
+
+#[test]
+fn only_its_own_file_names_an_effect() {
+    let registry = crate::support::text("src/model/effects/mod.rs");
+    let list = registry.split("registry! {").nth(1).expect("the list");
+    let list = list.split('}').next().expect("its end");
+    let kinds: Vec<&str> = (list.split(','))
+        .filter_map(|line| line.trim().split_once("::"))
+        .map(|(_, kind)| kind)
+        .collect();
+    assert!(kinds.len() > 30 && PLACES.iter().all(|place| kinds.contains(place)));
+    let mut named = BTreeSet::new();
+    for (file, code) in code_of("") {
+        let file = file.replace('\\', "/");
+        if file.starts_with("model/effects") || file.ends_with("tests.rs") {
+            continue;
+        }
+        for rest in code.split("Kind::").skip(1) {
+            let kind: String = (rest.chars())
+                .take_while(char::is_ascii_alphanumeric)
+                .collect();
+            if kinds.contains(&kind.as_str()) && !PLACES.contains(&kind.as_str()) {
+                named.insert((file.clone(), kind));
+            }
+        }
+    }
+    let known = NAMED.map(|(file, kind)| (file.to_owned(), kind.to_owned()));
+    assert_eq!(named, BTreeSet::from(known));
+}

@@ -10,9 +10,10 @@ use crate::check::Meshes;
 use crate::diagnose::{Found, NoiseSource, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, dot, scale, sub};
-use crate::identify::problem::{Estimate, Problem};
+use crate::identify::problem::{Estimate, Problem, Row};
 use crate::identify::statistics::{Miss, misses};
-use crate::model::effects::Kind as EffectKind;
+use crate::model::JOINTS;
+use crate::model::effects::Shown;
 use crate::report::text::fixed as decimals;
 use crate::task::diagnose::{Diagnosis, FoundEffect};
 use crate::task::drift::Drift;
@@ -185,7 +186,7 @@ struct Variable {
 
 fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
     let rows = &problem.rows;
-    let (kind, site) = (one.effect.kind, &one.effect.site);
+    let site = &one.effect.site;
     let joint = |index: usize| Variable {
         label: format!("joint {}", index + 1),
         unit: "deg",
@@ -193,62 +194,39 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
     };
     let torque = |index: usize| {
         let models = problem.models(estimate, &[]);
-        let of = |row: &crate::identify::problem::Row| {
-            models[row.rig].torques(&row.q, &row.conditions)[index]
-        };
+        let of = |row: &Row| models[row.rig].torques(&row.q, &row.conditions)[index];
         Variable {
             label: format!("torque of joint {}", index + 1),
             unit: "N m",
             values: rows.iter().map(|row| Some(of(row))).collect(),
         }
     };
-    match kind {
-        EffectKind::JointHarmonic | EffectKind::JointScale | EffectKind::LinkGeometry
-            if site.index < 6 =>
-        {
-            joint(site.index)
+    let each = |label: String, unit, of: &dyn Fn(&Row) -> Option<f64>| Variable {
+        label,
+        unit,
+        values: rows.iter().map(of).collect(),
+    };
+    let timed = rows.iter().all(|row| row.conditions.time_s.is_some());
+    let name = site.index + 1;
+    match one.effect.definition().shown_against {
+        Shown::Angle if site.index < JOINTS => joint(site.index),
+        Shown::OtherAngle if site.on < JOINTS => joint(site.on),
+        Shown::Torque(Some(index)) => torque(index),
+        Shown::Torque(None) if site.index < JOINTS => torque(site.index),
+        Shown::Move if site.index < JOINTS => {
+            each(format!("last move of joint {name}"), "deg", &|row| {
+                Some(row.conditions.moved[site.index] / DEG)
+            })
         }
-        EffectKind::JointCoupling if site.on < 6 => joint(site.on),
-        EffectKind::JointCompliance | EffectKind::ComplianceKnee if site.index < 6 => {
-            torque(site.index)
+        Shown::Direction if site.index < JOINTS => {
+            each(format!("direction of joint {name}"), "", &|row| {
+                Some(row.conditions.direction[site.index])
+            })
         }
-        EffectKind::LinkCompliance if site.index < 6 => torque(site.index),
-        EffectKind::BaseCompliance | EffectKind::PayloadError => torque(1),
-        EffectKind::FrictionBacklash if site.index < 6 => torque(site.index),
-        EffectKind::ToolCompliance => torque(4),
-        EffectKind::Settling if site.index < 6 => Variable {
-            label: format!("last move of joint {}", site.index + 1),
-            unit: "deg",
-            values: (rows.iter())
-                .map(|row| Some(row.conditions.moved[site.index] / DEG))
-                .collect(),
-        },
-        EffectKind::Backlash if site.index < 6 => Variable {
-            label: format!("direction of joint {}", site.index + 1),
-            unit: "",
-            values: rows
-                .iter()
-                .map(|row| Some(row.conditions.direction[site.index]))
-                .collect(),
-        },
-        EffectKind::ThermalGrowth => Variable {
-            label: "temperature".into(),
-            unit: "\u{b0}C",
-            values: rows
-                .iter()
-                .map(|row| row.conditions.temperature_c)
-                .collect(),
-        },
-        // a step in the session's order: by the clock where there is one
-        EffectKind::WarmUpDrift | EffectKind::FrameShift | EffectKind::ToolSlip
-            if rows.iter().all(|row| row.conditions.time_s.is_some()) =>
-        {
-            Variable {
-                label: "time".into(),
-                unit: "s",
-                values: rows.iter().map(|row| row.conditions.time_s).collect(),
-            }
-        }
+        Shown::Temperature => each("temperature".into(), "\u{b0}C", &|row| {
+            row.conditions.temperature_c
+        }),
+        Shown::Time if timed => each("time".into(), "s", &|row| row.conditions.time_s),
         _ => Variable {
             label: "row".into(),
             unit: "",
@@ -286,17 +264,8 @@ fn show_effect(page: &mut Page, of: &Diagnosis, number: usize, one: &Found) {
     let after = misses(problem, &found.estimate);
     let against = variable(problem, &found.estimate, one);
     let site = one.effect.site.index;
-    let of_joint = matches!(
-        one.effect.kind,
-        EffectKind::JointHarmonic
-            | EffectKind::JointScale
-            | EffectKind::JointCoupling
-            | EffectKind::JointCompliance
-            | EffectKind::ComplianceKnee
-            | EffectKind::Backlash
-            | EffectKind::FrictionBacklash
-            | EffectKind::Settling
-    ) && site < 6
+    let of_joint = one.effect.definition().of_joint()
+        && site < JOINTS
         && problem
             .rows
             .iter()
@@ -412,8 +381,7 @@ fn show_residuals(page: &mut Page, of: &Diagnosis) {
     let (found, lines) = (&of.found, &of.lines);
     let problem = &found.problem;
     let after = misses(problem, &found.estimate);
-    let line =
-        |row: &crate::identify::problem::Row| lines.get(row.measurement).copied().unwrap_or(0);
+    let line = |row: &Row| lines.get(row.measurement).copied().unwrap_or(0);
     let lengths = |list: &[f64]| -> Vec<Number> {
         list.iter()
             .map(|l| significant(mm_from_m(*l), DIGITS))

@@ -1,0 +1,39 @@
+//! Sizes and places as sentences have them.
+
+use super::Effect;
+use crate::geometry::units::{DEG, mm_from_m};
+
+/// Three decimals, or two digits where these say nothing.
+pub(super) fn digits(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (0.01..1000.0).contains(&size) {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// Radians, in degrees.
+pub(super) fn deg(value_rad: f64) -> String {
+    digits(value_rad / DEG)
+}
+
+/// Metres, in millimetres.
+pub(super) fn mm(value_m: f64) -> String {
+    digits(mm_from_m(value_m))
+}
+
+/// The length of a vector.
+pub(super) fn length(components: &[f64]) -> f64 {
+    components.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The joint an effect belongs to: `J2`.
+pub(super) fn joint(effect: &Effect) -> String {
+    format!("J{}", effect.site.index + 1)
+}
+
+/// The external axis an effect belongs to.
+pub(super) fn axis(effect: &Effect) -> String {
+    format!("external axis {}", effect.site.index + 1)
+}
