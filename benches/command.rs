@@ -20,10 +20,11 @@ fn read_and_write(criterion: &mut Criterion) {
         let language = LANGUAGES.iter().find(|l| l.about().id == *id);
         let language = *language.expect("a language");
         let text = path::program(id, TARGETS, 1).into_bytes();
-        group.throughput(Throughput::Bytes(text.len() as u64));
         let mut sources = vec![Source::new(format!("path.{ending}"), text)];
         let given = path::given(id, TARGETS);
         sources.extend(given.map(|(name, text)| Source::new(name, text.into_bytes())));
+        let bytes: usize = sources.iter().map(|source| source.bytes.len()).sum();
+        group.throughput(Throughput::Bytes(bytes as u64));
         let profile = Profile::from_yaml(&path::profile(id)).expect("a valid profile");
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,

@@ -113,6 +113,7 @@ pub const TABLE: &[Kind] = &[
     row("external-value-unknown", Error, "nothing says where an external axis of the profile stands at a move", "write its value into the target, or into one that is certainly before it", &["compensate", "check"], &[]).never_accepted(),
     row("feature-radius", Warning, "a sphere or hole has another radius than in FROM", "is the probe's radius right?", &["register"], &[]),
     row("few-points", Note, "three points check each other little: the noise comes from three redundant distances", "measure more points", &["register"], &[]),
+    row("frame-as-saved", Warning, "no statement sets the tool or base before the move: it is taken as it was when the controller was saved", "set TOOL and BASE in the program, or compare them with the pendant", &["compensate", "check"], &["kawasaki"]),
     row("frame-assigned-at-run-time", Error, "the running program changes the tool or the frame", "assign it once, with numbers, or declare one for each place", &["compensate", "check"], &["rapid", "krl", "fanuc", "urscript", "inform", "val3", "kawasaki"]).never_accepted(),
     row("frame-chosen-at-run-time", Error, "only the running program knows which tool or frame a move has", "name the tool and the frame in the move", &["compensate", "check"], &[]).was(&["frame-known-at-run-time", "tool-known-at-run-time"]).never_accepted(),
     row("frame-name-ambiguous", Error, "a tool or frame is declared more than once", "pass only the files of one controller, or make the data local", &["compensate", "check"], &["rapid", "krl"]).never_accepted(),

@@ -61,12 +61,7 @@ pub trait Language: Sync {
         sources: &[Source],
     ) -> Result<Result<script::NamedFrame, script::Remark>, ReadError> {
         let _ = (is_tool, parts, sources);
-        Ok(Ok(script::NamedFrame {
-            on: Box::default(),
-            name: name.into(),
-            pose: None,
-            load: None,
-        }))
+        Ok(Ok(script::NamedFrame::still(name, None)))
     }
 
     /// Name of the work frame that targets without one stand in: the world unless the command line

@@ -41,6 +41,7 @@ pub mod script;
 mod source;
 pub mod urscript;
 pub mod val3;
+mod words;
 
 pub use drive::Step;
 pub use edit::Edits;

@@ -1,5 +1,8 @@
 //! Numbers in program text: read, and written again in the style of what stood there.
 
+use super::Number;
+use super::script::short;
+
 /// Digits after the point that a number may get at most: what a 64-bit number holds.
 pub const MOST_DECIMALS: usize = 17;
 /// Decimals of a number whose group has no number in fixed notation: controllers print six digits.
@@ -21,6 +24,15 @@ pub fn parse(text: &[u8]) -> Option<f64> {
         .all(|b| matches!(b, b'0'..=b'9' | b'.' | b'+' | b'-' | b'e' | b'E'));
     let text = std::str::from_utf8(text).ok().filter(|_| digits)?;
     text.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// The number that is all of a text, which begins at a byte of its file.
+pub(crate) fn placed(text: &[u8], start: usize) -> Option<Number> {
+    Some(Number {
+        start: short(start),
+        length: u16::try_from(text.len()).ok()?,
+        value: parse(text)?,
+    })
 }
 
 /// Powers of ten that a 64-bit number holds exactly.

@@ -28,7 +28,7 @@ mod records;
 use super::kit::{Fault, comments, content_start, not_this_language};
 use super::notation;
 use super::script::{
-    Builder, Expr, Held, Instruction, Modal, NamedFrame, Place, Script, Span, Start, ValueId, short,
+    Builder, Expr, Held, Instruction, Modal, Place, Script, Span, Start, ValueId, short,
 };
 use super::{
     About, Configuration, Language, Layout, Marker, Motion, Number, ReadError, Role, Settings,
@@ -257,14 +257,10 @@ impl Reader {
 
     fn tool(&mut self, name: String) -> ValueId {
         let script = &mut self.builder.script;
-        *self.tools.entry(name).or_insert_with_key(|name| {
-            script.value(Held::Frame(NamedFrame {
-                on: Box::default(),
-                name: name.as_str().into(),
-                pose: None,
-                load: None,
-            }))
-        })
+        *self
+            .tools
+            .entry(name)
+            .or_insert_with_key(|name| script.frame(name.as_str(), None))
     }
 
     fn frame(&mut self, name: String) -> ValueId {
@@ -275,12 +271,10 @@ impl Reader {
             .frames
             .entry((name, is_named))
             .or_insert_with_key(|(name, is_named)| {
-                script.value(Held::Frame(NamedFrame {
-                    on: Box::default(),
-                    name: name.as_str().into(),
-                    pose: (*is_named && name == WORLD).then(Pose::identity),
-                    load: None,
-                }))
+                script.frame(
+                    name.as_str(),
+                    (*is_named && name == WORLD).then(Pose::identity),
+                )
             })
     }
 }
@@ -314,19 +308,8 @@ fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
 
 fn read_number(source: &Source, cell: Cell) -> Result<Number, ReadError> {
     let text = &source.bytes[cell.start..cell.end];
-    match (number::parse(text), u16::try_from(text.len())) {
-        (Some(value), Ok(length)) => Ok(Number {
-            start: short(cell.start),
-            length,
-            value,
-        }),
-        _ => Err(unexpected(
-            source,
-            cell.start,
-            shown(text),
-            "a finite number",
-        )),
-    }
+    let fault = || unexpected(source, cell.start, shown(text), "a finite number");
+    number::placed(text, cell.start).ok_or_else(fault)
 }
 
 fn read_branch(source: &Source, cell: Cell) -> Result<u8, ReadError> {

@@ -6,8 +6,8 @@ use super::words::words;
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::script::{
-    Expected, Expr, Held, NamedFrame, Place, Remark, RemarkId, Script, Table, TableId, ValueId,
-    Variable, VariableId, short,
+    Expected, Expr, Held, Place, Remark, RemarkId, Script, Table, TableId, ValueId, Variable,
+    VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::collections::BTreeMap;
@@ -390,12 +390,7 @@ impl Controller {
 
 /// A tool or frame of this name.
 pub(super) fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
-    script.value(Held::Frame(NamedFrame {
-        on: Box::default(),
-        name: name.into(),
-        pose,
-        load: None,
-    }))
+    script.frame(name, pose)
 }
 
 fn table(script: &mut Script, name: &str) -> TableId {

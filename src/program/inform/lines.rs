@@ -1,7 +1,6 @@
 //! The lines of a file, and the words and numbers in them.
 
 use crate::program::kit::{self, Fault};
-use crate::program::script::short;
 use crate::program::{Number, ReadError, Source, number};
 
 /// A line without its end and the blanks around it, and its first byte's place.
@@ -99,15 +98,8 @@ pub(super) fn add_numbers(
         let text = &field[before..];
         let behind = text.iter().rev().take_while(|&&b| is_blank(b)).count();
         let text = &text[..text.len() - behind];
-        let length = u16::try_from(text.len()).ok();
-        let (Some(value), Some(length)) = (number::parse(text), length) else {
-            return Err(unexpected(source, at + before, text, "a number"));
-        };
-        found.push(Number {
-            start: short(at + before),
-            length,
-            value,
-        });
+        let fault = || unexpected(source, at + before, text, "a number");
+        found.push(number::placed(text, at + before).ok_or_else(fault)?);
         at += field.len() + 1;
     }
     Ok(())

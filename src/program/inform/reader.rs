@@ -311,7 +311,7 @@ impl<'a> Reader<'a> {
 
     /// Something that nobody knows.
     pub(super) fn unknown(&mut self, cause: Cause) -> Expr {
-        Expr::Unknown(self.builder.script.remark(cause.remark()))
+        self.builder.script.unknown(cause.remark())
     }
 
     /// What a position that an instruction names holds.
@@ -376,9 +376,7 @@ impl<'a> Reader<'a> {
             Effect::Copy if !words(line.text).any(|word| word.starts_with(b"TL#")) => {
                 Operand::of(third).map(|operand| self.value(operand, place))
             }
-            Effect::System if is_actual(third) => {
-                Some(Expr::Value(self.builder.script.value(Held::Actual)))
-            }
+            Effect::System if is_actual(third) => Some(self.builder.script.held(Held::Actual)),
             Effect::Argument => numbered(third, b"IARG#").map(|number| {
                 let (routine, builder) = (self.routine(), &mut self.builder);
                 Expr::Variable(self.variables.parameter(builder, routine, number, place))

@@ -126,7 +126,7 @@ impl Variables {
         let none = frame(builder, NO_TOOL.into(), None);
         let base = frame(builder, "BASE".into(), fixed);
         let robot = riding(builder);
-        let mut unknown = |cause: Cause| Expr::Unknown(builder.script.remark(cause.remark()));
+        let mut unknown = |cause: Cause| builder.script.unknown(cause.remark());
         let (relative, not_named) = (
             unknown(Cause::ToolCoordinates),
             unknown(Cause::FrameNotNamed),
@@ -164,7 +164,7 @@ impl Variables {
         place: Place,
     ) -> VariableId {
         entry(builder, self.positions, number, None, place, |builder| {
-            Expr::Unknown(builder.script.remark(Cause::NotInFiles.remark()))
+            builder.script.unknown(Cause::NotInFiles.remark())
         })
     }
 
@@ -218,7 +218,7 @@ impl Variables {
 
 /// What a variable of a job holds before it is written.
 fn computed(builder: &mut Builder) -> Expr {
-    Expr::Unknown(builder.script.remark(Cause::Computed.remark()))
+    builder.script.unknown(Cause::Computed.remark())
 }
 
 /// A variable that holds a reason against moves, and that nothing writes.

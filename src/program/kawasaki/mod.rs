@@ -27,7 +27,6 @@ mod reader;
 mod remarks;
 mod sections;
 mod targets;
-mod words;
 
 use super::drive::Step;
 use super::kit::{comments, line_behind, not_this_language};

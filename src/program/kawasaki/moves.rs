@@ -3,11 +3,11 @@
 use super::reader::Reader;
 use super::remarks::Cause;
 use super::targets::{Position, literals};
-use super::words::Part;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM};
-use crate::program::Motion;
 use crate::program::script::{Expr, Held, Instruction, Modal, Span, Variable, short};
+use crate::program::words::Words;
+use crate::program::{Motion, Source};
 
 /// What a move does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub(super) enum Verb {
 
 impl Verb {
     /// The move that words begin with.
-    pub(super) fn of(part: Part) -> Option<Self> {
+    pub(super) fn of(part: Words) -> Option<Self> {
         const VERBS: &[(&[u8], Verb)] = &[
             (b"JMOVE", Verb::To(Motion::Joint, false)),
             (b"LMOVE", Verb::To(Motion::Linear, false)),
@@ -59,24 +59,23 @@ impl Verb {
         ];
         let known = VERBS.iter().find(|(word, _)| part.is_word(0, word));
         let step = STEPS.iter().find(|(word, _)| part.is_word(0, word));
-        let is_step = step_target(part).is_some();
-        known.map(|(_, verb)| *verb).or(step
-            .filter(|_| is_step)
-            .map(|(_, motion)| Self::Step(*motion)))
+        let step = step.filter(|_| step_target(part).is_some());
+        let step = step.map(|(_, motion)| Self::Step(*motion));
+        known.map(|(_, verb)| *verb).or(step)
     }
 }
 
 /// Where the joints of a taught step stand.
-fn step_target(part: Part) -> Option<usize> {
-    (1..part.0.len()).find(|at| part.is(*at, b'#') && part.is(at + 1, b'['))
+fn step_target(part: Words) -> Option<usize> {
+    (1..part.len()).find(|at| part.is(*at, b'#') && part.is(at + 1, b'['))
 }
 
 impl<'a> Reader<'a> {
     /// A statement that moves.
-    pub(super) fn moves(&mut self, part: Part<'a, '_>, verb: Verb) {
+    pub(super) fn moves(&mut self, part: Words<'a, '_>, verb: Verb) {
         let list = part.behind(1).list();
-        let first = list.first().copied().unwrap_or(Part(&[]));
-        let second = list.get(1).and_then(Part::number);
+        let first = list.first().copied().unwrap_or(part.part(0..0));
+        let second = list.get(1).and_then(Words::value);
         if !matches!(verb, Verb::Arc(_)) {
             self.here.arc = 0;
         }
@@ -108,7 +107,7 @@ impl<'a> Reader<'a> {
             }
             Verb::Away(motion) => {
                 let found = self.here.last;
-                let found = found.map(|last| last.in_tool(first.number().map(back)));
+                let found = found.map(|last| last.in_tool(first.value().map(back)));
                 self.relative(part, found, motion);
             }
             Verb::Draw(in_tool) => {
@@ -127,8 +126,8 @@ impl<'a> Reader<'a> {
                 self.relative(part, found, Motion::Linear);
             }
             Verb::Search => {
-                let till = first.0.iter().position(|word| word.is_word(b"TILL"));
-                let found = self.position(Part(&first.0[..till.unwrap_or(first.0.len())]));
+                let till = first.find(b"TILL").unwrap_or(first.len());
+                let found = self.position(first.part(0..till));
                 let guards = self.reason(Cause::Search);
                 let target = self.expr(found);
                 let modal = Modal {
@@ -143,13 +142,12 @@ impl<'a> Reader<'a> {
                 let at = step_target(part).expect("it was found");
                 let target = part.behind(at);
                 let is_tool =
-                    |name: &[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
-                let tool = part.0.iter().find(|word| is_tool(word.text));
-                let tool = tool.map(|word| crate::program::Source::text(word.text).into_owned());
+                    |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
+                let tool = (0..part.len()).map(|at| part.text(at)).find(is_tool);
                 let found = self.position(target);
                 let mut modal = self.modal_of(motion);
                 if let Some(tool) = tool {
-                    modal.tool = self.frame_value(&tool, None);
+                    modal.tool = self.frame_value(&Source::text(tool), None);
                 }
                 self.put(part, Some(target), found.base, motion, false, modal);
                 self.here.last = Some(found);
@@ -158,7 +156,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A move from where the robot stands.
-    fn relative(&mut self, part: Part<'a, '_>, to: Option<Position>, motion: Motion) {
+    fn relative(&mut self, part: Words<'a, '_>, to: Option<Position>, motion: Motion) {
         let known = to.filter(|to| to.by.is_some());
         let found = known.unwrap_or_else(|| Position {
             base: self.unknown(Cause::Relative.remark()),
@@ -174,7 +172,7 @@ impl<'a> Reader<'a> {
 
     fn reason(&mut self, cause: Cause) -> u32 {
         let remark = self.builder.script.remark(cause.remark());
-        let value = Expr::Value(self.builder.script.value(Held::Remark(remark)));
+        let value = self.builder.script.held(Held::Remark(remark));
         let place = self.place(self.here.at);
         let script = &mut self.builder.script;
         let reason = script.variable(Variable::new("move", place, value));
@@ -184,8 +182,8 @@ impl<'a> Reader<'a> {
 
     fn go(
         &mut self,
-        part: Part<'a, '_>,
-        named: Option<Part<'a, '_>>,
+        part: Words<'a, '_>,
+        named: Option<Words<'a, '_>>,
         to: Position,
         motion: Motion,
         is_free: bool,
@@ -214,32 +212,31 @@ impl<'a> Reader<'a> {
 
     fn put(
         &mut self,
-        part: Part<'a, '_>,
-        named: Option<Part<'a, '_>>,
+        part: Words<'a, '_>,
+        named: Option<Words<'a, '_>>,
         target: Expr,
         motion: Motion,
         is_free: bool,
         modal: Modal,
     ) {
-        let (start, end) = part.bytes().expect("a statement has words");
-        let named = named.and_then(|named| named.bytes());
+        let (whole, named) = (part.span(), named.map_or(0..0, |named| named.span()));
         let instruction = Instruction {
-            end: short(end),
+            end: short(whole.end),
             motion,
             free_orientation: is_free,
             target,
-            target_span: named.map_or_else(Span::default, |(start, end)| Span {
-                start: short(start),
-                end: short(end),
-            }),
-            ..Instruction::at(self.place(start))
+            target_span: Span {
+                start: short(named.start),
+                end: short(named.end),
+            },
+            ..Instruction::at(self.place(whole.start))
         };
         self.builder.go(instruction, modal);
     }
 }
 
 /// Whether words are joints: `#p`, `.#p`, `#[…]`.
-fn is_joints(part: Part) -> bool {
+fn is_joints(part: Words) -> bool {
     part.is(0, b'#') || part.is_word(0, b".") && part.is(1, b'#')
 }
 

@@ -2,22 +2,16 @@
 
 use super::moves::Verb;
 use super::remarks::Cause;
-use super::sections::{Program, Sections, lines};
+use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
-use super::words::{Kind, Part, Word, words};
+use crate::geometry::Pose;
 use crate::program::script::{
     Argument, Builder, Call, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable,
     VariableId, Write, Written, short,
 };
-use crate::program::{Source, SpeedZone};
+use crate::program::words::{Kind, Words};
+use crate::program::{Number, Source, SpeedZone};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
-
-/// A block that is open.
-#[derive(Clone, Copy, PartialEq)]
-enum Block {
-    Choice,
-    Loop,
-}
 
 /// Where the reader is.
 #[derive(Default)]
@@ -28,7 +22,6 @@ pub(super) struct Here {
     pub at: usize,
     /// Names in small letters.
     pub parameters: Vec<Vec<u8>>,
-    blocks: Vec<Block>,
     /// Where the robot stands, as far as the text before tells.
     pub last: Option<Position>,
     /// Speed and corner of all moves, and of the next one alone.
@@ -51,6 +44,8 @@ pub(super) struct Reader<'a> {
     parameters: Vec<Vec<Vec<u8>>>,
     pub tool: VariableId,
     pub base: VariableId,
+    /// Hold a reason while tool and base are as they were when the controller was saved.
+    saved: [VariableId; 2],
     /// Holds a reason where the arm's configuration was switched, and the index of that in the
     /// script's guards.
     switched: VariableId,
@@ -66,7 +61,7 @@ const NOWHERE: Place = Place { file: 0, offset: 0 };
 pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     let mut builder = Builder::default();
     let honoured = builder.script.value(Held::Flag(true));
-    let off = Expr::Value(builder.script.value(Held::Flag(false)));
+    let off = builder.script.held(Held::Flag(false));
     let state = |builder: &mut Builder, name: &str, declared: Expr| {
         builder.script.variable(Variable {
             shared: true,
@@ -74,12 +69,26 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         })
     };
     let switched = state(&mut builder, "configuration", off);
-    builder.script.guards.push([switched].into());
+    let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
+    let saved = starts.map(|pose| {
+        let remark = builder.script.remark(Cause::Saved.remark());
+        let reason = builder.script.held(Held::Remark(remark));
+        state(
+            &mut builder,
+            "save",
+            if pose.is_some() { reason } else { off },
+        )
+    });
+    builder
+        .script
+        .guards
+        .push([switched, saved[0], saved[1]].into());
     let mut reader = Reader {
         sources,
         switches: short(builder.script.guards.len() - 1),
         tool: 0,
         base: 0,
+        saved,
         builder,
         names: HashMap::new(),
         locals: HashMap::new(),
@@ -90,16 +99,11 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         honoured,
         here: Here::default(),
     };
-    // what the controller has them at is not in the files
-    for (name, is_tool) in [("TOOL", true), ("BASE", false)] {
-        let unknown = reader.frame_value(name, None);
-        let made = state(&mut reader.builder, name, unknown);
-        *(if is_tool {
-            &mut reader.tool
-        } else {
-            &mut reader.base
-        }) = made;
-    }
+    let [tool, base] = [("TOOL", starts[0]), ("BASE", starts[1])].map(|(name, pose)| {
+        let before = reader.frame_value(name, pose);
+        state(&mut reader.builder, name, before)
+    });
+    (reader.tool, reader.base) = (tool, base);
     for (file, of) in sections.iter().enumerate() {
         for entry in &of.entries {
             reader.declare(entry, short(file));
@@ -132,6 +136,17 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     script
 }
 
+/// The tool or base that a save of the controller has; `None` where there is none, or several
+/// that differ.
+fn start(sections: &[Sections], name: &[u8]) -> Option<Pose> {
+    let saved = sections.iter().flat_map(|of| &of.saved);
+    let values = |entry: &Entry| <[Number; 6]>::try_from(&entry.numbers[..]).ok();
+    let mut all = saved.filter(|entry| entry.name == name).map(values);
+    let first = all.next()??.map(|number| number.value);
+    let is_same = |other: Option<[Number; 6]>| other.is_some_and(|o| o.map(|n| n.value) == first);
+    all.all(is_same).then(|| super::pose_of(first))
+}
+
 /// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits
 /// there are none.
 fn key(label: &[u8]) -> u64 {
@@ -153,8 +168,11 @@ impl<'a> Reader<'a> {
     fn note_assigned(&mut self, source: &Source, program: &Program) {
         let mut found = Vec::new();
         for line in lines(&source.bytes, program.lines.clone()) {
-            words(line.text, line.start, &mut found);
-            let part = Part(&found);
+            // most lines write no name
+            if !may_write(line.text) {
+                continue;
+            }
+            let (_, part) = behind_label(line.words(&source.bytes, &mut found));
             if part.is_word(0, b"POINT") || part.is_word(0, b"HERE") {
                 let name = if part.is(1, b'/') { 3 } else { 1 };
                 if let Some((name, _)) = Name::of(part.behind(name)) {
@@ -176,22 +194,21 @@ impl<'a> Reader<'a> {
         let bytes = &sources[file as usize].bytes;
         let mut found = Vec::new();
         for line in lines(bytes, program.lines.clone()) {
-            words(line.text, line.start, &mut found);
-            self.line(&found);
+            self.line(line.words(bytes, &mut found));
         }
         self.builder.close();
     }
 
-    fn line(&mut self, words: &[Word<'a>]) {
-        let mut part = Part(words);
-        let Some(first) = words.first() else { return };
-        if first.kind == Kind::Number || part.is(1, b':') && !first.is_word(b"ANY") {
-            self.builder.label(key(first.text));
+    fn line(&mut self, line: Words<'a, '_>) {
+        let (label, part) = behind_label(line);
+        if let Some(label) = label {
+            self.builder.label(key(label));
             self.here.last = None;
-            part = part.behind(if part.is(1, b':') { 2 } else { 1 });
         }
-        let Some(first) = part.0.first() else { return };
-        self.here.at = first.start;
+        if part.is_empty() {
+            return;
+        }
+        self.here.at = part.span().start;
         if let Some(verb) = Verb::of(part) {
             return self.moves(part, verb);
         }
@@ -203,46 +220,35 @@ impl<'a> Reader<'a> {
     // ---- blocks and jumps
 
     /// Whether the words are of the flow.
-    fn flow(&mut self, part: Part<'a, '_>) -> bool {
-        let has = |word: &[u8]| part.0.iter().any(|one| one.is_word(word));
-        let behind = |word: &[u8]| {
-            let at = part.0.iter().position(|one| one.is_word(word));
-            at.and_then(|at| part.0.get(at + 1))
-                .map(|label| key(label.text))
-        };
+    fn flow(&mut self, part: Words<'a, '_>) -> bool {
+        let has = |word: &[u8]| part.find(word).is_some();
+        let label = part.find(b"GOTO").map(|at| part.text(at + 1));
+        let label = label.filter(|label| !label.is_empty()).map(key);
         let is = |word: &[u8]| part.is_word(0, word);
         if is(b"IF") && !has(b"THEN") {
-            if let Some(label) = behind(b"GOTO") {
+            if let Some(label) = label {
                 self.builder.may_go_to(label);
             }
         } else if is(b"IF") {
             self.builder.begin_if();
-            self.here.blocks.push(Block::Choice);
         } else if is(b"ELSEIF") {
             self.builder.next_branch(false);
         } else if is(b"ELSE") {
             self.builder.next_branch(true);
         } else if is(b"CASE") || is(b"SCASE") {
             self.builder.begin_choice();
-            self.here.blocks.push(Block::Choice);
         } else if is(b"VALUE") || is(b"SVALUE") {
             self.builder.next_branch(false);
         } else if is(b"ANY") && part.is(1, b':') {
             self.builder.next_branch(true);
         } else if is(b"WHILE") || is(b"FOR") {
             self.builder.begin_loop(true);
-            self.here.blocks.push(Block::Loop);
         } else if is(b"DO") {
             self.builder.begin_loop(false);
-            self.here.blocks.push(Block::Loop);
         } else if is(b"END") || is(b"UNTIL") {
-            match self.here.blocks.pop() {
-                Some(Block::Loop) => self.builder.end_loop(false),
-                Some(Block::Choice) => self.builder.end_choice(),
-                None => {}
-            }
+            self.builder.end_block();
         } else if is(b"GOTO") {
-            if let Some(label) = behind(b"GOTO") {
+            if let Some(label) = label {
                 if has(b"IF") {
                     self.builder.may_go_to(label);
                 } else {
@@ -262,27 +268,28 @@ impl<'a> Reader<'a> {
 
     // ---- statements
 
-    fn statement(&mut self, part: Part<'a, '_>) {
+    fn statement(&mut self, part: Words<'a, '_>) {
         let rest = part.behind(1);
         let is = |word: &[u8]| part.is_word(0, word);
         if is(b"TOOL") || is(b"BASE") {
             let value = self.frame(rest);
-            let variable = if is(b"TOOL") { self.tool } else { self.base };
+            let off = self.builder.script.held(Held::Flag(false));
+            let (variable, saved) = if is(b"TOOL") {
+                (self.tool, self.saved[0])
+            } else {
+                (self.base, self.saved[1])
+            };
             self.write(Written::One(variable), How::Whole(value));
+            self.write(Written::One(saved), How::Whole(off));
         } else if is(b"SPEED") {
             self.speed(rest);
         } else if is(b"ACCURACY") {
-            let zone_m = rest
-                .behind(0)
-                .0
-                .first()
-                .and_then(|one| Part(&[*one]).number());
-            let zone_m = zone_m.map(|mm| mm * crate::geometry::units::MM);
+            let zone_m = first_number(rest).map(|mm| mm * crate::geometry::units::MM);
             self.modal(rest, |of| of.zone_m = zone_m);
         } else if is(b"POINT") {
             self.point(rest);
         } else if is(b"HERE") {
-            let here = Expr::Value(self.builder.script.value(Held::Actual));
+            let here = self.builder.script.held(Held::Actual);
             if let Some((name, _)) = Name::of(rest) {
                 self.write_name(&name, How::Whole(here));
             }
@@ -290,9 +297,8 @@ impl<'a> Reader<'a> {
             self.call(rest, false);
             self.here.last = None;
         } else if is(b"ON") || is(b"ONI") || is(b"PCEXECUTE") {
-            let at = part.0.iter().position(|word| word.is_word(b"CALL"));
-            let colon = part.0.iter().position(|word| word.is(b':'));
-            if let Some(at) = at.or(colon) {
+            let colon = (0..part.len()).find(|at| part.is(*at, b':'));
+            if let Some(at) = part.find(b"CALL").or(colon) {
                 self.call(part.behind(at + 1), true);
             }
         } else if SWITCHES.iter().any(|word| is(word)) {
@@ -303,7 +309,7 @@ impl<'a> Reader<'a> {
 
     /// The arm's configuration is switched, or known again.
     pub(super) fn switch(&mut self, value: Held) {
-        let value = Expr::Value(self.builder.script.value(value));
+        let value = self.builder.script.held(value);
         self.write(Written::One(self.switched), How::Whole(value));
     }
 
@@ -327,7 +333,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `POINT p = …`, `POINT/X p = …`
-    fn point(&mut self, part: Part<'a, '_>) {
+    fn point(&mut self, part: Words<'a, '_>) {
         let is_partial = part.is(0, b'/');
         let part = part.behind(if is_partial { 2 } else { 0 });
         let Some((name, words)) = Name::of(part) else {
@@ -336,7 +342,7 @@ impl<'a> Reader<'a> {
         let value = part.behind(words + 1);
         if is_partial {
             let remark = self.builder.script.remark(Cause::Computed.remark());
-            let how = match value.number() {
+            let how = match value.value() {
                 Some(_) => How::PartNumber(remark),
                 None => How::PartSomehow(remark),
             };
@@ -348,8 +354,8 @@ impl<'a> Reader<'a> {
     }
 
     /// What holds for all moves behind `ALWAYS`, else for the next.
-    fn modal(&mut self, part: Part<'a, '_>, set: impl Fn(&mut SpeedZone)) {
-        let is_always = part.0.iter().any(|word| word.is_word(b"ALWAYS"));
+    fn modal(&mut self, part: Words<'a, '_>, set: impl Fn(&mut SpeedZone)) {
+        let is_always = part.find(b"ALWAYS").is_some();
         if is_always {
             set(&mut self.here.always);
         }
@@ -363,8 +369,8 @@ impl<'a> Reader<'a> {
     }
 
     /// `SPEED 100 MM/S ALWAYS`
-    fn speed(&mut self, part: Part<'a, '_>) {
-        let value = part.0.first().and_then(|one| Part(&[*one]).number());
+    fn speed(&mut self, part: Words<'a, '_>) {
+        let value = first_number(part);
         let unit = |length: &[u8], time: &[u8]| {
             part.is_word(1, length) && part.is(2, b'/') && part.is_word(3, time)
         };
@@ -382,32 +388,27 @@ impl<'a> Reader<'a> {
     // ---- calls
 
     /// `name(a,b)`
-    fn call(&mut self, part: Part<'a, '_>, concurrent: bool) {
-        let Some(name) = part.0.first() else { return };
-        let known = self.programs.get(&name.text.to_ascii_lowercase());
+    fn call(&mut self, part: Words<'a, '_>, concurrent: bool) {
+        if part.is_empty() {
+            return;
+        }
+        let known = self.programs.get(&part.text(0).to_ascii_lowercase());
         let callees: Box<[RoutineId]> = known.map_or_else(Box::default, |all| all[..].into());
         let mut arguments = Vec::new();
         if part.is(1, b'(') {
-            let (inside, _) = part.behind(1).inside(0);
-            for (number, given) in inside.list().into_iter().enumerate() {
+            let given = part.inside(1).0.list();
+            for (number, given) in given.into_iter().enumerate() {
                 self.argument(given, number, &callees, &mut arguments);
             }
         }
-        let place = self.place(self.here.at);
-        let script = &mut self.builder.script;
-        let first = short(script.arguments.len());
-        script.arguments.extend(arguments);
         let call = Call {
-            place,
+            place: self.place(self.here.at),
             foreign: callees.is_empty(),
             callees,
-            name: Source::text(name.text).into(),
-            arguments: first..short(script.arguments.len()),
+            name: Source::text(part.text(0)).into(),
+            arguments: self.builder.script.give(arguments),
         };
         if concurrent {
-            for routine in &*call.callees {
-                self.builder.script.routines[*routine as usize].start = Start::Concurrent;
-            }
             self.builder.start(call);
         } else {
             self.builder.call(call);
@@ -416,13 +417,13 @@ impl<'a> Reader<'a> {
 
     fn argument(
         &mut self,
-        given: Part<'a, '_>,
+        given: Words<'a, '_>,
         number: usize,
         callees: &[RoutineId],
         arguments: &mut Vec<Argument>,
     ) {
         let name = Name::of(given);
-        let name = name.filter(|(_, words)| *words == given.0.len());
+        let name = name.filter(|(_, words)| *words == given.len());
         let position = name.filter(|(name, _)| self.is_known(name));
         let value = match &position {
             Some(_) => {
@@ -467,6 +468,33 @@ impl<'a> Reader<'a> {
             }
         }
     }
+}
+
+/// Whether a line may be one that writes a name.
+fn may_write(line: &[u8]) -> bool {
+    let has = |first: u8, other: u8, word: &[u8]| {
+        let mut places = memchr::memchr2_iter(first, other, line);
+        places.any(|at| {
+            let here = line.get(at..at + word.len());
+            here.is_some_and(|here| here.eq_ignore_ascii_case(word))
+        })
+    };
+    has(b'P', b'p', b"POINT") || has(b'H', b'h', b"HERE")
+}
+
+/// The number or name that a line begins with to be jumped to, and what is behind it.
+fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>) {
+    let has_colon = line.is(1, b':') && !line.is_word(0, b"ANY");
+    if line.kind(0) == Some(Kind::Number) || has_colon {
+        let words = if line.is(1, b':') { 2 } else { 1 };
+        return (Some(line.text(0)), line.behind(words));
+    }
+    (None, line)
+}
+
+/// The number that words begin with.
+fn first_number(part: Words) -> Option<f64> {
+    part.part(0..part.len().min(1)).value()
 }
 
 /// Words that switch the arm's configuration.

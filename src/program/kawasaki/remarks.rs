@@ -13,6 +13,7 @@ pub(super) enum Cause {
     Relative,
     Search,
     Switched,
+    Saved,
 }
 
 impl Cause {
@@ -63,6 +64,13 @@ impl Cause {
                 "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, \
                  UWRIST, DWRIST) before this move",
                 "go to joints (#name) with the configuration that is wanted instead",
+            ),
+            Self::Saved => (
+                "frame-as-saved",
+                Severity::Warning,
+                "the program does not set the tool or base before this move: it is taken as it was \
+                 when the controller was saved (.SYSDATA)",
+                "set TOOL and BASE in the program, or compare them with the pendant",
             ),
         };
         Remark {

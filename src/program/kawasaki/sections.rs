@@ -1,12 +1,12 @@
-//! The sections of a file: programs, transformations (`.TRANS`), joints (`.JOINTS`). Others are
-//! passed over.
+//! The sections of a file: programs, transformations (`.TRANS`), joints (`.JOINTS`), and of
+//! `.SYSDATA` the tool and base. Others are passed over.
 //!
 //! A section begins with its keyword in the first column and ends with `.END`. Names of a program's
 //! own begin with a dot, too: only known keywords in capitals open a section.
 
-use super::words::{Part, Word, words};
 use crate::program::kit::{Fault, content_start};
 use crate::program::script::short;
+use crate::program::words::{Spelling, Word, Words};
 use crate::program::{Number, Source, number};
 use std::ops::Range;
 
@@ -35,6 +35,8 @@ pub(super) struct Program<'a> {
 pub(super) struct Sections<'a> {
     pub programs: Vec<Program<'a>>,
     pub entries: Vec<Entry<'a>>,
+    /// `TOOL` and `BASE` of `.SYSDATA`: what they were when the controller was saved.
+    pub saved: Vec<Entry<'a>>,
     /// Some section of the language is there.
     pub is_one: bool,
 }
@@ -44,6 +46,23 @@ pub(super) struct Sections<'a> {
 pub(super) struct Line<'a> {
     pub text: &'a [u8],
     pub start: usize,
+}
+
+/// How words are written: names have dots.
+const SPELLING: Spelling = Spelling {
+    comment: b";",
+    in_names: b"_.$",
+    has_escapes: false,
+    has_entities: false,
+};
+
+impl<'a> Line<'a> {
+    /// Its words, which are put into `found`.
+    pub(super) fn words<'w>(&self, bytes: &'a [u8], found: &'w mut Vec<Word>) -> Words<'a, 'w> {
+        found.clear();
+        SPELLING.add(bytes, self.start..self.start + self.text.len(), found);
+        Words { bytes, all: found }
+    }
 }
 
 /// The lines of a part of a file; they end with LF, CR LF or CR.
@@ -98,12 +117,9 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
         if opens(line.text, b".TRANS") || opens(line.text, b".JOINTS") {
             return true;
         }
-        words(line.text, line.start, &mut found);
-        let is_own = |word: &Word| OWN.iter().any(|own| word.is_word(own));
-        own |= found.iter().take(2).any(is_own);
-        own |= found
-            .windows(2)
-            .any(|pair| pair[0].is(b'#') && pair[1].is(b'['));
+        let words = line.words(head, &mut found);
+        own |= (0..2).any(|at| OWN.iter().any(|own| words.is_word(at, own)));
+        own |= (0..words.len()).any(|at| words.is(at, b'#') && words.is(at + 1, b'['));
         if opened && own {
             return true;
         }
@@ -116,6 +132,7 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
     enum Open {
         Nothing,
         Entries,
+        System,
         Program,
         Other,
     }
@@ -128,13 +145,22 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
         if opens(text, b".END") {
             open = Open::Nothing;
         } else if opens(text, b".PROGRAM") {
-            words(text, line.start, &mut buffer);
-            found.programs.push(header(&buffer, line));
+            found
+                .programs
+                .push(header(line.words(bytes, &mut buffer), line));
             (open, found.is_one) = (Open::Program, true);
         } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
             (open, found.is_one) = (Open::Entries, true);
         } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
-            open = Open::Other;
+            let is_system = opens(text, b".SYSDATA");
+            open = if is_system { Open::System } else { Open::Other };
+            found.is_one |= is_system;
+        } else if matches!(open, Open::System) {
+            let is_frame = text.starts_with(b"TOOL ") || text.starts_with(b"BASE ");
+            let frame = Some(line).filter(|_| is_frame);
+            found
+                .saved
+                .extend(frame.and_then(|line| entry(line).ok().flatten()));
         } else if matches!(open, Open::Entries) {
             found.entries.extend(entry(line)?);
         } else if matches!(open, Open::Program)
@@ -147,20 +173,17 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
 }
 
 /// `.PROGRAM name(a,b) #553; comment`
-fn header<'a>(words: &[Word<'a>], line: Line<'a>) -> Program<'a> {
-    let of = Part(words);
-    let name = words.get(1).map_or(&b""[..], |word| word.text);
+fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
     let mut parameters = Vec::new();
-    if of.is(2, b'(') {
-        let (inside, _) = of.inside(2);
-        for part in inside.list() {
-            // the last word is the name: `.#p` is joints
-            parameters.extend(part.0.last().map(|word| word.text));
-        }
+    if words.is(2, b'(') {
+        let list = words.inside(2).0.list().into_iter();
+        let named = list.filter(|part| !part.is_empty());
+        // the last word is the name: `.#p` is joints
+        parameters.extend(named.map(|part| part.text(part.len() - 1)));
     }
     let end = line.start + line.text.len();
     Program {
-        name,
+        name: words.text(1),
         parameters,
         at: short(line.start),
         lines: end..end,
@@ -190,16 +213,8 @@ fn entry(line: Line<'_>) -> Result<Option<Entry<'_>>, Fault> {
         let field = text[at..].split(u8::is_ascii_whitespace).next();
         let field = field.unwrap_or_default();
         let start = line.start + at;
-        let value = number::parse(field);
-        let length = u16::try_from(field.len()).ok();
-        let (Some(value), Some(length)) = (value, length) else {
-            return Err(Fault::unexpected(start..start + field.len(), "a number"));
-        };
-        numbers.push(Number {
-            start: short(start),
-            length,
-            value,
-        });
+        let fault = || Fault::unexpected(start..start + field.len(), "a number");
+        numbers.push(number::placed(field, start).ok_or_else(fault)?);
         at += field.len();
     }
     Ok(Some(Entry {

@@ -4,16 +4,13 @@ use super::pose_of;
 use super::reader::Reader;
 use super::remarks::{Cause, not_in_files};
 use super::sections::Entry;
-use super::words::{Kind, Part};
-use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM};
-use crate::program::script::{
-    Expr, Held, NamedFrame, Place, Remark, Table, TableId, Variable, VariableId, short,
-};
-use crate::program::{
-    Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId, number,
-};
+use crate::geometry::{Pose, Rotation};
+use crate::program::script::{Expr, Held, Place, Remark, TableId, Variable, VariableId, short};
+use crate::program::words::{Kind, Word, Words};
+use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::HashMap;
+use std::ops::Range;
 
 /// A name as the text uses it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -35,7 +32,7 @@ impl Name {
     }
 
     /// The name that words begin with, and how many it has.
-    pub(super) fn of(part: Part) -> Option<(Self, usize)> {
+    pub(super) fn of(part: Words) -> Option<(Self, usize)> {
         let mut at = 0;
         let mut stem = Vec::new();
         if part.is(0, b'#') {
@@ -46,24 +43,19 @@ impl Name {
             stem.extend(b"#.");
             at = 2;
         }
-        let word = part.0.get(at).filter(|word| word.kind == Kind::Name)?;
-        stem.extend(word.text.to_ascii_lowercase());
+        if !part.is_name(at) {
+            return None;
+        }
+        stem.extend(part.text(at).to_ascii_lowercase());
         at += 1;
         let mut key = Some(Vec::new());
         if part.is(at, b'[') {
-            let (inside, words) = part.behind(at).inside(0);
-            let is_literal = |word: &super::words::Word| {
-                word.kind == Kind::Number || word.is(b',') || word.is(b'-')
-            };
-            let text = inside.0.iter().flat_map(|word| word.text);
-            let text: Vec<u8> = [b"["]
-                .into_iter()
-                .flatten()
-                .chain(text)
-                .chain(b"]")
-                .copied()
-                .collect();
-            key = inside.0.iter().all(is_literal).then_some(text);
+            let (inside, words) = part.inside(at);
+            let is_literal =
+                |word: &Word| matches!(word.kind, Kind::Number | Kind::Sign(b',' | b'-'));
+            let text: Vec<&[u8]> = (0..inside.len()).map(|at| inside.text(at)).collect();
+            let is_known = inside.all.iter().all(is_literal);
+            key = is_known.then(|| [b"[", &text.concat()[..], b"]"].concat());
             at += words;
         }
         Some((Self { stem, key }, at))
@@ -127,14 +119,14 @@ impl Position {
 }
 
 /// The numbers of a list, blanks as 0; `None` where one is computed.
-pub(super) fn literals<const COUNT: usize>(list: &[Part]) -> Option<[f64; COUNT]> {
+pub(super) fn literals<const COUNT: usize>(list: &[Words]) -> Option<[f64; COUNT]> {
     let mut found = [0.0; COUNT];
     if list.len() > COUNT {
         return None;
     }
     for (value, part) in found.iter_mut().zip(list) {
-        if !part.0.is_empty() {
-            *value = part.number()?;
+        if !part.is_empty() {
+            *value = part.value()?;
         }
     }
     Some(found)
@@ -142,7 +134,7 @@ pub(super) fn literals<const COUNT: usize>(list: &[Part]) -> Option<[f64; COUNT]
 
 impl<'a> Reader<'a> {
     pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
-        Expr::Unknown(self.builder.script.remark(remark))
+        self.builder.script.unknown(remark)
     }
 
     // ---- what is declared
@@ -178,16 +170,9 @@ impl<'a> Reader<'a> {
                 "this name has different values",
                 "pass only the files that are loaded together, with one value for each name",
             ));
-            let numbers = |target: TargetId| {
-                let range = script.targets[target].numbers.clone();
-                let numbers = &script.numbers[range.start as usize..range.end as usize];
-                numbers
-                    .iter()
-                    .map(|number| number.value)
-                    .collect::<Vec<_>>()
-            };
+            let values = |target| script.numbers_of(target).iter().map(|number| number.value);
             if let (Expr::Target(a), Expr::Target(b)) = (before, declared)
-                && numbers(a) != numbers(b)
+                && !values(a).eq(values(b))
             {
                 script.refused.extend([(a, remark), (b, remark)]);
             }
@@ -229,18 +214,11 @@ impl<'a> Reader<'a> {
             Some(routine) => self.locals.entry(routine).or_default(),
             None => &mut self.names,
         };
-        let elements = names.entry(name.stem.clone()).or_insert_with(|| {
-            script.tables.push(Table {
-                name: name.text().into(),
-                ..Table::default()
-            });
-            Elements {
-                table: short(script.tables.len() - 1),
-                variables: HashMap::default(),
-            }
+        let elements = names.entry(name.stem.clone()).or_insert_with(|| Elements {
+            table: script.table(name.text()),
+            variables: HashMap::default(),
         });
-        let entries = &mut script.tables[elements.table as usize].entries;
-        entries.insert(i64::try_from(entries.len()).expect("few"), made);
+        script.enter(elements.table, made);
         let key = name.key.clone().unwrap_or_default();
         elements.variables.insert(key, made);
         made
@@ -307,121 +285,88 @@ impl<'a> Reader<'a> {
     // ---- what the text says
 
     /// The position that words are: `p`, `#p[1]`, `TRANS(…)`, `#[…]`, `p+q-r`, `SHIFT(p BY x,y,z)`.
-    pub(super) fn position(&mut self, part: Part<'a, '_>) -> Position {
-        let terms = terms(part);
+    pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
+        let terms = part.split(|sign| matches!(sign, b'+' | b'-'));
         let Some(((_, first), others)) = terms.split_first() else {
             return Position::plain(self.unknown(Cause::Computed.remark()));
         };
         let mut found = self.term(*first);
-        for (is_minus, term) in others {
+        for (sign, term) in others {
             let by = self.known_pose(*term);
-            found = found.in_tool(by.map(|by| if *is_minus { by.inverse() } else { by }));
+            found = found.in_tool(by.map(|by| if *sign == b'-' { by.inverse() } else { by }));
         }
         found
     }
 
-    fn term(&mut self, part: Part<'a, '_>) -> Position {
+    fn term(&mut self, part: Words<'a, '_>) -> Position {
         if part.is(0, b'#') && part.is(1, b'[') {
-            let (inside, words) = part.behind(1).inside(0);
-            let list = if words + 1 == part.0.len() {
-                inside.list()
-            } else {
-                Vec::new()
-            };
-            return Position::plain(self.literal(part, &list, Shape::Joints));
+            return Position::plain(self.literal(part, Shape::Joints));
         }
         if part.is_word(0, b"TRANS") && part.is(1, b'(') {
-            let (inside, words) = part.behind(1).inside(0);
-            let list = if words + 1 == part.0.len() {
-                inside.list()
-            } else {
-                Vec::new()
-            };
-            return Position::plain(self.literal(part, &list, Shape::Pose));
+            return Position::plain(self.literal(part, Shape::Pose));
         }
         if part.is_word(0, b"SHIFT") && part.is(1, b'(') {
-            let (inside, _) = part.behind(1).inside(0);
-            let by = inside.0.iter().position(|word| word.is_word(b"BY"));
-            if let Some(by) = by {
+            let (inside, _) = part.inside(1);
+            if let Some(by) = inside.find(b"BY") {
                 let moved = literals(&inside.behind(by + 1).list());
-                return self.position(Part(&inside.0[..by])).along(moved);
+                return self.position(inside.part(0..by)).along(moved);
             }
         }
         if part.is_word(0, b"HERE") || part.is(0, b'#') && part.is_word(1, b"HERE") {
-            let here = Expr::Value(self.builder.script.value(Held::Actual));
-            return Position::plain(here);
+            return Position::plain(self.builder.script.held(Held::Actual));
         }
         match Name::of(part) {
-            Some((name, words)) if words == part.0.len() => Position::plain(self.named(&name)),
+            Some((name, words)) if words == part.len() => Position::plain(self.named(&name)),
             _ => Position::plain(self.unknown(Cause::Computed.remark())),
         }
     }
 
     /// A target that is written out.
-    fn literal(&mut self, whole: Part<'a, '_>, list: &[Part<'a, '_>], shape: Shape) -> Expr {
-        let mut numbers = Vec::with_capacity(6);
-        for part in list {
-            let bytes = part.bytes();
-            let (Some(value), Some((start, end))) = (part.number(), bytes) else {
-                let cause = if part.0.is_empty() {
-                    Cause::Partial
-                } else {
-                    Cause::Computed
-                };
-                return self.unknown(cause.remark());
-            };
-            // a sign and blanks before its digits
-            let text = &self.sources[self.here.file as usize].bytes[start..end];
-            if number::parse(text).is_none() {
-                return self.unknown(Cause::Computed.remark());
-            }
-            numbers.push(Number {
-                start: short(start),
-                length: u16::try_from(end - start).expect("a number is short"),
-                value,
-            });
-        }
-        let count = numbers.len();
-        match <[Number; 6]>::try_from(numbers) {
-            Ok(numbers) => {
-                let (start, end) = whole.bytes().expect("it has words");
+    fn literal(&mut self, whole: Words<'a, '_>, shape: Shape) -> Expr {
+        let list = whole.rest_list(1).unwrap_or_default();
+        let numbers: Option<Vec<Number>> = list.iter().map(Words::number).collect();
+        let is_partial = shape == Shape::Pose && list.len() < 6;
+        let cause = match numbers.map(<[Number; 6]>::try_from) {
+            Some(Ok(numbers)) => {
+                let Range { start, end } = whole.span();
                 let place = self.place(start);
-                Expr::Target(self.add_target(None, place, short(end), shape, numbers))
+                return Expr::Target(self.add_target(None, place, short(end), shape, numbers));
             }
-            Err(_) if shape == Shape::Pose && count < 6 => self.unknown(Cause::Partial.remark()),
-            Err(_) => self.unknown(Cause::Axes.remark()),
-        }
+            Some(Err(_)) if is_partial => Cause::Partial,
+            Some(Err(_)) => Cause::Axes,
+            None => list
+                .iter()
+                .find(|part| part.number().is_none())
+                .filter(|part| part.is_empty())
+                .map_or(Cause::Computed, |_| Cause::Partial),
+        };
+        self.unknown(cause.remark())
     }
 
     /// What is added to a position, where the text tells it.
-    fn known_pose(&self, part: Part<'a, '_>) -> Option<Pose> {
+    fn known_pose(&self, part: Words<'a, '_>) -> Option<Pose> {
         if part.is(1, b'(') {
-            let (inside, words) = part.behind(1).inside(0);
-            let list = inside.list();
-            if words + 1 != part.0.len() {
-                return None;
-            }
-            let turn = |turn: fn(f64) -> crate::geometry::Rotation| {
+            let list = part.rest_list(1)?;
+            let turn = |turn: fn(f64) -> Rotation| {
                 let [angle] = literals(&list)?;
                 Some(Pose {
                     rotation: turn(angle * DEG),
                     ..Pose::identity()
                 })
             };
-            let word = part.0[0];
             return match () {
-                () if word.is_word(b"TRANS") => literals(&list).map(pose_of),
-                () if word.is_word(b"RX") => turn(crate::geometry::Rotation::about_x),
-                () if word.is_word(b"RY") => turn(crate::geometry::Rotation::about_y),
-                () if word.is_word(b"RZ") => turn(crate::geometry::Rotation::about_z),
+                () if part.is_word(0, b"TRANS") => literals(&list).map(pose_of),
+                () if part.is_word(0, b"RX") => turn(Rotation::about_x),
+                () if part.is_word(0, b"RY") => turn(Rotation::about_y),
+                () if part.is_word(0, b"RZ") => turn(Rotation::about_z),
                 () => None,
             };
         }
-        if part.is_word(0, b"NULL") && part.0.len() == 1 {
+        if part.is_word(0, b"NULL") && part.len() == 1 {
             return Some(Pose::identity());
         }
         let (name, words) = Name::of(part)?;
-        let is_constant = words == part.0.len() && !self.assigned.contains(&name.stem);
+        let is_constant = words == part.len() && !self.assigned.contains(&name.stem);
         let key = name
             .key
             .as_ref()
@@ -431,8 +376,7 @@ impl<'a> Reader<'a> {
         let Expr::Target(target) = script.variables[variable as usize].declared else {
             return None;
         };
-        let range = script.targets[target].numbers.clone();
-        let numbers = &script.numbers[range.start as usize..range.end as usize];
+        let numbers = script.numbers_of(target);
         Some(pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
@@ -452,19 +396,17 @@ impl<'a> Reader<'a> {
     // ---- tools and bases
 
     /// What `TOOL` or `BASE` is set to.
-    pub(super) fn frame(&mut self, part: Part<'a, '_>) -> Expr {
-        if part.0.is_empty() || part.is_word(0, b"NULL") && part.0.len() == 1 {
+    pub(super) fn frame(&mut self, part: Words<'a, '_>) -> Expr {
+        if part.is_empty() || part.is_word(0, b"NULL") && part.len() == 1 {
             return self.frame_value("NULL", Some(Pose::identity()));
         }
         if part.is_word(0, b"TRANS")
             && let Some(pose) = self.known_pose(part)
         {
-            let (start, end) = part.bytes().expect("it has words");
-            let text = &self.sources[self.here.file as usize].bytes[start..end];
-            return self.frame_value(&Source::text(text), Some(pose));
+            return self.frame_value(&Source::text(part.whole()), Some(pose));
         }
         match Name::of(part) {
-            Some((name, words)) if words == part.0.len() && name.key.is_some() => {
+            Some((name, words)) if words == part.len() && name.key.is_some() => {
                 if self.is_known(&name) || self.assigned.contains(&name.stem) {
                     Expr::Variable(self.variable(&name))
                 } else {
@@ -477,32 +419,6 @@ impl<'a> Reader<'a> {
 
     /// A tool or base of this name.
     pub(super) fn frame_value(&mut self, name: &str, pose: Option<Pose>) -> Expr {
-        let frame = Held::Frame(NamedFrame {
-            on: Box::default(),
-            name: name.into(),
-            pose,
-            load: None,
-        });
-        Expr::Value(self.builder.script.value(frame))
+        Expr::Value(self.builder.script.frame(name, pose))
     }
-}
-
-/// The parts between `+` and `-` outside brackets, and whether `-` stands before each.
-fn terms<'a, 'w>(part: Part<'a, 'w>) -> Vec<(bool, Part<'a, 'w>)> {
-    let (mut found, mut start, mut at, mut minus) = (Vec::new(), 0, 0, false);
-    while at < part.0.len() {
-        match part.0[at].kind {
-            Kind::Sign(b'(' | b'[') => at = part.closing(at),
-            Kind::Sign(sign @ (b'+' | b'-')) if at > start => {
-                found.push((minus, Part(&part.0[start..at])));
-                (start, minus) = (at + 1, sign == b'-');
-            }
-            _ => {}
-        }
-        at += 1;
-    }
-    if start < part.0.len() {
-        found.push((minus, Part(&part.0[start..])));
-    }
-    found
 }

@@ -178,6 +178,9 @@ fn what_is_added_to_a_position_displaces_it() {
     assert_eq!(shifts[7], Some(([0.0, 0.005, 0.0], [0.0; 3])));
     assert_eq!(shifts[8], Some(([0.0, 0.005, 0.0], [0.0, 0.0, 0.007])));
     assert_eq!(ids(&program), ["relative-move"]);
+    // a statement behind a line number writes, too
+    let program = read("TOOL NULL\nBASE NULL\nLMOVE p1+off\n10 POINT off = x");
+    assert_eq!(program.moves[0].displacement, Displacement::Unknown);
 }
 
 #[test]
@@ -275,6 +278,36 @@ fn other_sections_are_passed_over() {
     }
     let error = read_files(&[".TRANS\np1 1 2 x\n.END\n"]).expect_err("no number");
     assert!(error.to_string().contains("0.as:2:8"), "{error}");
+}
+
+#[test]
+fn tool_and_base_begin_as_they_were_saved_and_a_move_with_them_says_so() {
+    let save = ".SYSDATA\nREG_POINT       0\nBASE           -120.000   143.000     0.000     \
+        0.000     0.000     0.000\nSWITCH CP ON\n.END\n";
+    let read = |saves: &[&str], code: &str| {
+        let text = format!(".PROGRAM a()\n{code}\n.END\n{POINTS}");
+        let texts: Vec<&str> = saves.iter().copied().chain([&text[..]]).collect();
+        read_files(&texts).expect("a save")
+    };
+    let base = |program: &Program, at: usize| {
+        let frame = &program.frames[program.moves[at].frame];
+        frame.world_from_frame.map(|pose| pose.translation)
+    };
+    let program = read(&[save], "TOOL NULL\nLMOVE p1\nBASE NULL\nLMOVE p1");
+    assert_eq!(base(&program, 0), Some([-0.12, 0.143, 0.0]));
+    assert_eq!(base(&program, 1), Some([0.0; 3]));
+    let found: Vec<_> = (program.findings.iter())
+        .filter(|finding| finding.id == "frame-as-saved")
+        .map(|finding| (finding.line, finding.severity))
+        .collect();
+    assert_eq!(found, [(3, Severity::Warning)]);
+    // two saves that differ, and one that is not whole, tell nothing
+    let other = save.replace("143", "144");
+    for saves in [&[save, &other][..], &[".SYSDATA\nBASE 1 2 3\n.END\n"]] {
+        let program = read(saves, "TOOL NULL\nLMOVE p1");
+        assert_eq!(base(&program, 0), None);
+        assert!(!ids(&program).contains(&"frame-as-saved"));
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;
-use crate::program::script::{Argument, Call, Expr, How, Place, Start, short};
+use crate::program::script::{Argument, Call, Expr, How, Place, Start};
 
 /// Calls in one expression; a line of the controller has no room for more.
 const MOST_CALLS: usize = 64;
@@ -273,10 +273,7 @@ impl Reader {
         if callee.is_none() && !is_statement && !gives {
             return;
         }
-        let script = &mut self.builder.script;
-        let first = short(script.arguments.len());
-        script.arguments.extend(arguments);
-        let arguments = first..short(script.arguments.len());
+        let arguments = self.builder.script.give(arguments);
         self.builder.call(Call {
             place,
             callees: callee.into_iter().collect(),

@@ -344,7 +344,7 @@ impl Reader {
     }
 
     pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
-        Expr::Unknown(self.builder.script.remark(remark))
+        self.builder.script.unknown(remark)
     }
 
     /// An entry of a table.

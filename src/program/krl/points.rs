@@ -168,7 +168,7 @@ impl Reader {
     }
 
     fn actual(&mut self) -> Expr {
-        Expr::Value(self.builder.script.value(Held::Actual))
+        self.builder.script.held(Held::Actual)
     }
 
     /// A position that only the running program knows.

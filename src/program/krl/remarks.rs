@@ -56,14 +56,11 @@ pub(super) fn accurate() -> Remark {
 
 /// A position that only the running program knows.
 pub(super) fn computed() -> Remark {
-    Remark {
-        id: "computed-target",
-        severity: Severity::Warning,
-        text:
-            "the position that this move goes to is known at run time only; the move stays as it is"
-                .into(),
-        hint: "write the position with numbers where it must be exact",
-    }
+    Remark::warning(
+        "computed-target",
+        "the position that this move goes to is known at run time only; the move stays as it is",
+        "write the position with numbers where it must be exact",
+    )
 }
 
 /// A position that a function makes of positions that may be rewritten.

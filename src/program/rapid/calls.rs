@@ -193,10 +193,7 @@ impl Translator<'_> {
                 return;
             }
         }
-        let arguments = &mut self.builder.script.arguments;
-        let start = short(arguments.len());
-        arguments.extend(given);
-        let arguments = start..short(arguments.len());
+        let arguments = self.builder.script.give(given);
         self.emit_call(Call {
             place: self.here,
             callees: callees.routines.clone().into(),

@@ -335,12 +335,12 @@ impl Translator<'_> {
         let target = if back {
             Expr::Value(self.actual)
         } else {
-            Expr::Unknown(self.builder.script.remark(Remark {
+            self.builder.script.unknown(Remark {
                 id: "computed-target",
                 severity: Severity::Warning,
                 text: "a sensor tells where this instruction goes to; it stays as it is".into(),
                 hint: "",
-            }))
+            })
         };
         let instruction = Instruction {
             end,

@@ -8,8 +8,8 @@ use super::syntax::{Assigned, Component, Expression, Index, StatementKind, Stora
 use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
-    Builder, Call, Expr, Held, How, Instruction, Modal, NamedFrame, Part as RecordPart, PartValue,
-    Place, Remark, RemarkId, Script, Start, TableId, ValueId, VariableId, Write, Written,
+    Builder, Call, Expr, Held, How, Instruction, Modal, Part as RecordPart, PartValue, Place,
+    Remark, RemarkId, Script, Start, TableId, ValueId, VariableId, Write, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet};
@@ -106,12 +106,7 @@ pub(super) fn translate(
         },
         modes,
         actual: script.value(Held::Actual),
-        wobj0: script.value(Held::Frame(NamedFrame {
-            on: Box::default(),
-            name: "wobj0".into(),
-            pose: Some(crate::geometry::Pose::identity()),
-            load: None,
-        })),
+        wobj0: script.frame("wobj0", Some(crate::geometry::Pose::identity())),
         variables: HashMap::new(),
         records: HashMap::new(),
         named_elements: HashMap::new(),

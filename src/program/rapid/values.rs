@@ -12,8 +12,8 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark,
-    RemarkId, Table, TableId, Variable, VariableId, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, Place, Remark, RemarkId, Table,
+    TableId, Variable, VariableId, short,
 };
 use crate::program::{Displacement, Shift};
 
@@ -85,7 +85,7 @@ impl Translator<'_> {
     }
 
     fn frame_refused(&mut self, remark: Remark) -> Expr {
-        Expr::Unknown(self.builder.script.remark(remark))
+        self.builder.script.unknown(remark)
     }
 
     pub(super) fn frame_chosen(&mut self) -> Expr {
@@ -224,14 +224,15 @@ impl Translator<'_> {
     /// A target some of whose parts are expressions with these names.
     fn composed(&mut self, names: Part) -> Expr {
         self.somewhere_near(names).unwrap_or_else(|| {
-            Expr::Unknown(self.builder.script.remark(Remark {
+            self.builder.script.unknown(Remark {
                 id: "target-has-expressions",
                 severity: Severity::Warning,
-                text: "parts of the target that this move goes to are expressions, not numbers; it \
+                text:
+                    "parts of the target that this move goes to are expressions, not numbers; it \
                     stays as it is"
-                    .into(),
+                        .into(),
                 hint: "write the target with numbers in the offline system",
-            }))
+            })
         })
     }
 
@@ -377,12 +378,7 @@ impl Translator<'_> {
         };
         let known = self.named_elements.get(&name).copied();
         Expr::Value(known.unwrap_or_else(|| {
-            let value = self.builder.script.value(Held::Frame(NamedFrame {
-                on: Box::default(),
-                name: name.as_str().into(),
-                pose: None,
-                load: None,
-            }));
+            let value = self.builder.script.frame(name.as_str(), None);
             self.named_elements.insert(name, value);
             value
         }))

@@ -29,6 +29,8 @@ enum Block {
         /// Where the next branch begins.
         next: Option<Label>,
         end: Label,
+        /// It was begun by [`Builder::begin_choice`].
+        is_switch: bool,
     },
     Loop {
         top: Label,
@@ -105,6 +107,9 @@ impl Builder {
 
     /// A start of routines that then run concurrently with this one.
     pub fn start(&mut self, call: Call) {
+        for routine in &*call.callees {
+            self.script.routines[*routine as usize].start = Start::Concurrent;
+        }
         let at = short(self.script.calls.len());
         self.script.calls.push(call);
         self.script.statements.push(Statement::Start(at));
@@ -134,6 +139,7 @@ impl Builder {
         self.open.push(Block::Choice {
             next: Some(next),
             end,
+            is_switch: false,
         });
     }
 
@@ -144,12 +150,13 @@ impl Builder {
         self.open.push(Block::Choice {
             next: Some(next),
             end,
+            is_switch: true,
         });
     }
 
     /// `ELSEIF`, `CASE`: another branch that may be passed over; `ELSE`, `DEFAULT`: the last one.
     pub fn next_branch(&mut self, is_last: bool) {
-        let Some(Block::Choice { next, end }) = self.open.last_mut() else {
+        let Some(Block::Choice { next, end, .. }) = self.open.last_mut() else {
             return;
         };
         let (before, end) = (next.take(), *end);
@@ -200,10 +207,17 @@ impl Builder {
         self.put(end);
     }
 
+    /// `END` of whatever block is open, where all end with the same word.
+    pub fn end_block(&mut self) {
+        if let Some(block) = self.open.pop() {
+            self.end(&block);
+        }
+    }
+
     /// Ends what is open: a loop as one that may be left, or a choice.
     fn end(&mut self, block: &Block) {
         match *block {
-            Block::Choice { next, end } => {
+            Block::Choice { next, end, .. } => {
                 if let Some(next) = next {
                     self.put(next);
                 }
@@ -221,6 +235,17 @@ impl Builder {
             Block::Loop { top, end } => Some((*top, *end)),
             Block::Choice { .. } => None,
         })
+    }
+
+    /// `break` where it leaves what is innermost, a loop or a `switch`.
+    pub fn leave_block(&mut self) {
+        let end = self.open.iter().rev().find_map(|block| match block {
+            Block::Loop { end, .. } => Some(*end),
+            Block::Choice { end, is_switch, .. } => is_switch.then_some(*end),
+        });
+        if let Some(end) = end {
+            self.jump(end);
+        }
     }
 
     /// `EXIT`, `break`: behind the innermost loop.

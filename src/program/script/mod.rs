@@ -6,6 +6,7 @@
 //! arguments*. Which tool a variable holds at a move and from where the robot comes there is worked
 //! out in [`crate::motion`], once for all languages.
 
+mod adding;
 mod builder;
 mod order;
 
@@ -49,10 +50,6 @@ pub const NOT_DISPLACED: DisplacementId = 0;
 pub const DISPLACED_SOMEHOW: DisplacementId = 1;
 /// [`Displacement::Overwritten`] in [`Script::displacements`].
 pub const OVERWRITTEN: DisplacementId = 2;
-
-/// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
-/// alternate with few others.
-const MODALS_LOOKED_AT: usize = 8;
 
 /// The statements of all files.
 #[derive(Debug)]
@@ -231,6 +228,19 @@ pub struct NamedFrame {
     pub load: Option<Load>,
 }
 
+impl NamedFrame {
+    /// One that stands still, and of whose load nothing is said.
+    #[must_use]
+    pub fn still(name: impl Into<Box<str>>, pose: Option<Pose>) -> Self {
+        Self {
+            name: name.into(),
+            pose,
+            on: Box::default(),
+            load: None,
+        }
+    }
+}
+
 /// One part of a record, and where it stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
@@ -318,6 +328,15 @@ impl Remark {
             severity: Severity::Error,
             text: text.into(),
             hint,
+        }
+    }
+
+    /// What a person should look at.
+    #[must_use]
+    pub fn warning(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Self {
+        Self {
+            severity: Severity::Warning,
+            ..Self::error(id, text, hint)
         }
     }
 
@@ -580,94 +599,6 @@ impl How {
             Self::PartNumber(remark)
         } else {
             Self::PartSomehow(remark)
-        }
-    }
-}
-
-impl Script {
-    /// Adds a value.
-    pub fn value(&mut self, value: Held) -> ValueId {
-        self.values.push(value);
-        short(self.values.len() - 1)
-    }
-
-    /// Adds a target with its numbers.
-    pub fn target(
-        &mut self,
-        target: Target,
-        numbers: impl IntoIterator<Item = Number>,
-    ) -> TargetId {
-        let first = short(self.numbers.len());
-        self.numbers.extend(numbers);
-        self.targets.push(Target {
-            numbers: first..short(self.numbers.len()),
-            ..target
-        });
-        self.targets.len() - 1
-    }
-
-    /// Adds a variable.
-    pub fn variable(&mut self, variable: Variable) -> VariableId {
-        self.variables.push(variable);
-        short(self.variables.len() - 1)
-    }
-
-    /// Adds a remark; the same is kept once.
-    pub fn remark(&mut self, remark: Remark) -> RemarkId {
-        let known = self.remarks.iter().rposition(|known| *known == remark);
-        short(known.unwrap_or_else(|| {
-            self.remarks.push(remark);
-            self.remarks.len() - 1
-        }))
-    }
-
-    /// With what a move runs; one of the last that is the same is kept once.
-    pub fn modal(&mut self, modal: Modal) -> ModalId {
-        let last = self.modals.len().saturating_sub(MODALS_LOOKED_AT);
-        let known = self.modals[last..]
-            .iter()
-            .rposition(|known| *known == modal);
-        short(known.map_or_else(
-            || {
-                self.modals.push(modal);
-                self.modals.len() - 1
-            },
-            |at| last + at,
-        ))
-    }
-
-    /// Adds a displacement.
-    pub fn displacement(&mut self, displacement: Displacement) -> DisplacementId {
-        match displacement {
-            Displacement::None => NOT_DISPLACED,
-            Displacement::Unknown => DISPLACED_SOMEHOW,
-            Displacement::Overwritten => OVERWRITTEN,
-            Displacement::By(_) => {
-                self.displacements.push(displacement);
-                short(self.displacements.len() - 1)
-            }
-        }
-    }
-
-    /// The expression of several, of which only the running program knows the one.
-    pub fn any(&mut self, of: impl IntoIterator<Item = Expr>) -> Expr {
-        let first = short(self.lists.len());
-        self.lists.extend(of);
-        Expr::Any {
-            first,
-            end: short(self.lists.len()),
-        }
-    }
-
-    /// A position, displaced.
-    pub fn displaced(&mut self, base: Expr, by: DisplacementId) -> Expr {
-        if by == NOT_DISPLACED {
-            return base;
-        }
-        self.lists.push(base);
-        Expr::Displaced {
-            base: short(self.lists.len() - 1),
-            by,
         }
     }
 }

@@ -6,8 +6,8 @@ use crate::finding::Severity;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
 use crate::program::script::{
-    self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, NamedFrame, Remark, RemarkId, Script,
-    Span, ValueId, VariableId,
+    self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, Remark, RemarkId, Script, Span,
+    ValueId, VariableId,
 };
 use crate::program::{Displacement, Shift, TargetId};
 use foldhash::{HashMap, HashMapExt};
@@ -78,12 +78,7 @@ pub(super) struct Common {
 
 impl Common {
     pub(super) fn new(script: &mut Script) -> Self {
-        let base = script.value(Held::Frame(NamedFrame {
-            on: Box::default(),
-            name: BASE.into(),
-            pose: Some(Pose::identity()),
-            load: None,
-        }));
+        let base = script.frame(BASE, Some(Pose::identity()));
         let mut remark = |id, severity, text: &str, hint| {
             script.remark(Remark {
                 id,
@@ -156,14 +151,10 @@ impl Common {
         pose: Option<Pose>,
     ) -> script::Expr {
         let key = (name.to_owned(), pose.as_ref().map_or([u64::MAX; 7], bits));
-        let value = *self.frames.entry(key).or_insert_with(|| {
-            script.value(Held::Frame(NamedFrame {
-                on: Box::default(),
-                name: name.into(),
-                pose,
-                load: None,
-            }))
-        });
+        let value = *self
+            .frames
+            .entry(key)
+            .or_insert_with(|| script.frame(name, pose));
         script::Expr::Value(value)
     }
 

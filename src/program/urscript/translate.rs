@@ -485,14 +485,12 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         let place = self.at(call.offset);
         let builder = &mut *self.goals.builder;
-        let first = short(builder.script.arguments.len());
-        builder.script.arguments.extend(arguments);
         let call = Call {
             place,
             callees: callees.iter().map(|f| self.first_routine + f).collect(),
             foreign: callees.is_empty(),
             name: parsed.spelling(call.name).into(),
-            arguments: first..short(builder.script.arguments.len()),
+            arguments: builder.script.give(arguments),
         };
         let is_thread = |callee: &FunctionId| parsed.functions[*callee as usize].thread;
         if callees.iter().any(is_thread) {

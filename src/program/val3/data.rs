@@ -103,14 +103,14 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    fn new(key: &'a [u8], at: usize) -> Self {
+    fn new(at: usize) -> Self {
         let nothing = Number {
             start: short(at),
             length: 0,
             value: 0.0,
         };
         Self {
-            key,
+            key: b"0",
             at: short(at),
             end: short(at),
             numbers: [nothing; 6],
@@ -127,47 +127,60 @@ impl<'a> Element<'a> {
 
     /// Reads what the attributes of a tag say.
     fn add(&mut self, kind: Kind, tag: &Tag<'a>) -> Result<(), Fault> {
-        let attributes = tag.attributes()?;
-        let of = |name: &str| attributes.iter().find(|one| one.name == name.as_bytes());
         self.end = short(tag.end);
         if kind == Kind::Mdesc {
-            self.speed_zone = speed_zone(&of)?;
+            self.key = tag.attribute(b"key")?.map_or(self.key, |key| key.value);
+            self.speed_zone = speed_zone(tag)?;
             return Ok(());
         }
+        let has_numbers = tag.name != b"cpValue";
+        if has_numbers && self.is_given {
+            return Err(twice(tag));
+        }
         let names = if kind == Kind::Joint { JOINTS } else { POSE };
-        if tag.name != b"cpValue" {
-            if self.is_given {
-                return Err(twice(tag));
-            }
-            let key = of("key").or(of("index"));
-            let mut behind = key.map_or(tag.behind_name(), |key| key.end);
-            for (number, name) in self.numbers.iter_mut().zip(names) {
-                if let Some(attribute) = of(name) {
-                    *number = attribute.number()?;
-                    behind = attribute.end;
+        let (mut behind, mut ends) = (tag.behind_name(), [None; 6]);
+        for attribute in tag.attributes() {
+            let attribute = attribute?;
+            let is = |name: &&str| name.as_bytes() == attribute.name;
+            if let Some(at) = names.iter().position(is) {
+                if has_numbers {
+                    self.numbers[at] = attribute.number()?;
+                    ends[at] = Some(attribute.end);
                     self.is_given = true;
-                } else {
+                }
+            } else if let Some(side) = SIDES.iter().position(|(name, _)| is(name)) {
+                if self.sides[side].is_some() || self.free[side] {
+                    return Err(twice(tag));
+                }
+                self.side(side, &attribute);
+            } else if attribute.name == b"fatherId" {
+                self.father = Father::of(attribute.value);
+            } else if attribute.name == b"key" {
+                (self.key, behind) = (attribute.value, attribute.end);
+            }
+        }
+        if has_numbers {
+            for (number, end) in self.numbers.iter_mut().zip(ends) {
+                behind = end.unwrap_or(behind);
+                if number.length == 0 {
                     number.start = short(behind);
                 }
             }
         }
-        for (at, (name, words)) in SIDES.iter().enumerate() {
-            let Some(side) = of(name) else { continue };
-            if self.sides[at].is_some() || self.free[at] {
-                return Err(twice(tag));
-            }
-            let stated = words.iter().position(|word| word.as_bytes() == side.value);
-            self.sides[at] = stated.map(|stated| Number {
-                start: short(side.start),
-                length: u16::try_from(side.value.len()).expect("a known word is short"),
-                value: if stated == 0 { 0.0 } else { 1.0 },
-            });
-            self.free[at] = side.value.ends_with(b"free");
-        }
-        if let Some(father) = of("fatherId") {
-            self.father = Father::of(father.value);
-        }
         Ok(())
+    }
+
+    fn side(&mut self, side: usize, said: &Attribute) {
+        let stated = SIDES[side]
+            .1
+            .iter()
+            .position(|word| word.as_bytes() == said.value);
+        self.sides[side] = stated.map(|stated| Number {
+            start: short(said.start),
+            length: u16::try_from(said.value.len()).expect("a known word is short"),
+            value: if stated == 0 { 0.0 } else { 1.0 },
+        });
+        self.free[side] = said.value.ends_with(b"free");
     }
 }
 
@@ -178,15 +191,20 @@ fn twice(tag: &Tag) -> Fault {
 
 /// Speed and corner of a motion descriptor: the tool's speed where it is limited, and where the
 /// path is left.
-fn speed_zone<'a, 'b: 'a>(
-    of: &impl Fn(&str) -> Option<&'a Attribute<'b>>,
-) -> Result<SpeedZone, Fault> {
-    let number = |name: &str| of(name).map(Attribute::number).transpose();
-    let blends = of("blend").is_some_and(|blend| blend.value != b"off");
-    let leave = number("leave")?.map_or(LEAVE_MM, |leave| leave.value);
-    let speed = number("tmax")?.map(|speed| speed.value);
+fn speed_zone(tag: &Tag) -> Result<SpeedZone, Fault> {
+    let number = |name: &[u8]| {
+        let found = tag.attribute(name)?;
+        found
+            .map(|one| one.number().map(|number| number.value))
+            .transpose()
+    };
+    let blends = tag
+        .attribute(b"blend")?
+        .is_some_and(|blend| blend.value != b"off");
+    let leave = number(b"leave")?.unwrap_or(LEAVE_MM);
+    let speed = number(b"tmax")?.filter(|speed| *speed < NO_LIMIT);
     Ok(SpeedZone {
-        speed_m_s: speed.filter(|speed| *speed < NO_LIMIT).map(|mm| mm * MM),
+        speed_m_s: speed.map(|mm| mm * MM),
         zone_m: Some(if blends { leave * MM } else { 0.0 }),
         blends: false,
     })
@@ -202,6 +220,8 @@ const NO_LIMIT: f64 = 9999.0;
 pub(super) struct Datum<'a> {
     pub name: &'a [u8],
     pub kind: Kind,
+    /// Index in [`super::project::World::projects`].
+    pub project: u32,
     pub file: u32,
     pub at: u32,
     pub elements: Vec<Element<'a>>,
@@ -241,7 +261,7 @@ pub(super) struct DataFile<'a> {
 }
 
 /// Reads a data file.
-pub(super) fn read(bytes: &[u8], file: u32) -> Result<DataFile<'_>, Fault> {
+pub(super) fn read(bytes: &[u8], project: u32, file: u32) -> Result<DataFile<'_>, Fault> {
     let mut found = DataFile::default();
     let mut nodes = Nodes::of(bytes);
     let mut open: Option<Datum> = None;
@@ -267,6 +287,7 @@ pub(super) fn read(bytes: &[u8], file: u32) -> Result<DataFile<'_>, Fault> {
                     let datum = Datum {
                         name: name.value,
                         kind,
+                        project,
                         file,
                         at: short(tag.at),
                         elements: Vec::new(),
@@ -299,24 +320,22 @@ pub(super) fn read(bytes: &[u8], file: u32) -> Result<DataFile<'_>, Fault> {
 fn inside<'a>(datum: &mut Datum<'a>, tag: &Tag<'a>, father: &mut Father<'a>) -> Result<(), Fault> {
     match tag.name {
         b"pFather" | b"fFather" | b"tFather" => {
-            for attribute in tag.attributes()? {
-                match attribute.name {
-                    b"alias" => father.alias = attribute.value,
-                    b"name" => father.name = attribute.value,
-                    b"fatherIndex" => father.index = attribute.value,
-                    _ => {}
-                }
-            }
+            *father = Father {
+                alias: tag.value(b"alias")?,
+                name: tag.value(b"name")?,
+                index: tag.value(b"fatherIndex")?,
+            };
         }
         b"Value" => {
-            let key = tag.attribute(b"key")?;
-            let mut element = Element::new(key.map_or(b"0", |key| key.value), tag.at);
+            let mut element = Element::new(tag.at);
             element.add(datum.kind, tag)?;
             datum.elements.push(element);
         }
         name if name.starts_with(b"value") => {
-            let key = tag.attribute(b"index")?;
-            let mut element = Element::new(key.map_or(b"0", |key| key.value), tag.at);
+            let mut element = Element::new(tag.at);
+            element.key = tag
+                .attribute(b"index")?
+                .map_or(element.key, |key| key.value);
             element.father = *father;
             datum.elements.push(element);
         }

@@ -69,7 +69,7 @@ impl<'a> NewPoints<'a> {
         if source.is_context {
             return None;
         }
-        let found = data::read(&source.bytes, 0).ok()?;
+        let found = data::read(&source.bytes, 0, 0).ok()?;
         let (first, at) = found.last_point?;
         // the names of each file's moves differ from those of all others
         let stem = (0..MOST_STEMS)
@@ -159,7 +159,8 @@ fn father(bytes: &[u8]) -> &[u8] {
 
 /// A tag of a value with other numbers, alone under its key.
 fn written(tag: &Tag, target: &Target, numbers: &[Vec<u8>]) -> Option<Vec<u8>> {
-    let attributes = tag.attributes().ok()?;
+    let attributes: Result<Vec<_>, _> = tag.attributes().collect();
+    let attributes = attributes.ok()?;
     let mut out = [b"<", tag.name].concat();
     let mut put = |name: &[u8], value: &[u8]| {
         out.extend_from_slice(&[b" ", name, b"=\"", value, b"\""].concat());

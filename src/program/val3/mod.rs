@@ -19,17 +19,16 @@
 //! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of
 //! the user's own are not followed. Arrays handed over with all values are followed in their first.
 
+mod code;
 mod data;
 mod drive;
 mod frames;
 mod insert;
-mod line;
 mod moves;
 mod project;
 mod reader;
 mod remarks;
 mod targets;
-mod tokens;
 mod xml;
 
 use super::drive::Step;

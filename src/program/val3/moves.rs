@@ -1,11 +1,10 @@
 //! Moves: `movej(target,tool,mdesc)`, `movel(point,tool,mdesc)`, `movec(via,end,tool,mdesc)`.
 
 use super::data::Kind;
-use super::line::{Index, Line};
 use super::reader::Reader;
 use super::remarks::move_not_known;
-use super::targets::Place;
 use crate::program::script::{Expr, Instruction, Modal, Script, Span, short};
+use crate::program::words::Words;
 use crate::program::{Motion, Source, SpeedZone};
 
 /// What a move is called.
@@ -45,23 +44,24 @@ impl Verb {
 }
 
 impl<'a> Reader<'a> {
-    /// The move at a word.
-    pub(super) fn moves(&mut self, line: &Line<'a, '_>, at: usize, verb: Verb) {
-        let (arguments, close) = line.list(at + 1);
-        let last = line.tokens[close.min(line.tokens.len() - 1)];
-        // the statement is the move where nothing but its result is kept
-        let is_result = line
-            .reference(0)
+    /// The move at a word, with its result where that is kept.
+    pub(super) fn moves(&mut self, line: Words<'a, '_>, at: usize, verb: Verb) {
+        let (inside, words) = line.inside(at + 1);
+        let arguments = inside.list();
+        let is_result = super::code::Reference::of(line)
             .is_some_and(|result| line.is(result.words, b'=') && result.words + 1 == at);
-        let first = if is_result { 0 } else { at };
-        let place = self.place(line.tokens[first].start);
+        let whole = line.part(if is_result { 0 } else { at }..at + 1 + words);
         let mut instruction = Instruction {
-            end: short(last.end),
-            ..Instruction::at(place)
+            end: short(whole.span().end),
+            ..Instruction::at(self.place(whole.span().start))
         };
-        let (via, rest) = match (verb.motion, &arguments[..]) {
-            (Some(Motion::ArcEnd), [via, rest @ ..]) if rest.len() == 3 => (Some(via), rest),
-            (Some(Motion::Joint | Motion::Linear), rest) if rest.len() == 3 => (None, rest),
+        let (motion, via, [end, tool, mdesc]) = match (verb.motion, &arguments[..]) {
+            (Some(Motion::ArcEnd), &[via, ref rest @ ..]) if rest.len() == 3 => {
+                (Motion::ArcEnd, Some(via), [rest[0], rest[1], rest[2]])
+            }
+            (Some(motion @ (Motion::Joint | Motion::Linear)), &[end, tool, mdesc]) => {
+                (motion, None, [end, tool, mdesc])
+            }
             _ => {
                 let name = Source::text(line.text(at));
                 instruction.target = self.unknown(move_not_known(&name));
@@ -69,12 +69,8 @@ impl<'a> Reader<'a> {
                 return;
             }
         };
-        let [end, tool, mdesc] = rest else {
-            unreachable!("the arms above have three")
-        };
-        let (tool, _) = self.tool(tool);
         let mut modal = Modal {
-            tool,
+            tool: self.tool(tool),
             speed_zone: self.speed_zone(mdesc),
             guards: if verb.alters {
                 self.variables.altered
@@ -90,67 +86,43 @@ impl<'a> Reader<'a> {
             };
             self.go(through, modal, via);
         }
-        instruction.motion = verb.motion.expect("the arms above have one");
-        if instruction.motion == Motion::Joint {
+        instruction.motion = motion;
+        if motion == Motion::Joint {
             modal.configured = Expr::Value(self.variables.honoured);
         }
         self.go(instruction, modal, end);
     }
 
-    fn go(&mut self, mut instruction: Instruction, modal: Modal, target: &Line<'a, '_>) {
+    fn go(&mut self, mut instruction: Instruction, modal: Modal, target: Words<'a, '_>) {
         let joints = match instruction.motion {
             Motion::Joint => self.joints(target),
             _ => None,
         };
-        let (value, roots) = match joints {
-            Some(joints) => (joints, Vec::new()),
-            None => self.position(target),
+        instruction.target = joints.unwrap_or_else(|| self.position(target));
+        instruction.target_span = Span {
+            start: short(target.span().start),
+            end: short(target.span().end),
         };
-        instruction.target = value;
-        if let (Some(first), Some(last)) = (target.tokens.first(), target.tokens.last()) {
-            instruction.target_span = Span {
-                start: short(first.start),
-                end: short(last.end),
-            };
-        }
-        let number = short(self.builder.script.instructions.len());
-        self.roots.push((number, roots));
         self.builder.go(instruction, modal);
     }
 
     /// Speed and corner of a descriptor.
-    fn speed_zone(&self, text: &Line<'a, '_>) -> SpeedZone {
+    fn speed_zone(&self, mdesc: Words<'a, '_>) -> SpeedZone {
         let somehow = SpeedZone {
             blends: true,
             ..SpeedZone::default()
         };
-        let Some(name) = text.reference(0) else {
-            return somehow;
-        };
-        let Place::Datum(datum) = self.meaning(&name) else {
-            return somehow;
-        };
-        let of = &self.world.data[datum as usize];
-        let key = match name.index {
-            Index::None => b"0",
-            Index::Key(key) => key,
-            Index::Any => return somehow,
-        };
-        let is_constant = of.kind == Kind::Mdesc && !self.assigned.contains(&datum);
-        match of.element(key).filter(|_| is_constant) {
-            Some(at) => of.elements[at].speed_zone,
-            None => somehow,
-        }
+        self.constant(mdesc, Kind::Mdesc)
+            .map_or(somehow, |known| known.speed_zone)
     }
 
     /// The script: moves get the frames of their points once all copies are known.
     pub(super) fn finish(mut self) -> Script {
-        for (instruction, roots) in std::mem::take(&mut self.roots) {
-            let frame = self.frame_of(&roots);
+        for at in 0..self.builder.script.instructions.len() {
+            let frame = self.frame_of(self.builder.script.instructions[at].target);
             let script = &mut self.builder.script;
-            let of = script.modals[script.instructions[instruction as usize].modal as usize];
-            let modal = script.modal(Modal { frame, ..of });
-            script.instructions[instruction as usize].modal = modal;
+            let of = script.modals[script.instructions[at].modal as usize];
+            script.instructions[at].modal = script.modal(Modal { frame, ..of });
         }
         self.builder.finish()
     }

@@ -1,7 +1,7 @@
 //! What belongs together: project files (.pjx), the data and programs that they name, their
 //! libraries.
 
-use super::data::{self, DataFile, Datum, Kind};
+use super::data::{self, Datum, Kind};
 use super::xml::{Node, Nodes};
 use crate::program::kit::Fault;
 use crate::program::script::short;
@@ -25,6 +25,8 @@ pub(super) struct Declared<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Program<'a> {
     pub name: &'a [u8],
+    /// Index in [`World::projects`].
+    pub project: u32,
     pub file: u32,
     pub at: u32,
     pub declared: Vec<Declared<'a>>,
@@ -52,10 +54,7 @@ pub(super) struct Project<'a> {
 pub(super) struct World<'a> {
     pub projects: Vec<Project<'a>>,
     pub data: Vec<Datum<'a>>,
-    /// The project of each.
-    pub project_of_data: Vec<u32>,
     pub programs: Vec<Program<'a>>,
-    pub project_of_program: Vec<u32>,
 }
 
 /// What a file is by its first tag.
@@ -205,12 +204,10 @@ impl<'a> World<'a> {
     }
 
     fn data(&mut self, source: &'a Source, file: u32, claims: &mut Claims) -> Result<(), Fault> {
-        let DataFile { data, .. } = data::read(&source.bytes, file)?;
         let project = self.project_of(source, claims);
-        for datum in data {
-            let id = short(self.data.len());
-            self.projects[project as usize].data.insert(datum.name, id);
-            self.project_of_data.push(project);
+        for datum in data::read(&source.bytes, project, file)?.data {
+            let own = &mut self.projects[project as usize].data;
+            own.insert(datum.name, short(self.data.len()));
             self.data.push(datum);
         }
         Ok(())
@@ -223,14 +220,32 @@ impl<'a> World<'a> {
         claims: &mut Claims,
     ) -> Result<(), Fault> {
         let project = self.project_of(source, claims);
-        for program in programs(&source.bytes, file)? {
-            let id = short(self.programs.len());
+        for program in programs(&source.bytes, project, file)? {
             let own = &mut self.projects[project as usize].programs;
-            own.insert(program.name, id);
-            self.project_of_program.push(project);
+            own.insert(program.name, short(self.programs.len()));
             self.programs.push(program);
         }
         Ok(())
+    }
+
+    /// The project that an alias in another means, that itself without one; `None` where it is not
+    /// in the files.
+    fn named(&self, project: u32, alias: &[u8]) -> Option<&Project<'a>> {
+        let project = match alias {
+            b"" => project,
+            alias => self.library(project, alias)?,
+        };
+        Some(&self.projects[project as usize])
+    }
+
+    /// The datum of a name in a project; index in [`Self::data`].
+    pub(super) fn datum(&self, project: u32, alias: &[u8], name: &[u8]) -> Option<u32> {
+        self.named(project, alias)?.data.get(name).copied()
+    }
+
+    /// The program of a name in a project; index in [`Self::programs`].
+    pub(super) fn program(&self, project: u32, alias: &[u8], name: &[u8]) -> Option<u32> {
+        self.named(project, alias)?.programs.get(name).copied()
     }
 
     /// The project that an alias of another means; `None` where it is not in the files.
@@ -264,7 +279,7 @@ impl<'a> World<'a> {
 }
 
 /// The programs of a file.
-fn programs(bytes: &[u8], file: u32) -> Result<Vec<Program<'_>>, Fault> {
+fn programs(bytes: &[u8], project: u32, file: u32) -> Result<Vec<Program<'_>>, Fault> {
     let mut found: Vec<Program> = Vec::new();
     let mut nodes = Nodes::of(bytes);
     let mut code = None;
@@ -272,9 +287,9 @@ fn programs(bytes: &[u8], file: u32) -> Result<Vec<Program<'_>>, Fault> {
         match node {
             Node::Open(tag) => match tag.name {
                 b"Program" | b"program" => {
-                    let name = tag.attribute(b"name")?;
                     found.push(Program {
-                        name: name.map_or(b"", |name| name.value),
+                        name: tag.value(b"name")?,
+                        project,
                         file,
                         at: short(tag.at),
                         declared: Vec::new(),
@@ -283,19 +298,16 @@ fn programs(bytes: &[u8], file: u32) -> Result<Vec<Program<'_>>, Fault> {
                     });
                 }
                 b"Parameter" | b"param" | b"Local" | b"local" => {
-                    let attributes = tag.attributes()?;
-                    let value = |name: &[u8]| {
-                        let found = attributes.iter().find(|one| one.name == name);
-                        found.map_or(&b""[..], |one| one.value)
-                    };
                     let is_parameter = matches!(tag.name, b"Parameter" | b"param");
+                    let mut attributes = tag.attributes();
                     let declared = Declared {
-                        name: value(b"name"),
-                        kind: Kind::of(value(b"type")),
+                        name: tag.value(b"name")?,
+                        kind: Kind::of(tag.value(b"type")?),
                         is_parameter,
                         by_reference: is_parameter
-                            && (value(b"use") == b"reference" || value(b"byVal") == b"false"),
-                        is_array: attributes.iter().any(|one| one.value == b"array"),
+                            && (tag.value(b"use")? == b"reference"
+                                || tag.value(b"byVal")? == b"false"),
+                        is_array: attributes.any(|one| one.is_ok_and(|one| one.value == b"array")),
                     };
                     if let Some(program) = found.last_mut() {
                         program.declared.push(declared);

@@ -1,6 +1,5 @@
 //! What is wrong with targets, frames and moves, in words.
 
-use crate::finding::Severity;
 use crate::program::script::Remark;
 
 /// A target that the files do not have.
@@ -14,15 +13,12 @@ pub(super) fn not_in_files(name: &str) -> Remark {
 
 /// A target that only the running program knows.
 pub(super) fn computed() -> Remark {
-    Remark {
-        severity: Severity::Warning,
-        ..Remark::error(
-            "computed-target",
-            "the position that this move goes to is known at run time only; the move stays as it \
-             is",
-            "move to a point of the .dtx where it must be exact",
-        )
-    }
+    Remark::warning(
+        "computed-target",
+        "the position that this move goes to is known at run time only; the move stays as it \
+         is",
+        "move to a point of the .dtx where it must be exact",
+    )
 }
 
 /// A declared point without numbers.
@@ -64,14 +60,11 @@ pub(super) fn frame_chosen() -> Remark {
 
 /// A path that the running program alters.
 pub(super) fn altered() -> Remark {
-    Remark {
-        severity: Severity::Warning,
-        ..Remark::error(
-            "corrected-by-sensor",
-            "the running program alters this path (alter)",
-            "the correction of the target goes with it: look at the first part",
-        )
-    }
+    Remark::warning(
+        "corrected-by-sensor",
+        "the running program alters this path (alter)",
+        "the correction of the target goes with it: look at the first part",
+    )
 }
 
 /// Another kind of move.
@@ -85,15 +78,12 @@ pub(super) fn move_not_known(name: &str) -> Remark {
 
 /// A library that is loaded while the program runs.
 pub(super) fn library(name: &str) -> Remark {
-    Remark {
-        severity: Severity::Warning,
-        ..Remark::error(
-            "library-at-run-time",
-            format!(
-                "{name} is loaded while the program runs: its data are taken to be those of the \
-                 files"
-            ),
-            "give the project that is loaded too, or keep its points out of the path",
-        )
-    }
+    Remark::warning(
+        "library-at-run-time",
+        format!(
+            "{name} is loaded while the program runs: its data are taken to be those of the \
+             files"
+        ),
+        "give the project that is loaded too, or keep its points out of the path",
+    )
 }

@@ -1,67 +1,52 @@
-//! Points, joints, tools and frames: what a name in the code is, and what it holds.
+//! Points, joints, tools: what a name in the code is, and what it holds.
 
-use super::data::{Datum, Father, Kind};
-use super::line::{Index, Line, Reference};
-use super::project::World;
+use super::code::Reference;
+use super::data::{Datum, Element, Father, Kind};
+use super::project::{Declared, World};
 use super::reader::Reader;
-use super::remarks::{computed, frame_chosen, not_in_files, not_taught, other_arm};
+use super::remarks::{altered, computed, frame_chosen, not_in_files, not_taught, other_arm};
 use crate::geometry::Pose;
 use crate::program::script::{
-    Builder, Expr, Held, Place as At, Remark, RoutineId, Table, TableId, ValueId, Variable,
-    VariableId, short,
+    Builder, Expr, Held, Place, Remark, RoutineId, TableId, ValueId, Variable, VariableId, Written,
+    short,
 };
+use crate::program::words::Words;
 use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
-use foldhash::HashMap;
+use foldhash::{HashMap, HashSet};
 
-/// What a name is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
-    /// Of the program itself.
-    Local,
-    /// Of a project: index in [`World::data`].
-    Datum(u32),
-    Missing,
-}
-
-/// What is written or read by a name.
-#[derive(Clone, Debug)]
-pub(super) enum Slot {
-    One(VariableId),
-    /// Only the running program knows which one.
-    Any(TableId),
-    Nothing(Remark),
-}
-
-/// A parameter of a program.
+/// What a name is: its values are the entries of a table.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Parameter {
-    pub variable: VariableId,
-    pub by_reference: bool,
-    pub is_array: bool,
+pub(super) struct Known {
+    pub kind: Kind,
+    table: TableId,
+    pub of: Of,
 }
 
-/// A name of a program's own.
-#[derive(Debug)]
-struct Local {
-    kind: Kind,
-    routine: RoutineId,
-    table: TableId,
+/// What a name belongs to.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Of {
+    /// A program.
+    Program(RoutineId),
+    /// A project: index in [`World::data`].
+    Project(u32),
 }
 
 /// Variables of the script.
 #[derive(Debug, Default)]
 pub(super) struct Variables<'a> {
+    /// The table of each datum.
+    tables: Vec<TableId>,
     /// The target of each value of each datum.
     targets: Vec<Vec<Option<TargetId>>>,
-    /// By datum and key.
-    elements: HashMap<(u32, &'a [u8]), VariableId>,
-    /// The value of a datum that a variable is declared with.
-    pub declared: HashMap<VariableId, (u32, usize)>,
-    tables: HashMap<u32, TableId>,
-    any: HashMap<u32, (Expr, Vec<VariableId>)>,
-    locals: HashMap<(RoutineId, &'a [u8]), Local>,
-    local_elements: HashMap<(TableId, &'a [u8]), VariableId>,
-    parameters: HashMap<(RoutineId, usize), Parameter>,
+    /// Where the points of the data hang, by target: project and father.
+    pub fathers: Vec<(u32, Father<'a>)>,
+    locals: HashMap<(RoutineId, &'a [u8]), Known>,
+    /// By table and key.
+    elements: HashMap<(TableId, &'a [u8]), VariableId>,
+    /// Tables that have all their values.
+    filled: HashSet<TableId>,
+    /// Any value of a table.
+    any: HashMap<TableId, Expr>,
     /// Work frames by project and name, and what they are.
     pub frames: HashMap<(u32, Father<'a>), Expr>,
     /// Configuration data count.
@@ -78,95 +63,42 @@ pub(super) fn pose_of(numbers: &[Number; 6]) -> Pose {
 /// `appro` and `compose` in each other.
 const DEEPEST: u32 = 32;
 
-fn new_table(builder: &mut Builder, name: &[u8]) -> TableId {
-    builder.script.tables.push(Table {
-        name: Source::text(name).into(),
-        ..Table::default()
-    });
-    short(builder.script.tables.len() - 1)
-}
-
 impl<'a> Variables<'a> {
     pub(super) fn of(builder: &mut Builder, world: &World<'a>) -> Self {
-        let altered = builder.script.remark(super::remarks::altered());
-        let altered = Expr::Value(builder.script.value(Held::Remark(altered)));
-        let nowhere = At { file: 0, offset: 0 };
-        let altered = builder
-            .script
-            .variable(Variable::new("alter", nowhere, altered));
-        builder.script.guards.push([altered].into());
+        let script = &mut builder.script;
+        let remark = script.remark(altered());
+        let altered = script.held(Held::Remark(remark));
+        let nowhere = Place { file: 0, offset: 0 };
+        let altered = script.variable(Variable::new("alter", nowhere, altered));
+        script.guards.push([altered].into());
         let mut variables = Self {
-            honoured: builder.script.value(Held::Flag(true)),
-            altered: short(builder.script.guards.len() - 1),
+            honoured: script.value(Held::Flag(true)),
+            altered: short(script.guards.len() - 1),
             ..Self::default()
         };
         for datum in &world.data {
-            let targets = datum.elements.iter().enumerate();
-            let targets = targets.map(|(at, _)| target_of(builder, datum, at));
+            let table = builder.script.table(Source::text(datum.name));
+            variables.tables.push(table);
+            let targets = (0..datum.elements.len()).map(|at| {
+                let target = target_of(builder, datum, at)?;
+                let father = (datum.project, datum.elements[at].father);
+                variables.fathers.push(father);
+                Some(target)
+            });
             variables.targets.push(targets.collect());
         }
         for (routine, program) in world.programs.iter().enumerate() {
-            let mut number = 0;
+            let routine = short(routine);
             for declared in &program.declared {
-                let table = new_table(builder, declared.name);
-                let local = Local {
+                let known = Known {
                     kind: declared.kind,
-                    routine: short(routine),
-                    table,
+                    table: builder.script.table(Source::text(declared.name)),
+                    of: Of::Program(routine),
                 };
-                let place = At {
-                    file: program.file,
-                    offset: program.at,
-                };
-                if declared.is_parameter {
-                    let variable = variables.local_element(builder, &local, b"0", place);
-                    let parameter = Parameter {
-                        variable,
-                        by_reference: declared.by_reference,
-                        is_array: declared.is_array,
-                    };
-                    variables
-                        .parameters
-                        .insert((local.routine, number), parameter);
-                    number += 1;
-                }
-                variables
-                    .locals
-                    .insert((local.routine, declared.name), local);
+                variables.locals.insert((routine, declared.name), known);
             }
         }
         variables
-    }
-
-    /// What the callers of a program give as its argument of this number.
-    pub(super) fn parameter(&self, routine: RoutineId, number: usize) -> Option<Parameter> {
-        self.parameters.get(&(routine, number)).copied()
-    }
-
-    fn local_element(
-        &mut self,
-        builder: &mut Builder,
-        local: &Local,
-        key: &'a [u8],
-        place: At,
-    ) -> VariableId {
-        if let Some(known) = self.local_elements.get(&(local.table, key)) {
-            return *known;
-        }
-        let script = &mut builder.script;
-        let declared = Expr::Unknown(script.remark(match local.kind {
-            Kind::Tool => frame_chosen(),
-            _ => computed(),
-        }));
-        let name = script.tables[local.table as usize].name.clone();
-        let made = script.variable(Variable {
-            routine: Some(local.routine),
-            ..Variable::new(name, place, declared)
-        });
-        let entries = &mut script.tables[local.table as usize].entries;
-        entries.insert(i64::try_from(entries.len()).expect("few"), made);
-        self.local_elements.insert((local.table, key), made);
-        made
     }
 }
 
@@ -176,251 +108,254 @@ fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId
     if !datum.kind.is_place() || !element.is_given {
         return None;
     }
-    let mut numbers = element.numbers.to_vec();
-    let mut variant = 0;
-    let shape = match datum.kind {
-        Kind::Joint => Shape::Joints,
-        _ => Shape::Pose,
-    };
-    if shape == Shape::Pose {
-        for (side, given) in element.sides.iter().enumerate() {
-            numbers.extend(given);
-            variant |=
-                u8::from(given.is_some()) << side | u8::from(element.free[side]) << (3 + side);
-        }
-    }
+    let is_point = datum.kind == Kind::Point;
+    let sides = element.sides.iter().filter(|_| is_point);
+    let variant = (0..3).filter(|_| is_point).map(|side| {
+        u8::from(element.sides[side].is_some()) << side | u8::from(element.free[side]) << (3 + side)
+    });
     let target = Target {
         name: Some(datum.name_of(at).into()),
         file: datum.file,
         offset: element.at,
         end: element.end,
-        layout: Layout { shape, variant },
+        layout: Layout {
+            shape: if is_point { Shape::Pose } else { Shape::Joints },
+            variant: variant.sum(),
+        },
         numbers: 0..0,
         blocked: false,
     };
-    Some(builder.script.target(target, numbers))
+    let numbers = element.numbers.iter().chain(sides.flatten());
+    Some(builder.script.target(target, numbers.copied()))
 }
 
 impl<'a> Reader<'a> {
-    /// What a name is where it is used.
-    pub(super) fn meaning(&self, name: &Reference<'a>) -> Place {
-        let own = name.alias.is_empty();
+    /// What a name is where it is used; `None` where the files do not have it.
+    pub(super) fn meaning(&self, name: &Reference<'a>) -> Option<Known> {
         let local = (self.here.routine, name.name);
-        if own && self.variables.locals.contains_key(&local) {
-            return Place::Local;
+        let local = self.variables.locals.get(&local);
+        if let Some(known) = local.filter(|_| name.alias.is_empty()) {
+            return Some(*known);
         }
-        let project = if own {
-            Some(self.here.project)
-        } else {
-            self.world.library(self.here.project, name.alias)
-        };
-        let datum = project.and_then(|project| {
-            let data = &self.world.projects[project as usize].data;
-            data.get(name.name)
-        });
-        datum.map_or(Place::Missing, |datum| Place::Datum(*datum))
+        let datum = self.world.datum(self.here.project, name.alias, name.name)?;
+        Some(Known {
+            kind: self.world.data[datum as usize].kind,
+            table: self.variables.tables[datum as usize],
+            of: Of::Project(datum),
+        })
     }
 
     pub(super) fn kind_of(&self, name: &Reference<'a>) -> Kind {
         match self.meaning(name) {
-            Place::Local => self.variables.locals[&(self.here.routine, name.name)].kind,
-            Place::Datum(datum) => self.world.data[datum as usize].kind,
-            Place::Missing if name.name == b"flange" => Kind::Tool,
-            Place::Missing => Kind::Other,
+            Some(known) => known.kind,
+            None if name.name == b"flange" => Kind::Tool,
+            None => Kind::Other,
         }
     }
 
-    /// What a name reads or writes.
-    pub(super) fn slot(&mut self, name: &Reference<'a>) -> Slot {
-        let key = match name.index {
-            Index::None => Some(&b"0"[..]),
-            Index::Key(key) => Some(key),
-            Index::Any => None,
+    /// The value of this kind that words name, where nothing changes it.
+    pub(super) fn constant(&self, words: Words<'a, '_>, kind: Kind) -> Option<&Element<'a>> {
+        let name = Reference::of(words).filter(|name| !name.has_field)?;
+        let known = self.meaning(&name).filter(|known| known.kind == kind)?;
+        let Of::Project(datum) = known.of else {
+            return None;
         };
-        match self.meaning(name) {
-            Place::Local => {
-                let place = self.place(0);
-                let local = &self.variables.locals[&(self.here.routine, name.name)];
-                let local = Local { ..*local };
-                match key {
-                    Some(key) => {
-                        let builder = &mut self.builder;
-                        let made = self.variables.local_element(builder, &local, key, place);
-                        Slot::One(made)
-                    }
-                    None => Slot::Any(local.table),
+        let of = &self.world.data[datum as usize];
+        let at = of.element(name.key?)?;
+        (!self.assigned.contains(&datum)).then(|| &of.elements[at])
+    }
+
+    /// A parameter of a program by its number.
+    pub(super) fn parameter(&self, routine: RoutineId, number: usize) -> Option<Declared<'a>> {
+        let declared = self.world.programs[routine as usize].declared.iter();
+        declared.filter(|one| one.is_parameter).nth(number).copied()
+    }
+
+    /// The variable of a name of a program's own.
+    pub(super) fn local(&mut self, routine: RoutineId, name: &'a [u8]) -> VariableId {
+        let known = self.variables.locals[&(routine, name)];
+        self.element(known, b"0")
+    }
+
+    /// The variable of a value.
+    fn element(&mut self, known: Known, key: &'a [u8]) -> VariableId {
+        if let Some(made) = self.variables.elements.get(&(known.table, key)) {
+            return *made;
+        }
+        let variable = match known.of {
+            Of::Project(datum) => self.declared(datum, key),
+            Of::Program(routine) => {
+                let program = &self.world.programs[routine as usize];
+                let place = Place {
+                    file: program.file,
+                    offset: program.at,
+                };
+                let script = &mut self.builder.script;
+                let name = script.tables[known.table as usize].name.clone();
+                let declared = script.unknown(unknown_value(known.kind));
+                Variable {
+                    routine: Some(routine),
+                    ..Variable::new(name, place, declared)
                 }
             }
-            Place::Datum(datum) => match key {
-                Some(key) => Slot::One(self.element(datum, key)),
-                None => Slot::Any(self.table(datum)),
-            },
-            Place::Missing => {
-                let alias = Source::text(name.alias);
-                let colon = if alias.is_empty() { "" } else { ":" };
-                let name = format!("{alias}{colon}{}", Source::text(name.name));
-                Slot::Nothing(not_in_files(&name))
-            }
-        }
+        };
+        let script = &mut self.builder.script;
+        let made = script.variable(variable);
+        script.enter(known.table, made);
+        self.variables.elements.insert((known.table, key), made);
+        made
     }
 
-    /// The variables that a name may be, as far as they are known.
-    pub(super) fn variables_of(&mut self, name: &Reference<'a>) -> Vec<VariableId> {
-        match self.slot(name) {
-            Slot::One(variable) => vec![variable],
-            Slot::Any(table) => {
-                let entries = &self.builder.script.tables[table as usize].entries;
-                entries.values().copied().collect()
-            }
-            Slot::Nothing(_) => Vec::new(),
-        }
-    }
-
-    /// The variable of a value of a project.
-    fn element(&mut self, datum: u32, key: &'a [u8]) -> VariableId {
-        if let Some(known) = self.variables.elements.get(&(datum, key)) {
-            return *known;
-        }
+    /// A value of a project.
+    fn declared(&mut self, datum: u32, key: &[u8]) -> Variable {
         let of = &self.world.data[datum as usize];
         let at = of.element(key);
         let name = match at {
             Some(at) => of.name_of(at),
             None => format!("{}[{}]", Source::text(of.name), Source::text(key)),
         };
-        let place = At {
+        let place = Place {
             file: of.file,
             offset: of.at,
         };
+        let target = at.and_then(|at| self.variables.targets[datum as usize][at]);
         let declared = match (of.kind, at) {
             (Kind::Tool, Some(at)) => self.tool_value(datum, at, &name),
-            (Kind::Tool, None) => self.unknown_frame(&name),
+            (Kind::Tool, None) => self.frame_value(&name, None),
             (Kind::OtherArm, _) => self.unknown(other_arm(&name)),
-            (_, at) => match at.and_then(|at| self.variables.targets[datum as usize][at]) {
+            _ => match target {
                 Some(target) => Expr::Target(target),
                 None => self.unknown(not_taught(&name)),
             },
         };
         // the controller keeps data as long as the project is loaded
-        let made = self.builder.script.variable(Variable {
+        Variable {
             kept: true,
             ..Variable::new(name, place, declared)
-        });
-        self.variables.elements.insert((datum, key), made);
-        if let Some(at) = at {
-            self.variables.declared.insert(made, (datum, at));
         }
-        if let Some(table) = self.variables.tables.get(&datum) {
-            let entries = &mut self.builder.script.tables[*table as usize].entries;
-            entries.insert(i64::try_from(entries.len()).expect("few"), made);
-        }
-        made
     }
 
-    fn table(&mut self, datum: u32) -> TableId {
-        if let Some(known) = self.variables.tables.get(&datum) {
-            return *known;
+    /// The table of a name with all its values in it.
+    fn all(&mut self, known: Known) -> TableId {
+        if let Of::Project(datum) = known.of
+            && self.variables.filled.insert(known.table)
+        {
+            for at in 0..self.world.data[datum as usize].elements.len() {
+                let key = self.world.data[datum as usize].elements[at].key;
+                self.element(known, key);
+            }
         }
-        let name = self.world.data[datum as usize].name;
-        let made = new_table(&mut self.builder, name);
-        let keys: Vec<&[u8]> = self.world.data[datum as usize]
-            .elements
-            .iter()
-            .map(|element| element.key)
-            .collect();
-        let known: Vec<VariableId> = keys.iter().map(|key| self.element(datum, key)).collect();
-        let more = self.variables.elements.iter();
-        let more = more.filter(|((of, key), _)| *of == datum && !keys.contains(key));
-        let mut more: Vec<VariableId> = more.map(|(_, variable)| *variable).collect();
-        more.sort_unstable();
-        let entries = (0..).zip(known.into_iter().chain(more)).collect();
-        self.builder.script.tables[made as usize].entries = entries;
-        self.variables.tables.insert(datum, made);
-        made
+        known.table
+    }
+
+    /// What a name writes; why none where the files do not have it.
+    pub(super) fn written_by(&mut self, name: &Reference<'a>) -> Result<Written, Remark> {
+        match (self.meaning(name), name.key) {
+            (Some(known), Some(key)) => Ok(Written::One(self.element(known, key))),
+            (Some(known), None) => Ok(Written::AnyOf(self.all(known))),
+            (None, _) => {
+                let alias = Source::text(name.alias);
+                let colon = if alias.is_empty() { "" } else { ":" };
+                let name = format!("{alias}{colon}{}", Source::text(name.name));
+                Err(not_in_files(&name))
+            }
+        }
+    }
+
+    /// The variables that a name may be, as far as they are known.
+    pub(super) fn variables_of(&mut self, name: &Reference<'a>) -> Vec<VariableId> {
+        match self.written_by(name) {
+            Ok(Written::One(variable)) => vec![variable],
+            Ok(Written::AnyOf(table)) => {
+                let entries = &self.builder.script.tables[table as usize].entries;
+                entries.values().copied().collect()
+            }
+            Err(_) => Vec::new(),
+        }
     }
 
     pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
-        Expr::Unknown(self.builder.script.remark(remark))
+        self.builder.script.unknown(remark)
     }
 
-    /// Any value of a name, and the variables that it may be.
-    fn any(&mut self, name: &Reference<'a>) -> (Expr, Vec<VariableId>) {
-        let Place::Datum(datum) = self.meaning(name) else {
-            let remark = match self.kind_of(name) {
-                Kind::Tool => frame_chosen(),
-                _ => computed(),
-            };
-            return (self.unknown(remark), Vec::new());
+    /// What a name holds.
+    pub(super) fn named(&mut self, name: &Reference<'a>) -> Expr {
+        let is_own = |known: &Known| matches!(known.of, Of::Program(_));
+        if let Some(own) = self.meaning(name).filter(is_own)
+            && name.key.is_none()
+        {
+            return self.unknown(unknown_value(own.kind));
+        }
+        let table = match self.written_by(name) {
+            Ok(Written::One(variable)) => return Expr::Variable(variable),
+            Ok(Written::AnyOf(table)) => table,
+            Err(remark) => return self.unknown(remark),
         };
-        if let Some(known) = self.variables.any.get(&datum) {
-            return known.clone();
-        }
-        let table = self.table(datum);
         let script = &mut self.builder.script;
-        let entries = script.tables[table as usize].entries.values();
-        let all: Vec<VariableId> = entries.copied().collect();
-        let made = script.any(all.iter().map(|variable| Expr::Variable(*variable)));
-        self.variables.any.insert(datum, (made, all.clone()));
-        (made, all)
-    }
-
-    /// What a name holds, and the variables that it may be.
-    pub(super) fn named(&mut self, name: &Reference<'a>) -> (Expr, Vec<VariableId>) {
-        match self.slot(name) {
-            Slot::One(variable) => (Expr::Variable(variable), vec![variable]),
-            Slot::Any(_) => self.any(name),
-            Slot::Nothing(remark) => (self.unknown(remark), Vec::new()),
-        }
+        *self.variables.any.entry(table).or_insert_with(|| {
+            let all = script.tables[table as usize].entries.values();
+            let all: Vec<Expr> = all.map(|one| Expr::Variable(*one)).collect();
+            script.any(all)
+        })
     }
 
     // ---- positions
 
-    /// Where a move goes, or what is written; and the variables that its points are of.
-    pub(super) fn position(&mut self, text: &Line<'a, '_>) -> (Expr, Vec<VariableId>) {
-        self.position_within(text, 0)
+    /// The variables that an expression is of.
+    pub(super) fn roots(&self, of: Expr) -> Vec<VariableId> {
+        let script = &self.builder.script;
+        match of {
+            Expr::Variable(variable) => vec![variable],
+            Expr::Displaced { base, .. } => self.roots(script.lists[base as usize]),
+            Expr::Any { first, end } => {
+                let all = &script.lists[first as usize..end as usize];
+                all.iter().flat_map(|one| self.roots(*one)).collect()
+            }
+            _ => Vec::new(),
+        }
     }
 
-    fn position_within(&mut self, text: &Line<'a, '_>, depth: u32) -> (Expr, Vec<VariableId>) {
-        let is_call = text.is_name(0) && text.is(1, b'(');
-        if is_call && depth < DEEPEST {
-            let (arguments, close) = text.list(1);
-            if close + 1 == text.tokens.len() {
-                match (text.text(0), &arguments[..]) {
-                    (b"here" | b"herej", _) => return (self.value(Held::Actual), Vec::new()),
-                    (b"appro", [point, by]) => {
-                        let (base, of) = self.position_within(point, depth + 1);
-                        let by = self.transformation(by).map(|in_tool| Shift {
-                            in_frame: Pose::identity(),
-                            in_tool,
-                        });
-                        return (self.displaced(base, by), of);
-                    }
-                    (b"compose", [point, frame, by]) => {
-                        let (base, of) = self.position_within(point, depth + 1);
-                        let by = self.transformation(by);
-                        let by = by.and_then(|by| self.composed(&of, frame, by));
-                        return (self.displaced(base, by), of);
-                    }
-                    _ => {}
-                }
+    /// Where a move goes, or what is written.
+    pub(super) fn position(&mut self, words: Words<'a, '_>) -> Expr {
+        self.position_within(words, 0)
+    }
+
+    fn position_within(&mut self, words: Words<'a, '_>, depth: u32) -> Expr {
+        let is_call = words.is_name(0) && words.is(1, b'(') && depth < DEEPEST;
+        let arguments = if is_call { words.rest_list(1) } else { None };
+        match (words.text(0), arguments.as_deref()) {
+            (b"here" | b"herej", Some(_)) => self.builder.script.held(Held::Actual),
+            (b"appro", Some([point, by])) => {
+                let base = self.position_within(*point, depth + 1);
+                let by = self.transformation(*by).map(|in_tool| Shift {
+                    in_frame: Pose::identity(),
+                    in_tool,
+                });
+                self.displaced(base, by)
             }
-        }
-        match text.reference(0) {
-            Some(name) if name.words == text.tokens.len() && !name.has_field => self.named(&name),
-            _ => (self.unknown(computed()), Vec::new()),
+            (b"compose", Some([point, frame, by])) => {
+                let base = self.position_within(*point, depth + 1);
+                let by = self.transformation(*by);
+                let by = by.and_then(|by| self.composed(base, *frame, by));
+                self.displaced(base, by)
+            }
+            _ => match Reference::whole(words) {
+                Some(name) => self.named(&name),
+                None => self.unknown(computed()),
+            },
         }
     }
 
     /// Joints that are written out: `{0,-20,110,0,90,0}`.
-    pub(super) fn joints(&mut self, text: &Line<'a, '_>) -> Option<Expr> {
-        let (parts, close) = text.list(0);
-        let is_whole = text.is(0, b'{') && close + 1 == text.tokens.len();
-        let numbers: Option<Vec<Number>> = parts.iter().map(Line::number).collect();
-        let numbers: [Number; 6] = numbers.filter(|_| is_whole)?.try_into().ok()?;
+    pub(super) fn joints(&mut self, words: Words<'a, '_>) -> Option<Expr> {
+        let parts = words.rest_list(0).filter(|_| words.is(0, b'{'))?;
+        let numbers: Option<Vec<Number>> = parts.iter().map(Words::number).collect();
+        let numbers: [Number; 6] = numbers?.try_into().ok()?;
         let target = Target {
             name: None,
             file: self.here.file,
-            offset: short(text.tokens[0].start),
-            end: short(text.tokens[close].end),
+            offset: short(words.span().start),
+            end: short(words.span().end),
             layout: Layout {
                 shape: Shape::Joints,
                 variant: 0,
@@ -439,26 +374,21 @@ impl<'a> Reader<'a> {
     }
 
     /// A transformation with numbers: written out, or a `trsf` that nothing changes.
-    fn transformation(&self, text: &Line<'a, '_>) -> Option<Pose> {
-        if text.is(0, b'{') {
-            let (parts, _) = text.list(0);
-            let number = |part: &Line| part.number().map(|number| number.value);
-            let numbers: Option<Vec<f64>> = parts.iter().map(number).collect();
-            let numbers: [f64; 6] = numbers?.try_into().ok()?;
-            return Some(super::pose_of(numbers));
+    fn transformation(&self, words: Words<'a, '_>) -> Option<Pose> {
+        if words.is(0, b'{') {
+            let parts = words.inside(0).0.list();
+            let numbers: Option<Vec<f64>> = parts.iter().map(Words::value).collect();
+            return Some(super::pose_of(numbers?.try_into().ok()?));
         }
-        let name = text.reference(0).filter(|name| !name.has_field)?;
-        let Place::Datum(datum) = self.meaning(&name) else {
-            return None;
-        };
-        let of = &self.world.data[datum as usize];
-        let key = match name.index {
-            Index::None => b"0",
-            Index::Key(key) => key,
-            Index::Any => return None,
-        };
-        let is_constant = of.kind == Kind::Trsf && !self.assigned.contains(&datum);
-        let at = of.element(key).filter(|_| is_constant)?;
-        Some(pose_of(&of.elements[at].numbers))
+        let found = self.constant(words, Kind::Trsf)?;
+        Some(pose_of(&found.numbers))
+    }
+}
+
+/// Why nobody knows what a program's own name holds.
+fn unknown_value(kind: Kind) -> Remark {
+    match kind {
+        Kind::Tool => frame_chosen(),
+        _ => computed(),
     }
 }

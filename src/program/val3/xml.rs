@@ -1,9 +1,9 @@
 //! Elements of a project's files, one after another, with the bytes where they stand.
 
 use crate::program::kit::{Fault, content_start};
-use crate::program::script::short;
 use crate::program::{Number, number};
 use quick_xml::events::{BytesStart, Event};
+use quick_xml::name::QName;
 use quick_xml::reader::Reader;
 
 /// A tag that opens an element, or is all of it.
@@ -35,45 +35,47 @@ pub(super) struct Attribute<'a> {
 impl Attribute<'_> {
     /// The number in it.
     pub(super) fn number(&self) -> Result<Number, Fault> {
-        let blanks = self.value.len() - self.value.trim_ascii_start().len();
         let text = self.value.trim_ascii();
-        let start = self.start + blanks;
-        match (number::parse(text), u16::try_from(text.len())) {
-            (Some(value), Ok(length)) => Ok(Number {
-                start: short(start),
-                length,
-                value,
-            }),
-            _ => Err(Fault::unexpected(start..start + text.len(), "a number")),
-        }
+        let start = self.start + self.value.len() - self.value.trim_ascii_start().len();
+        let fault = || Fault::unexpected(start..start + text.len(), "a number");
+        number::placed(text, start).ok_or_else(fault)
     }
 }
 
 impl<'a> Tag<'a> {
-    /// Its attributes in their order.
-    pub(super) fn attributes(&self) -> Result<Vec<Attribute<'a>>, Fault> {
-        let fault = || Fault::unexpected(self.at..self.end, "a tag with name=\"value\"");
-        let mut found = Vec::with_capacity(12);
-        for attribute in self.start.attributes() {
-            let attribute = attribute.map_err(|_| fault())?;
-            let start = offset_in(self.bytes, &attribute.value);
-            // `xsi:type` is another than `type`
-            let key = attribute.key;
-            let name = offset_in(self.bytes, key.as_ref());
-            found.push(Attribute {
-                name: &self.bytes[name..name + key.as_ref().len()],
-                value: &self.bytes[start..start + attribute.value.len()],
+    /// Its attributes in their order; `xsi:type` is another than `type`.
+    pub(super) fn attributes(&self) -> impl Iterator<Item = Result<Attribute<'a>, Fault>> {
+        let content = self.at + 1;
+        let part = move |part: &[u8]| {
+            let at = content + (part.as_ptr() as usize - self.start.as_ptr() as usize);
+            (at, &self.bytes[at..at + part.len()])
+        };
+        self.start.attributes().map(move |attribute| {
+            let fault = |_| Fault::unexpected(self.at..self.end, "a tag with name=\"value\"");
+            let attribute = attribute.map_err(fault)?;
+            let (start, value) = part(&attribute.value);
+            Ok(Attribute {
+                name: part(attribute.key.as_ref()).1,
+                value,
                 start,
-                end: start + attribute.value.len() + 1,
-            });
+                end: start + value.len() + 1,
+            })
+        })
+    }
+
+    /// One of them.
+    pub(super) fn attribute(&self, name: &[u8]) -> Result<Option<Attribute<'a>>, Fault> {
+        let mut found = None;
+        for one in self.attributes() {
+            let one = one?;
+            found = found.or(Some(one).filter(|one| one.name == name));
         }
         Ok(found)
     }
 
-    /// The value of one.
-    pub(super) fn attribute(&self, name: &[u8]) -> Result<Option<Attribute<'a>>, Fault> {
-        let all = self.attributes()?;
-        Ok(all.into_iter().find(|one| one.name == name))
+    /// Its value; nothing where there is none.
+    pub(super) fn value(&self, name: &[u8]) -> Result<&'a [u8], Fault> {
+        Ok(self.attribute(name)?.map_or(b"", |one| one.value))
     }
 
     /// Behind its name.
@@ -101,11 +103,6 @@ pub(super) struct Nodes<'a> {
 /// Elements in each other: a project has six.
 const DEEPEST: usize = 64;
 
-/// Where a part of some bytes begins in them.
-fn offset_in(bytes: &[u8], part: &[u8]) -> usize {
-    part.as_ptr() as usize - bytes.as_ptr() as usize
-}
-
 impl<'a> Nodes<'a> {
     pub(super) fn of(bytes: &'a [u8]) -> Self {
         Self {
@@ -115,51 +112,47 @@ impl<'a> Nodes<'a> {
         }
     }
 
-    fn tag(&self, start: BytesStart<'a>, is_empty: bool) -> Tag<'a> {
-        let bytes = self.bytes;
-        let local = start.local_name();
-        let name = offset_in(bytes, local.as_ref());
-        let name = &bytes[name..name + local.as_ref().len()];
-        let inside = offset_in(bytes, &start);
-        let end = inside + start.len() + 1 + usize::from(is_empty);
-        Tag {
-            bytes,
-            name,
-            at: inside - 1,
-            end,
-            is_empty,
-            start,
-        }
+    /// Where the reader is.
+    fn place(&self, position: u64) -> usize {
+        let place = usize::try_from(position).unwrap_or(self.bytes.len());
+        (content_start(self.bytes) + place).min(self.bytes.len())
+    }
+
+    /// A name at a byte without its prefix.
+    fn local(&self, at: usize, name: QName) -> &'a [u8] {
+        let end = at + name.as_ref().len();
+        &self.bytes[end - name.local_name().as_ref().len()..end]
     }
 
     /// The next tag; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<Node<'a>>, Fault> {
         loop {
+            let at = self.place(self.reader.buffer_position());
             let event = self.reader.read_event().map_err(|_| {
-                let at = usize::try_from(self.reader.error_position()).unwrap_or(0);
-                let at = (at + content_start(self.bytes)).min(self.bytes.len());
+                let at = self.place(self.reader.error_position());
                 Fault::unexpected(at..self.bytes.len().min(at + 40), "well-formed XML")
             })?;
+            let end = self.place(self.reader.buffer_position());
+            let is_empty = matches!(event, Event::Empty(_));
             match event {
-                Event::Start(start) => {
-                    let tag = self.tag(start, false);
-                    self.depth += 1;
+                Event::Start(start) | Event::Empty(start) => {
+                    self.depth += usize::from(!is_empty);
                     if self.depth > DEEPEST {
-                        return Err(Fault::unexpected(tag.at..tag.end, "an element less deep"));
+                        return Err(Fault::unexpected(at..end, "an element less deep"));
                     }
-                    return Ok(Some(Node::Open(tag)));
+                    return Ok(Some(Node::Open(Tag {
+                        bytes: self.bytes,
+                        name: self.local(at + 1, start.name()),
+                        at,
+                        end,
+                        is_empty,
+                        start,
+                    })));
                 }
-                Event::Empty(start) => return Ok(Some(Node::Open(self.tag(start, true)))),
-                Event::End(end) => {
+                Event::End(tag) => {
                     self.depth -= 1;
-                    let whole = end.name();
-                    let at = offset_in(self.bytes, whole.as_ref()) - 2;
-                    let local = end.local_name();
-                    let name = offset_in(self.bytes, local.as_ref());
-                    let name = &self.bytes[name..name + local.as_ref().len()];
-                    let rest = &self.bytes[at..];
-                    let end = memchr::memchr(b'>', rest).map_or(rest.len(), |at| at + 1);
-                    return Ok(Some(Node::Close(name, at, at + end)));
+                    let name = self.local(at + 2, tag.name());
+                    return Ok(Some(Node::Close(name, at, end)));
                 }
                 Event::Eof if self.depth > 0 => {
                     return Err(Fault::unclosed(self.bytes.len(), "an element"));

@@ -16,7 +16,7 @@ use rs_opw_kinematics::pose::Pose as PeerPose;
 use std::path::Path;
 
 /// What the search may leave.
-const TOLERANCE_MM: f64 = 1e-6;
+pub(super) const TOLERANCE_MM: f64 = 1e-6;
 
 /// Joints that bring the controller's model to `wanted`: Newton with central differences, from
 /// joints nearby.
@@ -51,7 +51,7 @@ fn search(controller: &Model, wanted: &Pose, near: [f64; 6]) -> [f64; 6] {
 }
 
 /// The joints by an independent closed form of the IRB 120, nearest to `near`.
-fn closed_form(world_from_tool: &Pose, tool: &Mounted, near: &[f64; 6]) -> [f64; 6] {
+pub(super) fn closed_form(world_from_tool: &Pose, tool: &Mounted, near: &[f64; 6]) -> [f64; 6] {
     let flange = *world_from_tool * tool.flange_from_tool.inverse();
     let m = flange.rotation.0;
     let columns = [0, 1, 2].map(|j| DVec3::new(m[0][j], m[1][j], m[2][j]));

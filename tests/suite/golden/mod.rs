@@ -4,6 +4,7 @@
 //! difference before it is kept.
 
 mod agree;
+mod cam;
 mod landing;
 mod posts;
 

@@ -38,7 +38,7 @@ fn numbers_of_one_value_in_two_tags_are_refused() {
         /><cpValue wrist=\"wfree\" /></valuePoint>";
     for text in [values, sides] {
         let text = dtx(&format!("<point name=\"pA\">{text}</point>"));
-        let error = data_of(text.as_bytes(), 0).expect_err("two tags");
+        let error = data_of(text.as_bytes(), 0, 0).expect_err("two tags");
         assert!(
             format!("{error:?}").contains("one tag with the numbers"),
             "{error:?}"

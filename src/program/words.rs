@@ -1,0 +1,348 @@
+//! Words of statements: names, numbers, texts and signs, and lists of them in brackets.
+
+use super::script::short;
+use super::{Number, number};
+use std::ops::Range;
+
+/// What a word is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A keyword or a name.
+    Name,
+    Number,
+    /// A text, with its quotes.
+    Text,
+    /// A sign; of `==`, `<=` and the like the whole, as `~`.
+    Sign(u8),
+}
+
+/// A word, and where it stands in its file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word {
+    pub kind: Kind,
+    start: u32,
+    end: u32,
+}
+
+/// How a language writes words.
+#[derive(Debug)]
+pub(super) struct Spelling {
+    /// What a comment begins with, which ends with its line.
+    pub comment: &'static [u8],
+    /// Signs in names, besides letters, digits and bytes of 0x80 and above.
+    pub in_names: &'static [u8],
+    /// A backslash in a text takes the next sign with it.
+    pub has_escapes: bool,
+    /// Quotes and signs are entities of XML.
+    pub has_entities: bool,
+}
+
+/// Entities, and the signs that they are.
+const ENTITIES: [(&[u8], u8); 5] = [
+    (b"&quot;", b'"'),
+    (b"&lt;", b'<'),
+    (b"&gt;", b'>'),
+    (b"&amp;", b'&'),
+    (b"&apos;", b'\''),
+];
+
+impl Spelling {
+    /// Adds the words of a line, or of what is left of one; nothing is added of a comment.
+    pub(super) fn add(&self, bytes: &[u8], line: Range<usize>, found: &mut Vec<Word>) {
+        let mut at = line.start;
+        let bytes = &bytes[..line.end];
+        while let Some(&byte) = bytes.get(at) {
+            let rest = &bytes[at..];
+            if matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c | 0x1a) {
+                at += 1;
+                continue;
+            }
+            if rest.starts_with(self.comment) {
+                return;
+            }
+            let (sign, width) = self.sign(rest);
+            let (kind, length) = match sign {
+                b'"' => (Kind::Text, self.text_length(rest, width)),
+                b'0'..=b'9' | b'.' if number_length(rest) > 0 => {
+                    (Kind::Number, number_length(rest))
+                }
+                _ if self.is_in_name(byte) => {
+                    let other = rest.iter().position(|b| !self.is_in_name(*b));
+                    (Kind::Name, other.unwrap_or(rest.len()))
+                }
+                b'=' | b'!' | b'<' | b'>' if rest.get(width) == Some(&b'=') => {
+                    (Kind::Sign(b'~'), width + 1)
+                }
+                _ => (Kind::Sign(sign), width),
+            };
+            found.push(Word {
+                kind,
+                start: short(at),
+                end: short(at + length),
+            });
+            at += length;
+        }
+    }
+
+    fn is_in_name(&self, byte: u8) -> bool {
+        byte.is_ascii_alphanumeric() || byte >= 0x80 || self.in_names.contains(&byte)
+    }
+
+    /// The sign that a text begins with, and its bytes.
+    fn sign(&self, text: &[u8]) -> (u8, usize) {
+        let is_entity = self.has_entities && text[0] == b'&';
+        let known = ENTITIES.iter().filter(|_| is_entity);
+        let found = known.into_iter().find(|(name, _)| text.starts_with(name));
+        found.map_or((text[0], 1), |(name, sign)| (*sign, name.len()))
+    }
+
+    /// The bytes of a text whose first quote is that wide; one that is not closed ends with its
+    /// line.
+    fn text_length(&self, text: &[u8], quote: usize) -> usize {
+        let mut at = quote;
+        while at < text.len() {
+            let (sign, width) = self.sign(&text[at..]);
+            at += width;
+            match sign {
+                b'"' => return at,
+                b'\\' if self.has_escapes && at < text.len() => at += self.sign(&text[at..]).1,
+                _ => {}
+            }
+        }
+        text.len()
+    }
+}
+
+/// The bytes of the number that a text begins with; 0 where a name or nothing stands there.
+fn number_length(text: &[u8]) -> usize {
+    let digits = |from: usize| {
+        let digits = text[from..].iter().take_while(|b| b.is_ascii_digit());
+        from + digits.count()
+    };
+    let whole = digits(0);
+    let mut end = whole;
+    if text.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if whole == 0 && end <= 1 {
+        return 0;
+    }
+    if matches!(text.get(end), Some(b'e' | b'E')) {
+        let signed = usize::from(matches!(text.get(end + 1), Some(b'+' | b'-')));
+        let power = digits(end + 1 + signed);
+        if power > end + 1 + signed {
+            end = power;
+        }
+    }
+    let goes_on = text.get(end);
+    let is_name = goes_on.is_some_and(|b| b.is_ascii_alphabetic() || *b == b'_');
+    if is_name { 0 } else { end }
+}
+
+/// Some words of a statement, with the bytes of its file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Words<'a, 'w> {
+    pub bytes: &'a [u8],
+    pub all: &'w [Word],
+}
+
+impl<'a> Words<'a, '_> {
+    pub(super) fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// The bytes of a word; none behind the last.
+    pub(super) fn text(&self, at: usize) -> &'a [u8] {
+        self.all.get(at).map_or(b"", |word| {
+            &self.bytes[word.start as usize..word.end as usize]
+        })
+    }
+
+    pub(super) fn kind(&self, at: usize) -> Option<Kind> {
+        self.all.get(at).map(|word| word.kind)
+    }
+
+    pub(super) fn is(&self, at: usize, sign: u8) -> bool {
+        self.kind(at) == Some(Kind::Sign(sign))
+    }
+
+    pub(super) fn is_name(&self, at: usize) -> bool {
+        self.kind(at) == Some(Kind::Name)
+    }
+
+    /// Whether a word is this keyword, in any case.
+    pub(super) fn is_word(&self, at: usize, word: &[u8]) -> bool {
+        self.is_name(at) && self.text(at).eq_ignore_ascii_case(word)
+    }
+
+    /// Where a keyword stands, in any case.
+    pub(super) fn find(&self, word: &[u8]) -> Option<usize> {
+        (0..self.len()).find(|at| self.is_word(*at, word))
+    }
+
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        Self {
+            all: &self.all[range],
+            ..*self
+        }
+    }
+
+    pub(super) fn behind(&self, at: usize) -> Self {
+        self.part(at.min(self.len())..self.len())
+    }
+
+    /// First byte, and behind the last; nothing where there are no words.
+    pub(super) fn span(&self) -> Range<usize> {
+        match (self.all.first(), self.all.last()) {
+            (Some(first), Some(last)) => first.start as usize..last.end as usize,
+            _ => 0..0,
+        }
+    }
+
+    /// All from the first byte to the last.
+    pub(super) fn whole(&self) -> &'a [u8] {
+        &self.bytes[self.span()]
+    }
+
+    /// The value of the number that these words are, with its sign.
+    pub(super) fn value(&self) -> Option<f64> {
+        let is_negative = self.is(0, b'-');
+        let signs = usize::from(is_negative || self.is(0, b'+'));
+        if self.len() != signs + 1 || self.kind(signs) != Some(Kind::Number) {
+            return None;
+        }
+        let value = number::parse(self.text(signs))?;
+        Some(if is_negative { -value } else { value })
+    }
+
+    /// The number that these words are; `None` also where blanks stand behind its sign.
+    pub(super) fn number(&self) -> Option<Number> {
+        self.value()?;
+        number::placed(self.whole(), self.span().start)
+    }
+
+    /// The word that closes the bracket at one; behind the last where none does.
+    pub(super) fn closing(&self, open: usize) -> usize {
+        let mut depth = 0_usize;
+        for (at, word) in self.all.iter().enumerate().skip(open) {
+            match word.kind {
+                Kind::Sign(b'(' | b'[' | b'{') => depth += 1,
+                Kind::Sign(b')' | b']' | b'}') => {
+                    depth = depth.saturating_sub(1);
+                    if depth == 0 {
+                        return at;
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.len()
+    }
+
+    /// What stands in the bracket at a word, and the number of words from there with it.
+    pub(super) fn inside(&self, open: usize) -> (Self, usize) {
+        let close = self.closing(open);
+        let inside = self.part((open + 1).min(close)..close);
+        (inside, (close + 1).min(self.len()) - open)
+    }
+
+    /// What stands between certain signs outside brackets, each part with the sign before it; `-`
+    /// and the like in front of a part belong to it.
+    pub(super) fn split(&self, parts: fn(u8) -> bool) -> Vec<(u8, Self)> {
+        let (mut found, mut start, mut before, mut at) = (Vec::new(), 0, 0, 0);
+        while at < self.len() {
+            match self.all[at].kind {
+                Kind::Sign(b'(' | b'[' | b'{') => at = self.closing(at),
+                Kind::Sign(sign) if parts(sign) && (sign == b',' || at > start) => {
+                    found.push((before, self.part(start..at)));
+                    (start, before) = (at + 1, sign);
+                }
+                _ => {}
+            }
+            at += 1;
+        }
+        if !self.is_empty() {
+            found.push((before, self.behind(start)));
+        }
+        found
+    }
+
+    /// What stands between commas outside brackets.
+    pub(super) fn list(&self) -> Vec<Self> {
+        let parts = self.split(|sign| sign == b',').into_iter();
+        parts.map(|(_, part)| part).collect()
+    }
+
+    /// The list in the bracket at a word where that is the rest of these words.
+    pub(super) fn rest_list(&self, open: usize) -> Option<Vec<Self>> {
+        let is_rest = self.closing(open) + 1 == self.len();
+        is_rest.then(|| self.inside(open).0.list())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::Source;
+
+    const DOTTED: Spelling = Spelling {
+        comment: b";",
+        in_names: b"_.$",
+        has_escapes: false,
+        has_entities: false,
+    };
+
+    fn with_words(text: &str, check: impl Fn(Words)) {
+        let mut found = Vec::new();
+        DOTTED.add(text.as_bytes(), 0..text.len(), &mut found);
+        check(Words {
+            bytes: text.as_bytes(),
+            all: &found,
+        });
+    }
+
+    #[test]
+    fn names_have_dots_and_numbers_have_no_letters() {
+        let text = "LMOVE .p[1]+TRANS(-1.5,.25,1e3) 100MM 2nd \"a;b\" >= ;c";
+        with_words(text, |words| {
+            let texts: Vec<_> = (0..words.len())
+                .map(|at| Source::text(words.text(at)))
+                .collect();
+            assert_eq!(
+                texts,
+                [
+                    "LMOVE", ".p", "[", "1", "]", "+", "TRANS", "(", "-", "1.5", ",", ".25", ",",
+                    "1e3", ")", "100MM", "2nd", "\"a;b\"", ">="
+                ]
+            );
+            assert_eq!(words.part(8..10).value(), Some(-1.5));
+            let number = words.part(8..10).number().expect("a number");
+            assert_eq!((number.start, number.length), (18, 4));
+            assert!(words.is(18, b'~'));
+        });
+    }
+
+    #[test]
+    fn lists_are_split_outside_brackets() {
+        with_words("f(a,(b,c),,- 5,)", |words| {
+            let list = words.rest_list(1).expect("the bracket is the rest");
+            let texts: Vec<_> = list.iter().map(|part| Source::text(part.whole())).collect();
+            assert_eq!(texts, ["a", "(b,c)", "", "- 5", ""]);
+            assert_eq!(list[3].value(), Some(-5.0));
+            assert_eq!(list[3].number(), None, "no number of a file has blanks");
+        });
+        with_words("-a+b-(c+d)", |words| {
+            let terms = words.split(|sign| matches!(sign, b'+' | b'-'));
+            let of = |(sign, part): &(u8, Words)| (*sign, part.whole().to_vec());
+            let terms: Vec<_> = terms.iter().map(of).collect();
+            let expected: [(u8, &[u8]); 3] = [(0, b"-a"), (b'+', b"b"), (b'-', b"(c+d)")];
+            assert_eq!(terms, expected.map(|(sign, text)| (sign, text.to_vec())));
+        });
+        with_words("f(a) b", |words| assert!(words.rest_list(1).is_none()));
+        with_words("f(a", |words| assert!(words.rest_list(1).is_none()));
+    }
+}
