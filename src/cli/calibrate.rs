@@ -129,7 +129,7 @@ impl Calibrate {
         let (mut written, mut also) = (Vec::new(), String::new());
         if let Some(path) = &self.output {
             let text = found.profile_text(&profile, self.date.as_deref())?;
-            written.push((path.clone(), text.into_bytes()));
+            written.push((path.clone(), text.into_bytes().into()));
             also = format!("\nwritten to {}\n", name_of(path));
             found.output = Some(name_of(path));
         }

@@ -158,11 +158,11 @@ impl Check {
         let comparison = self.compare(&files, &run)?;
         let mut outputs = Vec::new();
         if let (Some(path), true) = (&self.baseline, self.update_baseline) {
-            outputs.push((path.clone(), run.json().into_bytes()));
+            outputs.push((path.clone(), run.json().into_bytes().into()));
         }
         if let Some(path) = &self.junit {
             let xml = report::check::junit(&run, comparison.as_ref());
-            outputs.push((path.clone(), xml.into_bytes()));
+            outputs.push((path.clone(), xml.into_bytes().into()));
         }
         let worse = comparison.as_ref().map_or(0, |c| c.worse.len());
         let page = self.report.is_wanted();

@@ -1,19 +1,19 @@
 //! `compensate`: program files in, program files with fake targets out.
 
-use super::ending::{ReportFile, Said, deliver};
+use super::ending::{ReportFile, Said, deliver_verified};
 use super::files::{Files, is_standard_output, is_stream};
 use super::layout;
 use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
 use super::progress::Progress;
 use super::{Answer, Output, values};
-use crate::compensate::{AtSingularity, Compensation, Given, Methods, Options};
+use crate::compensate::{AtSingularity, Compensation, Draft, Given, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
 use crate::printable::name_of;
 use crate::program::Source;
 use crate::report;
 use crate::report::html::programs::Drawing;
-use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare};
+use crate::task::compensate::{Compensated, DespiteErrors, Header, Request, prepare, read_again};
 use crate::task::programs::{acceptance, language_by_id};
 use crate::task::{Failure, frame};
 use clap::{Args, ValueEnum};
@@ -212,24 +212,23 @@ impl Compensate {
             let read = |path: &Path| files.mesh(path);
             Drawing::begin(&header, compensation, &file, options, &read)
         });
+        let language = prepared.language;
+        let draft = header.written.contains(&true).then(|| prepared.draft());
         let mut outputs = Vec::new();
-        if header.written.contains(&true) {
-            let language = prepared.language;
-            progress.say("reading what is written");
-            let written = prepared.written()?;
+        if let Some(Draft { written, .. }) = &draft {
             if let Some(drawing) = &mut drawing {
                 drawing.say_inserted(inserted);
                 let after = &written.sources;
                 drawing.add_written(language, after, &sources, &file.profile, &request.options);
             }
-            for (at, source) in written.sources.into_iter().enumerate() {
+            for (at, source) in written.sources.iter().enumerate() {
                 if written.is_written[at] {
-                    outputs.extend(places(at).map(|path| (path, source.bytes)));
+                    outputs.extend(places(at).map(|path| (path, source.bytes.as_slice().into())));
                 }
             }
         }
         outputs.extend(self.report.output(drawing.as_ref().map(|d| &d.page)));
-        drop(progress);
+        progress.say("reading what is written");
         if !output.quiet {
             said.text += &self.report.written();
         }
@@ -240,7 +239,14 @@ impl Compensate {
             said.errors = std::mem::take(&mut said.text);
         }
         let answer = if refused { Answer::No } else { Answer::Yes };
-        deliver(&files, &outputs, said, answer)
+        let read_again = || {
+            let verified = draft
+                .iter()
+                .try_for_each(|draft| read_again(draft, language));
+            drop(progress);
+            verified
+        };
+        deliver_verified(&files, &outputs, read_again, said, answer)
     }
 
     /// Whether the program goes to standard output.

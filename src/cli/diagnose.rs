@@ -71,7 +71,7 @@ impl Diagnose {
         if let Some(path) = &self.output {
             if is_sure {
                 let text = found.profile_text(&profile)?;
-                written.push((path.clone(), text.into_bytes()));
+                written.push((path.clone(), text.into_bytes().into()));
                 found.output = Some(name_of(path));
                 also += &format!("\nwritten to {}\n", name_of(path));
             } else {
@@ -85,7 +85,7 @@ impl Diagnose {
         }
         if let Some(path) = &self.poses {
             if let Some(csv) = found.poses_csv() {
-                written.push((path.clone(), csv.into_bytes()));
+                written.push((path.clone(), csv.into_bytes().into()));
                 found.poses = Some(name_of(path));
                 also += &format!("\nwritten to {}\n", name_of(path));
             } else {

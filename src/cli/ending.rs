@@ -47,9 +47,9 @@ impl ReportFile {
     }
 
     /// The page as one more output.
-    pub(super) fn output(&self, page: Option<&Page>) -> Option<NewFile> {
+    pub(super) fn output(&self, page: Option<&Page>) -> Option<NewFile<'static>> {
         let file = self.file.as_ref()?;
-        Some((file.clone(), page?.html(&made()).into_bytes()))
+        Some((file.clone(), page?.html(&made()).into_bytes().into()))
     }
 
     /// Its name.
@@ -147,7 +147,7 @@ pub(super) enum Shown {
 /// How a command ends.
 pub(super) struct Ending<'a> {
     /// The files that it writes, the page apart.
-    pub written: Vec<NewFile>,
+    pub written: Vec<NewFile<'a>>,
     /// The page that is asked for.
     pub report: Option<&'a ReportFile>,
     /// Which findings are shown.
@@ -240,6 +240,17 @@ impl Said {
 pub(super) fn deliver(
     files: &Files,
     written: &[NewFile],
+    said: Said,
+    answer: Answer,
+) -> Result<Answer, Failure> {
+    deliver_verified(files, written, || Ok(()), said, answer)
+}
+
+/// As [`deliver`], where `verify` must not fail: it runs while the files are made.
+pub(super) fn deliver_verified(
+    files: &Files,
+    written: &[NewFile],
+    verify: impl FnOnce() -> Result<(), Failure> + Send,
     mut said: Said,
     answer: Answer,
 ) -> Result<Answer, Failure> {
@@ -250,9 +261,9 @@ pub(super) fn deliver(
                 "name a file for the output",
             ));
         }
-        said.data = Some(Box::new(Cursor::new(bytes.clone())));
+        said.data = Some(Box::new(Cursor::new(bytes.to_vec())));
     }
-    match files.write(written, || said.print()) {
+    match files.write(written, verify, || said.print()) {
         Ok(()) => Ok(answer),
         Err(Stop::Closed(_)) if answer == Answer::No => Ok(answer),
         Err(stop) => Err(stop.into()),

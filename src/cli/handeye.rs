@@ -79,7 +79,7 @@ impl Handeye {
         let found = handeye(&inputs, setup)?;
         let frame = self.output.iter().map(|path| {
             let text = found.frame_text.clone();
-            (path.clone(), text.into_bytes())
+            (path.clone(), text.into_bytes().into())
         });
         let ending = Ending {
             written: frame.collect(),

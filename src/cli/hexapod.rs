@@ -106,7 +106,7 @@ impl Hexapod {
             .output
             .iter()
             .cloned()
-            .zip(text.map(String::into_bytes));
+            .zip(text.map(|text| text.into_bytes().into()));
         let ending = Ending {
             written: written.collect(),
             report: Some(&self.report),
@@ -122,7 +122,10 @@ impl Hexapod {
             return self.finish(files, &found, Some(found.frame_text.clone()), output);
         }
         let text = found.frame_text.clone().into_bytes();
-        let written = self.output.iter().map(|path| (path.clone(), text.clone()));
+        let written = self
+            .output
+            .iter()
+            .map(|path| (path.clone(), text.clone().into()));
         let written = written.chain(self.report.output(found.page().as_ref()));
         let written: Vec<_> = written.collect();
         let to_stream = self.output.as_deref().is_some_and(is_standard_output);

@@ -193,7 +193,7 @@ impl PlanCommand {
         let table = self.output.iter().zip([found.csv()]);
         let program = self.program.iter().zip(found.program.clone());
         for (path, text) in table.chain(program) {
-            written.push((path.clone(), text.into_bytes()));
+            written.push((path.clone(), text.into_bytes().into()));
             found.output.push(name_of(path));
         }
         found.output.extend(self.report.name());

@@ -189,7 +189,7 @@ impl Register {
         let refused = found.is_refused();
         let mut written = Vec::new();
         if let Some(path) = self.output.as_ref().filter(|_| !refused) {
-            written.push((path.clone(), found.frame_text().into_bytes()));
+            written.push((path.clone(), found.frame_text().into_bytes().into()));
             found.output = Some(name_of(path));
         }
         let ending = Ending {

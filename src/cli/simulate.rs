@@ -109,7 +109,7 @@ impl Simulate {
         let csv = found.csv.take().unwrap_or_default();
         found.output = Some(name_of(path));
         let ending = Ending {
-            written: vec![(path.clone(), csv.into_bytes())],
+            written: vec![(path.clone(), csv.into_bytes().into())],
             shown: Shown::All,
             ..Ending::default()
         };

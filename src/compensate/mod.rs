@@ -62,7 +62,7 @@ use limit::Limits;
 use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use rewrite::{Portion, Split};
-pub use written::{Differs, Written};
+pub use written::{Differs, Draft, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -515,27 +515,40 @@ fn rewrite_all(
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long
     // program
-    for some in chunks.chunks(4 * rayon::current_num_threads()) {
-        let portions: Vec<Portion> = some.par_iter().map(|groups| rewrite(groups)).collect();
+    let mut some = chunks.chunks(2 * rayon::current_num_threads());
+    let of = |some: &[&[std::ops::Range<usize>]]| -> Vec<Portion> {
+        some.par_iter().map(|groups| rewrite(groups)).collect()
+    };
+    let mut portions = some.next().map(of);
+    while let Some(done) = portions {
+        // the next are written while these are put together
+        let next = some.next();
+        portions = rayon::join(|| next.map(of), || all.add(job, done, findings)).0;
+    }
+    all
+}
+
+impl Rewritten {
+    /// Adds what was done with some of the targets.
+    fn add(&mut self, job: &Job, portions: Vec<Portion>, findings: &mut Vec<Finding>) {
         for portion in portions {
             for (target, report) in portion.reports {
-                all.tally.add(job, target, &report);
-                if let Some(fake) = report.fake.filter(|_| bases.contains(&target)) {
-                    all.fakes.insert(target, fake);
+                self.tally.add(job, target, &report);
+                if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
+                    self.fakes.insert(target, fake);
                 }
-                if reported > 0 {
-                    all.reports[target] = report;
+                if let Some(place) = self.reports.get_mut(target) {
+                    *place = report;
                 }
             }
             for (source, changes) in &portion.edits {
-                all.edits[*source as usize].append(changes);
+                self.edits[*source as usize].append(changes);
             }
             findings.extend(portion.findings);
-            all.splits.extend(portion.splits);
-            all.meant.extend(portion.meant);
+            self.splits.extend(portion.splits);
+            self.meant.extend(portion.meant);
         }
     }
-    all
 }
 
 /// For each file an empty list with room for new text in place of all numbers of its targets.

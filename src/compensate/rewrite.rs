@@ -30,7 +30,7 @@ const ROUNDING_LIMIT: Separation = Separation {
 /// What became of some of the targets.
 pub(super) struct Portion<'a> {
     /// Targets that points are derived from.
-    bases: &'a BTreeSet<usize>,
+    pub bases: &'a BTreeSet<usize>,
     /// Target by index, and its report.
     pub reports: Vec<(usize, TargetReport)>,
     /// Changes to sources by index.

@@ -1,9 +1,9 @@
 //! The files' new bytes: changes and marker put in, read again, and every number compared with what
 //! was meant.
 
-use super::Compensation;
+use super::{Added, Compensation};
 use crate::program::script::Script;
-use crate::program::{Edits, Language, Marker, Number, Role, Source, Target, number};
+use crate::program::{Edits, Language, Marker, Number, Role, Settings, Source, Target, number};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -26,9 +26,21 @@ pub struct Written {
     pub is_written: Vec<bool>,
 }
 
+/// Files with their changes and markers, and what they must say when they are read again. Nothing
+/// may be put in place before that.
+#[derive(Debug)]
+pub struct Draft {
+    /// The files.
+    pub written: Written,
+    meant: Vec<Meant>,
+    settings: Settings,
+    /// How many moves there were, and what is added; `None` where not all files are written.
+    added: Option<(usize, Added)>,
+}
+
 impl Compensation {
-    /// The files with their changes and markers. Takes the compensation, so that a long program is
-    /// not in memory twice.
+    /// The files with their changes and markers, read again. Takes the compensation, so that a long
+    /// program is not in memory twice.
     ///
     /// `only_good`: files that are refused, or share targets or calls with one that is, stay as
     /// they are.
@@ -36,12 +48,26 @@ impl Compensation {
     /// # Errors
     /// What is written would not read back, number by number, as what was meant.
     pub fn written(
-        mut self,
+        self,
         language: &dyn Language,
         sources: &[Source],
         profile_sha256: &str,
         only_good: bool,
     ) -> Result<Written, Differs> {
+        let draft = self.draft(language, sources, profile_sha256, only_good);
+        draft.read_again(language)?;
+        Ok(draft.written)
+    }
+
+    /// As [`Compensation::written`], still to be read again.
+    #[must_use]
+    pub fn draft(
+        mut self,
+        language: &dyn Language,
+        sources: &[Source],
+        profile_sha256: &str,
+        only_good: bool,
+    ) -> Draft {
         let is_written: Vec<bool> = sources
             .iter()
             .zip(&self.refused)
@@ -56,8 +82,6 @@ impl Compensation {
             if !is_written[file] {
                 edits = Edits::default();
             }
-            let own = std::mem::take(&mut numbers[file]);
-            meant.push(Meant::of(&self, own, &edits));
             if self.compensated[file] && is_written[file] {
                 let marker = Marker {
                     version: env!("CARGO_PKG_VERSION").into(),
@@ -66,39 +90,58 @@ impl Compensation {
                     decided: self.decided.clone(),
                 };
                 let (at, text) = language.mark(source, &marker);
-                let before = edits.length_before(at);
                 edits.replace(at..at, |out| out.extend_from_slice(&text));
-                meant[file].move_behind(before, text.len());
             }
-            let bytes = edits.apply(&source.bytes);
+            let own = std::mem::take(&mut numbers[file]);
+            let (own, bytes) = rayon::join(
+                || Meant::of(&self, own, &edits),
+                || edits.apply(&source.bytes),
+            );
+            meant.push(own);
             written.push(if source.is_context {
                 Source::context(source.name.clone(), bytes)
             } else {
                 Source::new(source.name.clone(), bytes)
             });
         }
-        let (settings, moves) = (self.settings, self.program.instructions.len());
         let all_written = is_written
             .iter()
             .zip(sources)
             .all(|(is, s)| *is || s.is_context);
-        let added = all_written.then_some(self.added);
-        drop((self.program, self.edits, self.findings));
+        Draft {
+            written: Written {
+                sources: written,
+                is_written,
+            },
+            meant,
+            settings: self.settings,
+            added: all_written.then_some((self.program.instructions.len(), self.added)),
+        }
+    }
+}
+
+impl Draft {
+    /// Reads the files again and compares every number with what was meant.
+    ///
+    /// # Errors
+    /// One differs: a fault of this program.
+    pub fn read_again(&self, language: &dyn Language) -> Result<(), Differs> {
+        let sources = &self.written.sources;
         let differs = |file: usize, what: String| Differs {
             file: sources[file].name.clone(),
             what,
         };
         let after = language
-            .script(&written, &settings)
+            .script(sources, &self.settings)
             .map_err(|error| differs(0, error.to_string()))?;
         let mut new: Vec<Vec<f64>> = Vec::new();
         let found = numbers_by_file(&after.targets, &after.numbers, sources.len());
-        for (file, (meant, found)) in meant.iter().zip(found).enumerate() {
+        for (file, (meant, found)) in self.meant.iter().zip(found).enumerate() {
             meant
                 .compare(&after, (file, found), language, &mut new)
                 .map_err(|what| differs(file, what))?;
         }
-        if let Some(mut added) = added {
+        if let Some((moves, added)) = &self.added {
             if after.instructions.len() != moves + added.moves {
                 let what = format!(
                     "{} moves where {} are meant",
@@ -107,17 +150,15 @@ impl Compensation {
                 );
                 return Err(differs(0, what));
             }
-            added.targets.sort_by(|a, b| order(a, b));
+            let mut targets: Vec<&Vec<f64>> = added.targets.iter().collect();
+            targets.sort_by(|a, b| order(a, b));
             new.sort_by(|a, b| order(a, b));
-            if added.targets != new {
+            if !targets.into_iter().eq(&new) {
                 let what = format!("{} new targets are not those that are meant", new.len());
                 return Err(differs(0, what));
             }
         }
-        Ok(Written {
-            sources: written,
-            is_written,
-        })
+        Ok(())
     }
 }
 
@@ -128,6 +169,7 @@ fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
 }
 
 /// What one file is to hold.
+#[derive(Debug)]
 struct Meant {
     /// The numbers that stay and those that replace others, in the order of the file.
     numbers: Vec<f64>,
@@ -215,15 +257,6 @@ impl Meant {
         self.numbers.push(number);
     }
 
-    /// Text of some length is put in at a byte of the written file.
-    fn move_behind(&mut self, at: usize, length: usize) {
-        for range in &mut self.new {
-            if range.start >= at {
-                *range = range.start + length..range.end + length;
-            }
-        }
-    }
-
     /// Compares with what was read again: a file and the numbers of its targets. Adds the numbers
     /// of new targets.
     fn compare(
@@ -295,10 +328,14 @@ pub(super) fn without_configuration(
 /// The numbers of each file's targets in the order of the file, each place once.
 fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<Vec<u32>> {
     let mut all = vec![Vec::new(); files];
-    for target in targets {
-        all[target.file as usize].extend(target.numbers.clone());
-    }
     let start = |index: &u32| numbers[*index as usize].start;
+    for target in targets {
+        let of_file: &mut Vec<u32> = &mut all[target.file as usize];
+        let first = of_file.len();
+        of_file.extend(target.numbers.clone());
+        // configuration data may stand before what comes first in a pose
+        of_file[first..].sort_by_key(start);
+    }
     for found in &mut all {
         if !found.is_sorted_by_key(start) {
             found.sort_by_key(start);

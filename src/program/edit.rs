@@ -78,18 +78,6 @@ impl Edits {
         self.spans.extend(other.spans.iter().map(moved));
     }
 
-    /// Where a byte of the file comes to lie: behind what is put in at it.
-    #[must_use]
-    pub fn length_before(&self, at: usize) -> usize {
-        let before = (0..self.spans.len())
-            .map(|i| self.change(i))
-            .filter(|(span, _)| span.end <= at);
-        let (gone, new) = before.fold((0, 0), |(gone, new), (span, text)| {
-            (gone + span.len(), new + text.len())
-        });
-        at - gone + new
-    }
-
     /// Whether nothing is replaced.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use crate::finding::kind;
 use sha2::{Digest, Sha256};
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 
 /// The word that a marker starts with; no program that was not compensated holds it.
 const WORD: &str = "poseshift compensated this file";
@@ -16,6 +16,9 @@ const HALF_HASH: usize = 32;
 const WIDEST_GAP: usize = 24;
 /// Bytes of a line that tells what was decided, at most.
 const WIDEST_DECISION: usize = 80;
+
+/// Bytes of a file that are hashed at once.
+const READ_AT_ONCE: usize = 1 << 16;
 
 /// What a compensated file says about itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -217,7 +220,10 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// Those of the stream.
 pub fn sha256_of(stream: &mut impl Read) -> io::Result<String> {
     let mut hasher = Sha256::new();
-    io::copy(stream, &mut hasher)?;
+    io::copy(
+        &mut BufReader::with_capacity(READ_AT_ONCE, stream),
+        &mut hasher,
+    )?;
     Ok(digits(&hasher.finalize()))
 }
 

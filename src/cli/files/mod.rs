@@ -21,18 +21,20 @@ use crate::program::Source;
 use crate::task::profile::way_to_built_in;
 use crate::task::{Failure, ProfileFile};
 use disk::Disk;
+use foldhash::quality::RandomState;
 use identity::Stamp;
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs::File;
-use std::hash::{BuildHasher, RandomState};
+use std::hash::BuildHasher;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use transaction::{New, Transaction};
 
 /// A file to write: where, as the user names it, and what it holds.
-pub(super) type NewFile = (PathBuf, Vec<u8>);
+pub(super) type NewFile<'a> = (PathBuf, Cow<'a, [u8]>);
 
 /// Bytes of a mesh file: some ten million triangles.
 const LARGEST_MESH: u64 = 1 << 30;
@@ -331,20 +333,22 @@ impl Files {
         Ok(())
     }
 
-    /// Writes all files, or none: between what can go wrong and putting them into place, `print` is
-    /// done.
+    /// Writes all files, or none: while they are made next to their places, `verify` looks at what
+    /// they hold; between what can go wrong and putting them into place, `print` is done.
     ///
     /// # Errors
-    /// One cannot be written; what was read has changed; or those of `print`. Nothing is written
-    /// then.
+    /// One cannot be written; what was read has changed; or those of `verify` and `print`. Nothing
+    /// is written then.
     pub(super) fn write<E: From<Failure>>(
         &self,
         outputs: &[NewFile],
+        verify: impl FnOnce() -> Result<(), Failure> + Send,
         print: impl FnOnce() -> Result<(), E>,
     ) -> Result<(), E> {
         let paths: Vec<&Path> = outputs.iter().map(|(path, _)| path.as_path()).collect();
         let places = self.places(&paths)?;
         if places.is_empty() {
+            verify()?;
             return print();
         }
         let files = outputs.iter().filter(|(path, _)| !is_standard_output(path));
@@ -354,10 +358,13 @@ impl Files {
             .map(|((place, name), (_, bytes))| New { place, name, bytes })
             .collect();
         let mut said = Vec::new();
-        let staged = Transaction::stage(&self.disk, &new, &mut said);
+        let disk = &self.disk;
+        let stage = || Transaction::stage(disk, &new, &mut said);
+        let (staged, verified) = rayon::join(stage, verify);
         for line in said {
             screen::warn(&line);
         }
+        verified?;
         let staged = staged?;
         self.refuse_changed()?;
         print()?;

@@ -5,6 +5,7 @@ use super::disk::Disk;
 use super::journal;
 use super::recovery::recover;
 use super::transaction::{New, Transaction};
+use super::{Files, NewFile};
 use crate::task::Failure;
 use std::collections::BTreeMap;
 use std::fs;
@@ -253,4 +254,17 @@ fn two_runs_into_one_folder_follow_one_another() {
         }
     });
     assert_eq!(content(path), expected(true));
+}
+
+#[test]
+fn what_is_refused_while_it_is_made_leaves_nothing() {
+    let folder = world();
+    let before = content(folder.path());
+    let output = |name: &str| -> NewFile { (folder.path().join(name), b"new".as_slice().into()) };
+    let outputs = [output("a/1.mod"), output("a/out/2.mod")];
+    let refuse = || Err(Failure::new("it differs"));
+    let print = || -> Result<(), Failure> { panic!("it is printed") };
+    let refused = Files::default().write(&outputs, refuse, print);
+    assert_eq!(refused.expect_err("refused").message, "it differs");
+    assert_eq!(content(folder.path()), before);
 }

@@ -59,7 +59,7 @@ impl Target {
             files.replace(&self.profile);
         }
         let ending = Ending {
-            written: vec![(path.to_owned(), found.text.as_bytes().to_vec())],
+            written: vec![(path.to_owned(), found.text.as_bytes().into())],
             ..Ending::default()
         };
         finish(files, &found, ending, output)

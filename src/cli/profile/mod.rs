@@ -145,7 +145,7 @@ fn make(
 ) -> Result<Answer, Failure> {
     refuse_existing(path, over.force)?;
     let ending = Ending {
-        written: vec![(path.to_owned(), text.as_bytes().to_vec())],
+        written: vec![(path.to_owned(), text.as_bytes().into())],
         ..Ending::default()
     };
     finish(files, found, ending, output)

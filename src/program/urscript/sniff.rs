@@ -5,6 +5,8 @@ use crate::program::{Marker, Source};
 
 /// Bytes that are looked at: exports start with long libraries.
 const LOOKED_AT: usize = 4 << 20;
+/// Bytes at the end of a longer one in which the last function ends.
+const LAST_LOOKED_AT: usize = 1 << 16;
 
 /// Calls that no other language has under these names at the start of a statement.
 const CALLS: [&[u8]; 12] = [
@@ -48,6 +50,10 @@ fn opens(line: &[u8]) -> bool {
     })
 }
 
+fn ends(line: &[u8]) -> bool {
+    line == b"end" || line.starts_with(b"end ") || line.starts_with(b"end#")
+}
+
 fn calls(line: &[u8]) -> bool {
     CALLS.iter().any(|call| {
         memchr::memmem::find(line, call).is_some_and(|at| {
@@ -59,7 +65,8 @@ fn calls(line: &[u8]) -> bool {
 
 /// Whether the bytes look like `URScript`.
 pub(super) fn recognises(bytes: &[u8]) -> bool {
-    let bytes = &bytes[..bytes.len().min(LOOKED_AT)];
+    let (bytes, behind) = bytes.split_at(bytes.len().min(LOOKED_AT));
+    let last = &behind[behind.len().saturating_sub(LAST_LOOKED_AT)..];
     if memchr::memchr(0, bytes).is_some() {
         return false;
     }
@@ -72,12 +79,12 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
             continue;
         }
         opened |= opens(line);
-        ended |= line == b"end" || line.starts_with(b"end ") || line.starts_with(b"end#");
+        ended |= ends(line);
         called |= !called && calls(line);
         poses |= !poses && CALLS[..4].iter().any(|call| line.starts_with(call));
     }
     if opened {
-        ended && called
+        called && (ended || lines(last).any(|(_, line)| ends(line)))
     } else {
         poses && !ended
     }

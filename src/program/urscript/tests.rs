@@ -461,6 +461,9 @@ fn urscript_is_distinguished_from_other_text() {
             "{text}"
         );
     }
+    // a function whose end is some megabytes behind
+    let long = format!("def P():\n{}end\n", "  movej(q)\n".repeat(500_000));
+    assert!(UrScript.recognises(&Source::new("a", long.into())));
     for text in [
         "import urx\ndef go():\n  movel(p)\nend\n",
         "def go():\n    robot.movel(p)\n",

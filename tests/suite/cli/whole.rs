@@ -300,6 +300,88 @@ fn a_quota_stops_all() {
     assert_eq!(content(&disk.0.join("work")), before);
 }
 
+/// What is preloaded so that calls on the files of a folder fail.
+#[cfg(target_os = "linux")]
+fn failing_disk(folder: &Path) -> PathBuf {
+    let library = folder.join("failing_disk.so");
+    let source = repository("tests/suite/cli/failing_disk.c");
+    let built = Command::new("cc")
+        .args(["-shared", "-fPIC", "-Wall", "-Werror", "-o"])
+        .args([&library, &source])
+        .status();
+    assert!(built.expect("the linker of Rust").success());
+    library
+}
+
+/// Lets each call of a kind on the files of a run fail in its turn, and so many behind it: all is
+/// old or all is new, as the exit status says, and nothing is left next to it.
+#[cfg(target_os = "linux")]
+fn each_call_fails(call: &str, error: i32, times: usize, word: &str) -> (usize, usize) {
+    let library = scratch();
+    let library = failing_disk(library.path());
+    let folder = world();
+    let path = folder.path().canonicalize().expect("scratch");
+    let (old, new) = (content(&path), wanted());
+    let (mut refused, mut written) = (0, 0);
+    for number in 0_usize.. {
+        reset(&path);
+        let output = poseshift()
+            .current_dir(&path)
+            .args(IN_PLACE)
+            .env("SOURCE_DATE_EPOCH", "0")
+            .env("LD_PRELOAD", &library)
+            .env("FAIL_BELOW", &path)
+            .env("FAIL_CALL", call)
+            .env("FAIL_FROM", number.to_string())
+            .env("FAIL_TIMES", times.to_string())
+            .env("FAIL_WITH", error.to_string())
+            .output()
+            .expect("the program starts");
+        let said = format!("{call} {number}: {}", reported(&output));
+        let has_failed = said.contains("the disk fails");
+        let next = run(&path, &["profile", "show", "work/p.yaml"]);
+        assert_eq!(next.status.code(), Some(0), "{said}{}", reported(&next));
+        let is = content(&path);
+        match output.status.code() {
+            Some(0) => {
+                assert!(is == new, "{said}: {:?}", is.keys());
+                written += usize::from(has_failed);
+            }
+            Some(2) => {
+                assert!(has_failed && said.contains(word), "{said}");
+                assert!(is == old, "{said}: {:?}", is.keys());
+                refused += 1;
+            }
+            other => panic!("{other:?}: {said}"),
+        }
+        if !has_failed {
+            break;
+        }
+    }
+    (refused, written)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_quota_that_is_used_up_at_any_call_leaves_all_as_it_was_or_all_new() {
+    const EDQUOT: i32 = 122;
+    let (refused, _) = each_call_fails("write", EDQUOT, usize::MAX >> 1, "uota");
+    assert!(refused > 5, "{refused}");
+    // network file systems say it when a file is closed, too: by then it was synced
+    let (_, written) = each_call_fails("close", EDQUOT, usize::MAX >> 1, "uota");
+    assert!(written > 5, "{written}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_breaks_at_any_call_leaves_all_as_it_was_or_all_new() {
+    const EIO: i32 = 5;
+    for call in ["fsync", "write"] {
+        let (refused, _) = each_call_fails(call, EIO, 1, "nput/output error");
+        assert!(refused > 5, "{refused}");
+    }
+}
+
 #[test]
 fn a_new_output_folder_appears_whole_and_reports_with_it() {
     let folder = world();
