@@ -19,6 +19,7 @@
 
 use super::query::{Body, Nearest};
 use super::scene::{FixedForm, On, Other, Scene, Watched};
+use super::sweep::{Frames, Rates, Sweep};
 use crate::geometry::{Jet, Pose, Scalar, Vector, norm};
 use crate::model::effects::Deflection;
 use crate::model::{Conditions, Model};
@@ -64,79 +65,6 @@ pub(crate) struct Mover<'a> {
     pub reaches: [f64; 6],
     /// It is the real arm.
     pub is_real: bool,
-}
-
-/// Bounds of how a frame moves in the world over a piece, by s.
-#[derive(Clone, Copy, Debug)]
-struct Sweep {
-    /// Angular speed and acceleration.
-    turn: f64,
-    gain: f64,
-    /// Of its origin: distance from that of the world, speed and acceleration.
-    far: f64,
-    moving: f64,
-    rising: f64,
-}
-
-impl Sweep {
-    fn of(frame: &Pose<Jet>) -> Self {
-        // dR = [ω] R: of each the largest that it can be
-        let size = |part: fn(&Jet) -> f64| {
-            let all = frame.rotation.0.iter().flatten();
-            (0.5 * all.map(|x| part(x).powi(2)).sum::<f64>()).sqrt()
-        };
-        let length = |part: fn(&Jet) -> f64| {
-            let all = frame.translation.iter();
-            all.map(|x| part(x).powi(2)).sum::<f64>().sqrt()
-        };
-        Self {
-            turn: size(|x| x.slope.magnitude()),
-            gain: size(|x| x.bend.magnitude()),
-            far: length(|x| x.value.magnitude()),
-            moving: length(|x| x.slope.magnitude()),
-            rising: length(|x| x.bend.magnitude()),
-        }
-    }
-
-    /// Speed and acceleration of what is so far from its origin.
-    fn at(&self, far: f64) -> [f64; 2] {
-        let speed = self.moving + self.turn * far;
-        [
-            speed,
-            self.rising + (self.gain + self.turn * self.turn) * far,
-        ]
-    }
-}
-
-/// Bounds of the rates of a piece: what each joint adds to the speed and acceleration of what it
-/// carries.
-#[derive(Clone, Debug)]
-struct Rates {
-    /// Angular speed of each joint, radians by s.
-    turn: [f64; 6],
-    /// Angular acceleration of each.
-    gain: [f64; 6],
-    /// Rotation and translation of the whole arm in the world: speed and acceleration.
-    world: [[f64; 2]; 2],
-    /// Largest distance of that translation.
-    carried: f64,
-    /// The plates that carry bodies.
-    plates: Vec<Sweep>,
-}
-
-/// The frames of all that moves: those of the links, and of the plates that carry bodies.
-struct Frames {
-    links: [Pose; 7],
-    plates: Vec<Pose>,
-}
-
-impl Frames {
-    fn of(&self, on: On) -> &Pose {
-        match on {
-            On::Link(link) => &self.links[link],
-            On::Plate(plate) => &self.plates[plate],
-        }
-    }
 }
 
 impl Mover<'_> {

@@ -49,6 +49,7 @@ mod query;
 pub mod refine;
 mod scene;
 mod sizes;
+mod sweep;
 pub mod trace;
 mod uncertainty;
 mod walk;

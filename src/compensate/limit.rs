@@ -7,8 +7,8 @@ use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::model::Conditions;
 use crate::motion::arms::Equipped;
-use crate::motion::external;
 use crate::motion::ground::Ground;
+use crate::motion::placed::bases;
 use std::sync::OnceLock;
 
 /// Postures at which the effects are looked at, and which of them in order of size counts: 95 in
@@ -113,7 +113,7 @@ fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
         };
         let real = equipped.inverse.real.forward(&q, &conditions);
         let commanded = equipped.controller.forward(&q, &Conditions::default());
-        let [real_base, nominal_base] = external::bases(ground.profile, || random.draw());
+        let [real_base, nominal_base] = bases(ground.profile, || random.draw());
         gaps.push((real_base * real).separation(&(nominal_base * commanded)));
     }
     let mut counts = |part: fn(&Separation) -> f64| {

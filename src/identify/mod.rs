@@ -54,6 +54,7 @@ mod candidates;
 pub mod contact;
 mod contact_cells;
 mod degrees;
+mod distances;
 mod error;
 mod exchange;
 pub mod expectation;

@@ -1,7 +1,8 @@
 //! Where the base stands, in closed form, wherever the measuring device is.
 
+use super::distances::by_distances;
 use super::measurements::{Measurements, Observed};
-use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, cross, dot, norm, scale, sub};
+use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, dot, norm, scale, sub};
 use crate::model::effects::Kind;
 use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
@@ -100,7 +101,7 @@ pub(super) fn bare_arm(profile: &Profile) -> Model {
 }
 
 /// Where the base is carried to, seen from where it stands at home, as the profile has its track.
-fn carried(profile: &Profile, stand: &Stand) -> Pose {
+pub(super) fn carried(profile: &Profile, stand: &Stand) -> Pose {
     profile
         .carried(stand, true)
         .map_or_else(Pose::identity, |carried| {
@@ -375,105 +376,10 @@ fn solve_without_gross(sights: &[Sight], carriers: &Carriers) -> Placed {
 }
 
 /// The standard deviation of some numbers.
-fn deviation(numbers: &[f64]) -> f64 {
+pub(super) fn deviation(numbers: &[f64]) -> f64 {
     let count = numbers.len().max(1) as f64;
     let mean = numbers.iter().sum::<f64>() / count;
     (numbers.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt()
-}
-
-/// The least rotation between two directions.
-fn least_rotation(from: Vector, to: Vector) -> Rotation {
-    let (from, to) = (scale(norm(from).recip(), from), scale(norm(to).recip(), to));
-    let axis = cross(from, to);
-    let sine = norm(axis);
-    if sine < 1e-12 {
-        return Rotation::identity();
-    }
-    Rotation::from_vector(scale(sine.atan2(dot(from, to)) / sine, axis))
-}
-
-/// A device's fixed points in the base's frame by their distances, then the base by aligning them.
-fn by_distances(profile: &Profile, arm: &Model, measurements: &Measurements) -> Option<Start> {
-    let mut fixed: Vec<(Vector, Vec<(Vector, f64)>)> = Vec::new();
-    for row in &measurements.rows {
-        let Observed::Distance { distance_m, from_m } = row.observed else {
-            continue;
-        };
-        let tool = row
-            .tool
-            .as_deref()
-            .or_else(|| profile.tools.keys().next().map(String::as_str));
-        let tool = tool
-            .and_then(|t| profile.tool(t))
-            .unwrap_or_else(Mounted::flange);
-        let flange = carried(profile, &row.stand) * arm.forward(&row.q, &Conditions::default());
-        let named = row
-            .point
-            .as_ref()
-            .and_then(|p| profile.points.get(p).copied());
-        let point = row.point_in_tool_m.or(named).unwrap_or_default();
-        let at = (flange * tool.flange_from_tool).transform(point);
-        match fixed.iter_mut().find(|(from, _)| *from == from_m) {
-            Some((_, all)) => all.push((at, distance_m)),
-            None => fixed.push((from_m, vec![(at, distance_m)])),
-        }
-    }
-    let mut pairs = Vec::new();
-    for (from, all) in &fixed {
-        let spread = spreads(&all.iter().map(|(s, _)| *s).collect::<Vec<_>>());
-        if all.len() < 5 || spread[2] < 1e-3 {
-            continue;
-        }
-        // d² = |s|² − 2 s·f + |f|²
-        let mut normal = Matrix4::<f64>::zeros();
-        let mut right = nalgebra::Vector4::<f64>::zeros();
-        for (s, d) in all {
-            let line = nalgebra::Vector4::new(-2.0 * s[0], -2.0 * s[1], -2.0 * s[2], 1.0);
-            normal += line * line.transpose();
-            right += line * (d * d - dot(*s, *s));
-        }
-        let f = normal.cholesky()?.solve(&right);
-        pairs.push(([f[0], f[1], f[2]], *from));
-    }
-    let world: Vec<Vector> = pairs.iter().map(|(_, b)| *b).collect();
-    let world_from_base = match pairs[..] {
-        [] => return None,
-        [_, _, _, ..] if spreads(&world)[1] > 1e-3 => align(pairs.iter().copied()),
-        // too few fixed points for a rotation: the profile's, turned as little as two of them ask
-        // for
-        _ => {
-            let mut rotation = profile.world_from_base.rotation;
-            if let [(a, b), (c, d), ..] = pairs[..]
-                && norm(sub(c, a)) > 1e-3
-            {
-                rotation = least_rotation(rotation * sub(c, a), sub(d, b)) * rotation;
-            }
-            let shifts = pairs.iter().map(|(a, b)| sub(*b, rotation * *a));
-            let sum = shifts.fold([0.0; 3], add);
-            Pose {
-                rotation,
-                translation: scale(1.0 / pairs.len() as f64, sum),
-            }
-        }
-    };
-    let (mut gaps, mut distances) = (Vec::new(), Vec::new());
-    for (from, all) in &fixed {
-        for (at, distance_m) in all {
-            gaps.push(norm(sub(world_from_base.transform(*at), *from)) - distance_m);
-            distances.push(*distance_m);
-        }
-    }
-    let squares: f64 = gaps.iter().map(|gap| gap * gap).sum();
-    Some(Start {
-        rms_m: (squares / gaps.len() as f64).sqrt(),
-        spread_m: deviation(&distances),
-        fixed_points: measurements
-            .rows
-            .iter()
-            .all(|row| row.contact.is_none())
-            .then_some(pairs.len()),
-        ..Start::at(world_from_base)
-    })
 }
 
 /// Name of a row's tool; empty where the profile has none.

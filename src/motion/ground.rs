@@ -1,7 +1,7 @@
 //! A program with all that is known of its tools, work frames and arm.
 
 use super::arms::Equipped;
-use super::external::Placed;
+use super::placed::Placed;
 use super::posture::{self, Asked};
 use super::ride::Ride;
 use super::setting::{Given, Missing, PlacementError, Setting};

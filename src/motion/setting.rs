@@ -1,6 +1,6 @@
 //! The tools and work frames of a program, as far as files, profile and command line tell them.
 
-use super::external::Placed;
+use super::placed::Placed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};

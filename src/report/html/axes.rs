@@ -1,8 +1,9 @@
 //! The page of `axes`: how round each joint's sweep is.
 
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::frames::{pose_text, sigma_text};
 use super::numbers::{Column, DIGITS, Number, Table, significant};
-use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use super::page::{Level, Page, Section};
 use crate::report::text::{axes_world, frames};
 use crate::task::axes::positioner::PositionerAxis;
 use crate::task::axes::{Axes, Joint, Rows};

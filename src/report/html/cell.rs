@@ -3,8 +3,8 @@
 
 mod external;
 
+use super::chart::Tone;
 use super::numbers::{Number, fixed};
-use super::page::Tone;
 use crate::check::Meshes;
 use crate::check::cell::{Carrier, Cell as CellFile};
 use crate::geometry::units::{DEG, mm_from_m};

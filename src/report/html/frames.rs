@@ -1,8 +1,9 @@
 //! The pages of `register`, `handeye` and `hexapod`: frames with residuals and uncertainties.
 
 use super::cell::{Along, Cell, Ellipsoid as Drawn, Path, Points};
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::numbers::{Column, DIGITS, Number, Table, fixed, significant};
-use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use super::page::{Level, Page, Section};
 use crate::finding::Finding;
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, norm, scale};

@@ -13,6 +13,7 @@
 
 pub(crate) mod axes;
 pub(crate) mod cell;
+mod chart;
 pub(crate) mod diagnosis;
 pub(crate) mod frames;
 pub(crate) mod measurements;

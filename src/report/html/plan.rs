@@ -1,8 +1,9 @@
 //! The page of `plan`: the configurations chosen, and what they will determine.
 
 use super::cell::{Along, Cell, Points, Robot};
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::numbers::{Column, Table, fixed, significant};
-use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use super::page::{Level, Page, Section};
 use crate::check::Meshes;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::report::text::{fixed as decimals, scientific};

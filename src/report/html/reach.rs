@@ -1,8 +1,9 @@
 //! The page of `hexapod --reach`: which poses of the ballbar hexapod a robot can measure.
 
 use super::cell::{Along, Cell, Points, Robot, Solid};
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::numbers::{Column, Number, Table, fixed, significant};
-use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use super::page::{Level, Page, Section};
 use crate::check::Meshes;
 use crate::geometry::units::DEG;
 use crate::task::hexapod::{Reach, Reached};

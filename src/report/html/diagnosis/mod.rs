@@ -4,8 +4,9 @@
 mod lists;
 
 use super::cell::{Along, Cell, Path, Points, Robot};
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::numbers::{Column, DIGITS, Number, Table, fixed, significant};
-use super::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use super::page::{Level, Page, Section};
 use crate::check::Meshes;
 use crate::diagnose::{Found, NoiseSource, Verdict};
 use crate::geometry::units::{DEG, mm_from_m};

@@ -3,9 +3,10 @@
 use super::{Judged, Rows, robot_lead, show_improvement, show_rows, summary};
 use crate::identify::calibration::STRONG_CORRELATION;
 use crate::identify::statistics::misses;
+use crate::report::html::chart::{Axis, Chart, Heat, Kind, Series, Tone};
 use crate::report::html::frames::{pose_text, sigma_text};
 use crate::report::html::numbers::{Column, DIGITS, Table, fixed, significant};
-use crate::report::html::page::{Axis, Chart, Heat, Kind, Level, Page, Section, Series, Tone};
+use crate::report::html::page::{Level, Page, Section};
 use crate::report::text::{fixed as decimals, scientific};
 use crate::task::calibrate::{Calibration, Parameter};
 use crate::task::parts::Quality;

@@ -7,8 +7,9 @@ pub(crate) use calibrate::calibrate_page;
 pub(crate) use validate::validate_page;
 
 use super::cell::{Along, Cell, Path, Points, Robot};
+use super::chart::{Axis, Chart, Kind, Series, Tone};
 use super::numbers::{Column, DIGITS, Table, fixed, significant};
-use super::page::{Axis, Chart, Kind, Page, Section, Series, Summary, Tone};
+use super::page::{Page, Section, Summary};
 use crate::check::Meshes;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Vector, norm, scale, sub};

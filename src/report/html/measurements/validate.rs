@@ -4,8 +4,9 @@ use super::{Judged, Rows, robot_lead, show_improvement, show_rows, summary};
 use crate::geometry::units::m_from_mm;
 use crate::identify::statistics;
 use crate::identify::validation::Refit;
+use crate::report::html::chart::Tone;
 use crate::report::html::numbers::{Column, DIGITS, Table, fixed, significant};
-use crate::report::html::page::{Level, Page, Tone};
+use crate::report::html::page::{Level, Page};
 use crate::task::parts::{Quality, Statistics};
 use crate::task::validate::{AsCalibrated, Repeated, RepeatedDistance, Validation};
 

@@ -9,8 +9,9 @@ use crate::check::trace::{Traced, trace};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Motion, Source};
 use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
+use crate::report::html::chart::{Axis, Chart, Kind, Series, Tone};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
-use crate::report::html::page::{Axis, Chart, Kind, Level, Page, Section, Series, Tone};
+use crate::report::html::page::{Level, Page, Section};
 use crate::task::check::{Checking, Header};
 
 /// What the page of `check` is made of.

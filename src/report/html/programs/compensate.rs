@@ -10,8 +10,9 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::Method;
 use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
+use crate::report::html::chart::Tone;
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
-use crate::report::html::page::{Level, Page, Section, Tone};
+use crate::report::html::page::{Level, Page, Section};
 use crate::task::compensate::Header;
 
 /// What the page of `compensate` is made of.

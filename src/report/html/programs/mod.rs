@@ -10,8 +10,9 @@ use compensate::{Compensated, add_written, compensate_page};
 pub use drawing::Drawing;
 
 use super::cell::Path;
+use super::chart::Tone;
 use super::numbers::{Number, fixed};
-use super::page::{Level, Page, Tone};
+use super::page::{Level, Page};
 use crate::check::Meshes;
 use crate::check::cell::Cell as CellFile;
 use crate::check::trace::Traced;
