@@ -24,6 +24,8 @@ const worst = {
   empty: (of) => [gravest(of.findings)?.id ?? "0 of 0"],
   check: (of) => [of.summary.max_path_error_mm.toFixed(3), of.summary.min_clearance_mm.toFixed(2)],
   collision: (of) => [gravest(of.findings).id, gravest(of.findings).message.slice(0, 40), of.summary.max_path_error_mm.toFixed(3)],
+  rail: (of) => [gravest(of.findings)?.id, of.summary.max_path_error_mm.toFixed(3)],
+  positioner: (of) => [gravest(of.findings)?.id, of.summary.max_path_error_mm.toFixed(3)],
   calibrate: (of) => [of.after.position.max_mm.toFixed(4)],
   validate: (of) => [of.position.real.max_mm.toFixed(4), of.position.controller.max_mm.toFixed(4)],
   diagnose: (of) => [of.left_mm.toFixed(4), ...of.effects.filter((one) => one.standing !== "certain").slice(0, 1).map((one) => one.effect)],
