@@ -209,19 +209,9 @@ impl Pick {
         Ok(all)
     }
 
+    /// Whether it means the parameter of this key of an effect.
     pub(super) fn holds(&self, effect: &Effect, key: &str) -> bool {
-        let numbers = effect
-            .definition()
-            .site
-            .iter()
-            .filter_map(|p| number(effect, *p));
-        self.kind == Some(effect.kind)
-            && self.key.is_none_or(|k| k == key)
-            && self
-                .places
-                .iter()
-                .zip(numbers)
-                .all(|((a, b), n)| (*a..=*b).contains(&n))
+        self.means(effect) && self.key.is_none_or(|k| k == key)
     }
 
     /// Whether it means an effect, or one of its parameters.

@@ -1,7 +1,7 @@
 //! Tilting of the pedestal.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::search::{Search, Sets, Shown};
+use super::search::{Search, Shown};
 use super::words::{deg, length};
 use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Rotation, Scalar, Vector, add, cross, sub};
@@ -27,11 +27,8 @@ impl Equation for BaseCompliance {
         of_data: false,
         shown_against: Shown::Torque(Some(1)),
         search: Search {
-            rare: true,
             cause: Some(Kind::LinkCompliance),
-            never_negative: &[0, 1],
-            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
-            ..Search::PLAIN
+            ..Search::BENDING
         },
     };
     const READS_ANGLES: bool = false;

@@ -1,7 +1,7 @@
 //! Bending of a link.
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
-use super::search::{Search, Sets, Shown};
+use super::search::{Search, Shown};
 use super::words::{deg, length};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector};
@@ -28,12 +28,7 @@ impl Equation for LinkCompliance {
         bends: true,
         of_data: false,
         shown_against: Shown::Torque(None),
-        search: Search {
-            rare: true,
-            never_negative: &[0, 1],
-            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
-            ..Search::PLAIN
-        },
+        search: Search::BENDING,
     };
     const READS_ANGLES: bool = false;
 

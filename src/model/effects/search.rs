@@ -34,6 +34,14 @@ impl Search {
         sets: Sets::All,
         never_negative: &[],
     };
+
+    /// A structure that bends about x and y.
+    pub(super) const BENDING: Self = Self {
+        rare: true,
+        sets: EITHER,
+        never_negative: &[0, 1],
+        ..Self::PLAIN
+    };
 }
 
 /// Which parameters of an effect are sought together.
@@ -51,6 +59,9 @@ pub enum Sets {
 
 /// The place of a frame, and the whole of it.
 pub(super) const FRAME: Sets = Sets::Of(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]]);
+
+/// Each of two alone, and both.
+pub(super) const EITHER: Sets = Sets::Of(&[&[0], &[1], &[0, 1]]);
 
 /// Values that are tried one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! A tool that bends under its own weight.
 
 use super::definition::{Definition, Need, Parameter, Unit};
-use super::search::{Search, Sets, Shown};
+use super::search::{Search, Shown};
 use super::words::{deg, length};
 use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector, cross, sub};
@@ -27,11 +27,8 @@ impl Equation for ToolCompliance {
         of_data: false,
         shown_against: Shown::Torque(Some(4)),
         search: Search {
-            rare: true,
             cause: Some(Kind::LinkCompliance),
-            never_negative: &[0, 1],
-            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
-            ..Search::PLAIN
+            ..Search::BENDING
         },
     };
     const READS_ANGLES: bool = false;

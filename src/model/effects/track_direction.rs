@@ -1,7 +1,7 @@
 //! In which direction a linear axis runs.
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
-use super::search::{Search, Sets, Shown};
+use super::search::{EITHER, Search, Shown};
 use super::words::{axis, deg, length};
 use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
 use crate::geometry::{Scalar, Vector};
@@ -27,7 +27,7 @@ impl Equation for TrackDirection {
         of_data: false,
         shown_against: Shown::Order,
         search: Search {
-            sets: Sets::Of(&[&[0], &[1], &[0, 1]]),
+            sets: EITHER,
             ..Search::PLAIN
         },
     };

@@ -192,7 +192,7 @@ impl Controller {
     pub(super) fn new(script: &mut Script, values: Frames) -> Self {
         let numbered = |script: &mut Script, [what, name, active]: [&'static str; 3], poses| {
             // what is active before a program selects any is called as points call it
-            let declared = frame(script, "F", None);
+            let declared = script.frame("F", None);
             Numbered {
                 selected: variable(script, active, Expr::Value(declared), true, true),
                 active: variable(script, active, Expr::Value(declared), true, true),
@@ -256,7 +256,7 @@ impl Controller {
         }
         let zero = (number == 0).then(Pose::identity);
         let pose = zero.or_else(|| of.poses.get(&number).copied());
-        let value = frame(script, &number.to_string(), pose);
+        let value = script.frame(number.to_string(), pose);
         let name = format!("{}[{number}]", of.name);
         let made = variable(script, &name, Expr::Value(value), true, false);
         of.variables.insert(number, made);
@@ -386,11 +386,6 @@ impl Controller {
         };
         Some((mode, self.modes[mode as usize], holds))
     }
-}
-
-/// A tool or frame of this name.
-pub(super) fn frame(script: &mut Script, name: &str, pose: Option<Pose>) -> ValueId {
-    script.frame(name, pose)
 }
 
 fn table(script: &mut Script, name: &str) -> TableId {

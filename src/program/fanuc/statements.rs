@@ -2,7 +2,7 @@
 //! points.
 
 use super::constants::Constants;
-use super::controller::{Kind, Mode, Which, frame, kinds};
+use super::controller::{Kind, Mode, Which, kinds};
 use super::lines::Line;
 use super::moves::Row;
 use super::reader::{Reader, called};
@@ -351,7 +351,7 @@ impl Reader<'_> {
             let numbers = written.and_then(|register| self.state.constants.pose(register));
             if let Some(pose) = numbers {
                 self.from_constants.push(script.writes.len());
-                let value = Expr::Value(frame(script, &number.to_string(), Some(pose)));
+                let value = Expr::Value(script.frame(number.to_string(), Some(pose)));
                 self.set(entry, value);
                 continue;
             }

@@ -1,5 +1,6 @@
 //! One path in every language: the same fake targets, and the same joints.
 
+use super::generated::compensated;
 use crate::path;
 use crate::support::{poseshift, repository, scratch, text};
 use serde_json::Value;
@@ -18,39 +19,7 @@ fn number(pose: &Value, key: &str) -> f64 {
 
 /// Fake poses and joints of the straight moves.
 fn fakes(language: &str, ending: &str) -> Vec<Value> {
-    let scratch = scratch();
-    let at = |name: &str| scratch.path().join(name);
-    std::fs::write(at("profile.yaml"), path::profile(language)).expect("scratch");
-    let program = at("in");
-    std::fs::create_dir(&program).expect("scratch");
-    let text = path::program(language, POINTS, EVERY);
-    std::fs::write(program.join(format!("path.{ending}")), text).expect("scratch");
-    if let Some((name, text)) = path::given(language, POINTS) {
-        std::fs::write(program.join(name), text).expect("scratch");
-    }
-    let output = poseshift()
-        .arg("compensate")
-        .arg(&program)
-        .args(["--tool", "artifact", "--json", "--profile"])
-        .arg(at("profile.yaml"))
-        .arg("-o")
-        .arg(at("out"))
-        .output()
-        .expect("the program starts");
-    let reported = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{language}: {reported}{}",
-        String::from_utf8_lossy(&output.stdout)
-    );
-    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    assert_eq!(report["language"], language);
-    let targets = report["targets"].as_array().expect("a list").iter();
-    targets
-        .filter(|target| !target["fake"].is_null())
-        .cloned()
-        .collect()
+    compensated((language, ending), POINTS, EVERY).targets
 }
 
 #[test]

@@ -1,15 +1,15 @@
 //! Programs as long as CAM writes them, generated, compensated, and read back by a reader and an
 //! inverse that are not the program's own.
 
+use super::generated::{Generated, compensated};
 use super::landing::{TOLERANCE_MM, closed_form};
 use crate::path;
-use crate::support::{poseshift, scratch};
 use poseshift::geometry::{Pose, Rotation};
 use poseshift::model::Conditions;
 use poseshift::model::profile::Profile;
-use serde_json::Value;
 
 const POINTS: u32 = 4000;
+const EVERY: u32 = 2;
 
 /// The number of `name="…"` in a tag.
 fn attribute(tag: &str, name: &str) -> f64 {
@@ -65,44 +65,19 @@ fn around(text: &str, having: &str) -> Vec<String> {
 #[test]
 fn programs_as_long_as_cam_writes_them_land() {
     for (language, ending, having) in [("val3", "dtx", " x=\""), ("kawasaki", "as", "TRANS(")] {
-        let scratch = scratch();
-        let at = |name: &str| scratch.path().join(name);
-        let profile = path::profile(language);
-        std::fs::write(at("profile.yaml"), &profile).expect("scratch");
-        std::fs::create_dir(at("in")).expect("scratch");
-        let before = path::program(language, POINTS, 2);
+        let Generated { folder, targets } = compensated((language, ending), POINTS, EVERY);
+        let at = |name: &str| folder.path().join(name);
+        let before = path::program(language, POINTS, EVERY);
         let file = format!("path.{ending}");
-        std::fs::write(at("in").join(&file), &before).expect("scratch");
-        let given = path::given(language, POINTS);
-        if let Some((name, text)) = &given {
-            std::fs::write(at("in").join(name), text).expect("scratch");
-        }
-        let output = poseshift()
-            .arg("compensate")
-            .arg(at("in"))
-            .args(["--tool", "artifact", "--json", "--profile"])
-            .arg(at("profile.yaml"))
-            .arg("-o")
-            .arg(at("out"))
-            .output()
-            .expect("the program starts");
-        assert_eq!(output.status.code(), Some(0), "{language}");
-        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        let targets = report["targets"].as_array().expect("a list");
-        let targets: Vec<&Value> = targets
-            .iter()
-            .filter(|one| !one["fake"].is_null())
-            .collect();
-
         let after = std::fs::read_to_string(at("out").join(&file)).expect("it was written");
         assert_eq!(
             around(&after, having),
             around(&before, having),
             "{language}"
         );
-        if let Some((name, text)) = &given {
+        if let Some((name, text)) = path::given(language, POINTS) {
             let written = std::fs::read_to_string(at("out").join(name));
-            assert_eq!(&written.expect("all of a project is written"), text);
+            assert_eq!(written.expect("all of a project is written"), text);
         }
         let (wanted, fake) = (numbers(language, &before), numbers(language, &after));
         let count = POINTS as usize;
@@ -110,10 +85,10 @@ fn programs_as_long_as_cam_writes_them_land() {
             (wanted.len(), fake.len(), targets.len()),
             (count, count, count)
         );
-        let profile = Profile::from_yaml(&profile).expect("a valid profile");
+        let profile = Profile::from_yaml(&path::profile(language)).expect("a valid profile");
         let tool = profile.tool("artifact").expect("its tool");
         let real = profile.real_model(&tool, &Conditions::default());
-        for ((wanted, fake), reported) in wanted.into_iter().zip(fake).zip(targets) {
+        for ((wanted, fake), reported) in wanted.into_iter().zip(fake).zip(&targets) {
             let near: Vec<f64> =
                 serde_json::from_value(reported["joints_deg"].clone()).expect("joints");
             let near = std::array::from_fn(|i| near[i].to_radians());

@@ -5,6 +5,7 @@
 
 mod agree;
 mod cam;
+mod generated;
 mod landing;
 mod posts;
 
