@@ -29,12 +29,31 @@ pub(super) struct Word {
 pub(super) struct Spelling {
     /// What a comment begins with, which ends with its line.
     pub comment: &'static [u8],
-    /// Signs in names, besides letters, digits and bytes of 0x80 and above.
-    pub in_names: &'static [u8],
+    /// The bytes of names: see [`in_names`].
+    pub in_names: [bool; 256],
     /// A backslash in a text takes the next sign with it.
     pub has_escapes: bool,
     /// Quotes and signs are entities of XML.
     pub has_entities: bool,
+}
+
+/// Letters, digits, bytes of 0x80 and above, and these signs.
+pub(super) const fn in_names(signs: &[u8]) -> [bool; 256] {
+    let mut found = [false; 256];
+    let mut byte = u8::MIN;
+    loop {
+        found[byte as usize] = byte >= 0x80 || byte.is_ascii_alphanumeric();
+        if byte == u8::MAX {
+            break;
+        }
+        byte += 1;
+    }
+    let mut at = 0;
+    while at < signs.len() {
+        found[signs[at] as usize] = true;
+        at += 1;
+    }
+    found
 }
 
 /// Entities, and the signs that they are.
@@ -57,23 +76,28 @@ impl Spelling {
                 at += 1;
                 continue;
             }
-            if rest.starts_with(self.comment) {
+            if byte == self.comment[0] && rest.starts_with(self.comment) {
                 return;
             }
-            let (sign, width) = self.sign(rest);
-            let (kind, length) = match sign {
-                b'"' => (Kind::Text, self.text_length(rest, width)),
-                b'0'..=b'9' | b'.' if number_length(rest) > 0 => {
-                    (Kind::Number, number_length(rest))
+            let number = match byte {
+                b'0'..=b'9' | b'.' => number_length(rest),
+                _ => 0,
+            };
+            let (kind, length) = if number > 0 {
+                (Kind::Number, number)
+            } else if self.in_names[usize::from(byte)] {
+                let is_other = |byte: &u8| !self.in_names[usize::from(*byte)];
+                let other = rest.iter().position(is_other);
+                (Kind::Name, other.unwrap_or(rest.len()))
+            } else {
+                let (sign, width) = self.sign(rest);
+                match sign {
+                    b'"' => (Kind::Text, self.text_length(rest, width)),
+                    b'=' | b'!' | b'<' | b'>' if rest.get(width) == Some(&b'=') => {
+                        (Kind::Sign(b'~'), width + 1)
+                    }
+                    _ => (Kind::Sign(sign), width),
                 }
-                _ if self.is_in_name(byte) => {
-                    let other = rest.iter().position(|b| !self.is_in_name(*b));
-                    (Kind::Name, other.unwrap_or(rest.len()))
-                }
-                b'=' | b'!' | b'<' | b'>' if rest.get(width) == Some(&b'=') => {
-                    (Kind::Sign(b'~'), width + 1)
-                }
-                _ => (Kind::Sign(sign), width),
             };
             found.push(Word {
                 kind,
@@ -82,10 +106,6 @@ impl Spelling {
             });
             at += length;
         }
-    }
-
-    fn is_in_name(&self, byte: u8) -> bool {
-        byte.is_ascii_alphanumeric() || byte >= 0x80 || self.in_names.contains(&byte)
     }
 
     /// The sign that a text begins with, and its bytes.
@@ -208,20 +228,24 @@ impl<'a> Words<'a, '_> {
         &self.bytes[self.span()]
     }
 
-    /// The value of the number that these words are, with its sign.
-    pub(super) fn value(&self) -> Option<f64> {
+    /// Whether these words are a number with its sign, and whether that is a minus.
+    fn is_number(&self) -> Option<bool> {
         let is_negative = self.is(0, b'-');
         let signs = usize::from(is_negative || self.is(0, b'+'));
-        if self.len() != signs + 1 || self.kind(signs) != Some(Kind::Number) {
-            return None;
-        }
-        let value = number::parse(self.text(signs))?;
+        let is_number = self.len() == signs + 1 && self.kind(signs) == Some(Kind::Number);
+        is_number.then_some(is_negative)
+    }
+
+    /// The value of the number that these words are, with its sign.
+    pub(super) fn value(&self) -> Option<f64> {
+        let is_negative = self.is_number()?;
+        let value = number::parse(self.text(self.len() - 1))?;
         Some(if is_negative { -value } else { value })
     }
 
     /// The number that these words are; `None` also where blanks stand behind its sign.
     pub(super) fn number(&self) -> Option<Number> {
-        self.value()?;
+        self.is_number()?;
         number::placed(self.whole(), self.span().start)
     }
 
@@ -252,13 +276,13 @@ impl<'a> Words<'a, '_> {
 
     /// What stands between certain signs outside brackets, each part with the sign before it; `-`
     /// and the like in front of a part belong to it.
-    pub(super) fn split(&self, parts: fn(u8) -> bool) -> Vec<(u8, Self)> {
-        let (mut found, mut start, mut before, mut at) = (Vec::new(), 0, 0, 0);
+    fn each_part(&self, parts: impl Fn(u8) -> bool, mut each: impl FnMut(u8, Self)) {
+        let (mut start, mut before, mut at) = (0, 0, 0);
         while at < self.len() {
             match self.all[at].kind {
                 Kind::Sign(b'(' | b'[' | b'{') => at = self.closing(at),
                 Kind::Sign(sign) if parts(sign) && (sign == b',' || at > start) => {
-                    found.push((before, self.part(start..at)));
+                    each(before, self.part(start..at));
                     (start, before) = (at + 1, sign);
                 }
                 _ => {}
@@ -266,15 +290,24 @@ impl<'a> Words<'a, '_> {
             at += 1;
         }
         if !self.is_empty() {
-            found.push((before, self.behind(start)));
+            each(before, self.behind(start));
         }
+    }
+
+    /// What is added and subtracted outside brackets, each part with the sign before it.
+    pub(super) fn terms(&self) -> Vec<(u8, Self)> {
+        let mut found = Vec::new();
+        let is_sign = |sign| matches!(sign, b'+' | b'-');
+        self.each_part(is_sign, |before, part| found.push((before, part)));
         found
     }
 
     /// What stands between commas outside brackets.
     pub(super) fn list(&self) -> Vec<Self> {
-        let parts = self.split(|sign| sign == b',').into_iter();
-        parts.map(|(_, part)| part).collect()
+        // a pose, joints: most lists
+        let mut found = Vec::with_capacity(6);
+        self.each_part(|sign| sign == b',', |_, part| found.push(part));
+        found
     }
 
     /// The list in the bracket at a word where that is the rest of these words.
@@ -284,6 +317,18 @@ impl<'a> Words<'a, '_> {
     }
 }
 
+/// The six numbers that a list is.
+pub(super) fn six(list: &[Words]) -> Option<[Number; 6]> {
+    if list.len() != 6 {
+        return None;
+    }
+    let numbers: [Option<Number>; 6] = std::array::from_fn(|at| list[at].number());
+    let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = numbers else {
+        return None;
+    };
+    Some([a, b, c, d, e, f])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -291,7 +336,7 @@ mod tests {
 
     const DOTTED: Spelling = Spelling {
         comment: b";",
-        in_names: b"_.$",
+        in_names: in_names(b"_.$"),
         has_escapes: false,
         has_entities: false,
     };
@@ -336,7 +381,7 @@ mod tests {
             assert_eq!(list[3].number(), None, "no number of a file has blanks");
         });
         with_words("-a+b-(c+d)", |words| {
-            let terms = words.split(|sign| matches!(sign, b'+' | b'-'));
+            let terms = words.terms();
             let of = |(sign, part): &(u8, Words)| (*sign, part.whole().to_vec());
             let terms: Vec<_> = terms.iter().map(of).collect();
             let expected: [(u8, &[u8]); 3] = [(0, b"-a"), (b'+', b"b"), (b'-', b"(c+d)")];

@@ -6,7 +6,7 @@
 
 use crate::program::kit::{Fault, content_start};
 use crate::program::script::short;
-use crate::program::words::{Spelling, Word, Words};
+use crate::program::words::{Spelling, Word, Words, in_names};
 use crate::program::{Number, Source, number};
 use std::ops::Range;
 
@@ -49,9 +49,9 @@ pub(super) struct Line<'a> {
 }
 
 /// How words are written: names have dots.
-const SPELLING: Spelling = Spelling {
+static SPELLING: Spelling = Spelling {
     comment: b";",
-    in_names: b"_.$",
+    in_names: in_names(b"_.$"),
     has_escapes: false,
     has_entities: false,
 };

@@ -7,7 +7,7 @@ use super::sections::Entry;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
 use crate::program::script::{Expr, Held, Place, Remark, TableId, Variable, VariableId, short};
-use crate::program::words::{Kind, Word, Words};
+use crate::program::words::{Kind, Word, Words, six};
 use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::HashMap;
 use std::ops::Range;
@@ -286,7 +286,7 @@ impl<'a> Reader<'a> {
 
     /// The position that words are: `p`, `#p[1]`, `TRANS(…)`, `#[…]`, `p+q-r`, `SHIFT(p BY x,y,z)`.
     pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
-        let terms = part.split(|sign| matches!(sign, b'+' | b'-'));
+        let terms = part.terms();
         let Some(((_, first), others)) = terms.split_first() else {
             return Position::plain(self.unknown(Cause::Computed.remark()));
         };
@@ -324,21 +324,17 @@ impl<'a> Reader<'a> {
     /// A target that is written out.
     fn literal(&mut self, whole: Words<'a, '_>, shape: Shape) -> Expr {
         let list = whole.rest_list(1).unwrap_or_default();
-        let numbers: Option<Vec<Number>> = list.iter().map(Words::number).collect();
+        if let Some(numbers) = six(&list) {
+            let Range { start, end } = whole.span();
+            let place = self.place(start);
+            return Expr::Target(self.add_target(None, place, short(end), shape, numbers));
+        }
         let is_partial = shape == Shape::Pose && list.len() < 6;
-        let cause = match numbers.map(<[Number; 6]>::try_from) {
-            Some(Ok(numbers)) => {
-                let Range { start, end } = whole.span();
-                let place = self.place(start);
-                return Expr::Target(self.add_target(None, place, short(end), shape, numbers));
-            }
-            Some(Err(_)) if is_partial => Cause::Partial,
-            Some(Err(_)) => Cause::Axes,
-            None => list
-                .iter()
-                .find(|part| part.number().is_none())
-                .filter(|part| part.is_empty())
-                .map_or(Cause::Computed, |_| Cause::Partial),
+        let cause = match list.iter().find(|part| part.number().is_none()) {
+            None if is_partial => Cause::Partial,
+            None => Cause::Axes,
+            Some(part) if part.is_empty() => Cause::Partial,
+            Some(_) => Cause::Computed,
         };
         self.unknown(cause.remark())
     }

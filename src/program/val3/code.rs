@@ -2,20 +2,22 @@
 //!
 //! A statement is a line; one with a bracket open goes on.
 
-use crate::program::words::{Kind, Spelling, Word, Words};
+use crate::program::words::{Kind, Spelling, Word, Words, in_names};
 use std::ops::Range;
 
 /// Since s7, code stands as it is.
-const PLAIN: Spelling = Spelling {
+static PLAIN: Spelling = Spelling {
     comment: b"//",
-    in_names: b"$_",
+    in_names: in_names(b"$_"),
     has_escapes: true,
     has_entities: false,
 };
 /// Before, quotes and signs are entities.
-const ESCAPED: Spelling = Spelling {
+static ESCAPED: Spelling = Spelling {
+    comment: b"//",
+    in_names: in_names(b"$_"),
+    has_escapes: true,
     has_entities: true,
-    ..PLAIN
 };
 
 /// Lines that a statement has at most.

@@ -66,6 +66,11 @@ pub(super) struct Father<'a> {
 }
 
 impl<'a> Father<'a> {
+    /// The world, or nothing: what hangs there is where its numbers say.
+    pub(super) fn is_world(&self) -> bool {
+        matches!(self.name, b"" | b"world")
+    }
+
     fn of(text: &'a [u8]) -> Self {
         let (alias, rest) = match memchr::memchr(b':', text) {
             Some(at) => (&text[..at], &text[at + 1..]),
@@ -245,7 +250,7 @@ impl Datum<'_> {
         let name = Source::text(self.name);
         match &self.elements[element] {
             one if one.key == b"0" && self.elements.len() == 1 => name.into_owned(),
-            one => format!("{name}[{}]", Source::text(one.key)),
+            one => [&*name, "[", &*Source::text(one.key), "]"].concat(),
         }
     }
 }

@@ -25,6 +25,7 @@ impl<'a> Reader<'a> {
         if rest.iter().any(|other| other != first) {
             return None;
         }
+        let own = self.variables.fathers[*first as usize];
         let name = Reference::of(frame).filter(|name| !name.has_field)?;
         let asked = Father {
             alias: name.alias,
@@ -32,7 +33,7 @@ impl<'a> Reader<'a> {
             index: name.key?,
         };
         let place = |project, father| self.chain(project, father, Kind::Frame, 0).ok().flatten();
-        let world_from_own = place(first.0, first.1)?;
+        let world_from_own = place(own.0, own.1)?;
         let world_from_asked = place(self.here.project, asked)?;
         let own_from_asked = world_from_own.inverse() * world_from_asked;
         Some(Shift {
@@ -50,8 +51,14 @@ impl<'a> Reader<'a> {
             Some(known) if known.kind == Kind::Tool => self.named(&name),
             Some(_) => self.unknown(frame_chosen()),
             None => {
+                if let Some(known) = self.variables.tools.get(name.name) {
+                    return *known;
+                }
                 let is_flange = name.name == b"flange";
-                self.frame_value(&Source::text(name.name), is_flange.then(Pose::identity))
+                let pose = is_flange.then(Pose::identity);
+                let made = self.frame_value(&Source::text(name.name), pose);
+                self.variables.tools.insert(name.name, made);
+                made
             }
         }
     }
@@ -114,13 +121,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where the point of a variable hangs; `None` where it is declared as no point.
-    fn father(&self, variable: VariableId) -> Option<(u32, Father<'a>)> {
+    /// What the point of a variable hangs on, an index in [`super::targets::Variables::fathers`];
+    /// `None` where it is declared as no point.
+    fn father(&self, variable: VariableId) -> Option<u32> {
         let script = &self.builder.script;
         match script.variables[variable as usize].declared {
             Expr::Target(target) => {
                 let is_point = script.targets[target].layout.shape == crate::program::Shape::Pose;
-                let father = self.variables.fathers.get(target);
+                let father = self.variables.father_of.get(target);
                 father.filter(|_| is_point).copied()
             }
             _ => None,
@@ -138,10 +146,10 @@ impl<'a> Reader<'a> {
                 }
                 open.extend(copies);
             }
-            let Some((project, father)) = self.father(variable) else {
+            let Some(father) = self.father(variable) else {
                 continue;
             };
-            let frame = self.frame(project, father);
+            let frame = self.frame(father);
             if found.is_some_and(|other| other != frame) {
                 return self.unknown(frame_chosen());
             }
@@ -150,32 +158,26 @@ impl<'a> Reader<'a> {
         found.unwrap_or(Expr::Absent)
     }
 
-    fn frame(&mut self, project: u32, father: Father<'a>) -> Expr {
-        // the world is the same for all
-        let is_world = matches!(father.name, b"" | b"world");
-        let key = if is_world {
-            (0, Father::default())
-        } else {
-            (project, father)
-        };
-        if let Some(known) = self.variables.frames.get(&key) {
-            return *known;
+    fn frame(&mut self, place: u32) -> Expr {
+        if let Some(known) = self.variables.frames[place as usize] {
+            return known;
         }
+        let (project, father) = self.variables.fathers[place as usize];
         let declared = self.world.datum(project, father.alias, father.name);
-        let named = declared.filter(|_| !is_world).and_then(|datum| {
+        let named = declared.filter(|_| !father.is_world()).and_then(|datum| {
             let of = &self.world.data[datum as usize];
             Some(of.name_of(of.element(father.index)?))
         });
         let name = match named {
             Some(name) => name,
-            None if is_world => "world".to_owned(),
+            None if father.is_world() => "world".to_owned(),
             None => Source::text(father.name).into_owned(),
         };
         let made = match self.chain(project, father, Kind::Frame, 0) {
             Ok(pose) => self.frame_value(&name, pose),
             Err(remark) => self.unknown(remark),
         };
-        self.variables.frames.insert(key, made);
+        self.variables.frames[place as usize] = Some(made);
         made
     }
 }

@@ -10,7 +10,7 @@ use crate::program::script::{
     Builder, Expr, Held, Place, Remark, RoutineId, TableId, ValueId, Variable, VariableId, Written,
     short,
 };
-use crate::program::words::Words;
+use crate::program::words::{Words, six};
 use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::{HashMap, HashSet};
 
@@ -31,24 +31,36 @@ pub(super) enum Of {
     Project(u32),
 }
 
+/// What a value of a datum is in the script.
+#[derive(Clone, Copy, Debug, Default)]
+struct Value {
+    target: Option<TargetId>,
+    /// Once it is used.
+    variable: Option<VariableId>,
+}
+
 /// Variables of the script.
 #[derive(Debug, Default)]
 pub(super) struct Variables<'a> {
     /// The table of each datum.
     tables: Vec<TableId>,
-    /// The target of each value of each datum.
-    targets: Vec<Vec<Option<TargetId>>>,
-    /// Where the points of the data hang, by target: project and father.
+    /// Each value of each datum.
+    values: Vec<Vec<Value>>,
+    /// What points of the data hang on: project and father; the world is one of all projects.
     pub fathers: Vec<(u32, Father<'a>)>,
+    /// Of each target of the data the index of its father.
+    pub father_of: Vec<u32>,
     locals: HashMap<(RoutineId, &'a [u8]), Known>,
-    /// By table and key.
-    elements: HashMap<(TableId, &'a [u8]), VariableId>,
+    /// Of names that no datum has a value for, by table and key.
+    others: HashMap<(TableId, &'a [u8]), VariableId>,
     /// Tables that have all their values.
     filled: HashSet<TableId>,
     /// Any value of a table.
     any: HashMap<TableId, Expr>,
-    /// Work frames by project and name, and what they are.
-    pub frames: HashMap<(u32, Father<'a>), Expr>,
+    /// The work frame that each father is, once it is asked for.
+    pub frames: Vec<Option<Expr>>,
+    /// Tools that the files do not have.
+    pub tools: HashMap<&'a [u8], Expr>,
     /// Configuration data count.
     pub honoured: ValueId,
     /// Index in the script's guards: the path is altered.
@@ -76,17 +88,37 @@ impl<'a> Variables<'a> {
             altered: short(script.guards.len() - 1),
             ..Self::default()
         };
+        let mut known = HashMap::default();
         for datum in &world.data {
             let table = builder.script.table(Source::text(datum.name));
             variables.tables.push(table);
-            let targets = (0..datum.elements.len()).map(|at| {
-                let target = target_of(builder, datum, at)?;
-                let father = (datum.project, datum.elements[at].father);
-                variables.fathers.push(father);
-                Some(target)
+            let values = (0..datum.elements.len()).map(|at| {
+                let target = target_of(builder, datum, at);
+                if target.is_some() {
+                    let father = datum.elements[at].father;
+                    let father = if father.is_world() {
+                        (0, Father::default())
+                    } else {
+                        (datum.project, father)
+                    };
+                    let fathers = &mut variables.fathers;
+                    let last = variables.father_of.last().copied();
+                    let same = last.filter(|last| fathers[*last as usize] == father);
+                    variables.father_of.push(same.unwrap_or_else(|| {
+                        *known.entry(father).or_insert_with(|| {
+                            fathers.push(father);
+                            short(fathers.len() - 1)
+                        })
+                    }));
+                }
+                Value {
+                    target,
+                    variable: None,
+                }
             });
-            variables.targets.push(targets.collect());
+            variables.values.push(values.collect());
         }
+        variables.frames = vec![None; variables.fathers.len()];
         for (routine, program) in world.programs.iter().enumerate() {
             let routine = short(routine);
             for declared in &program.declared {
@@ -179,11 +211,22 @@ impl<'a> Reader<'a> {
 
     /// The variable of a value.
     fn element(&mut self, known: Known, key: &'a [u8]) -> VariableId {
-        if let Some(made) = self.variables.elements.get(&(known.table, key)) {
-            return *made;
+        let value = match known.of {
+            Of::Project(datum) => {
+                let at = self.world.data[datum as usize].element(key);
+                at.map(|at| (datum as usize, at))
+            }
+            Of::Program(_) => None,
+        };
+        let made = match value {
+            Some((datum, at)) => self.variables.values[datum][at].variable,
+            None => self.variables.others.get(&(known.table, key)).copied(),
+        };
+        if let Some(made) = made {
+            return made;
         }
         let variable = match known.of {
-            Of::Project(datum) => self.declared(datum, key),
+            Of::Project(datum) => self.declared(datum, value.map(|(_, at)| at), key),
             Of::Program(routine) => {
                 let program = &self.world.programs[routine as usize];
                 let place = Place {
@@ -202,14 +245,16 @@ impl<'a> Reader<'a> {
         let script = &mut self.builder.script;
         let made = script.variable(variable);
         script.enter(known.table, made);
-        self.variables.elements.insert((known.table, key), made);
+        match value {
+            Some((datum, at)) => self.variables.values[datum][at].variable = Some(made),
+            None => drop(self.variables.others.insert((known.table, key), made)),
+        }
         made
     }
 
-    /// A value of a project.
-    fn declared(&mut self, datum: u32, key: &[u8]) -> Variable {
+    /// A value of a project: where it stands among those of its name, if it does, and its key.
+    fn declared(&mut self, datum: u32, at: Option<usize>, key: &[u8]) -> Variable {
         let of = &self.world.data[datum as usize];
-        let at = of.element(key);
         let name = match at {
             Some(at) => of.name_of(at),
             None => format!("{}[{}]", Source::text(of.name), Source::text(key)),
@@ -218,7 +263,7 @@ impl<'a> Reader<'a> {
             file: of.file,
             offset: of.at,
         };
-        let target = at.and_then(|at| self.variables.targets[datum as usize][at]);
+        let target = at.and_then(|at| self.variables.values[datum as usize][at].target);
         let declared = match (of.kind, at) {
             (Kind::Tool, Some(at)) => self.tool_value(datum, at, &name),
             (Kind::Tool, None) => self.frame_value(&name, None),
@@ -349,8 +394,7 @@ impl<'a> Reader<'a> {
     /// Joints that are written out: `{0,-20,110,0,90,0}`.
     pub(super) fn joints(&mut self, words: Words<'a, '_>) -> Option<Expr> {
         let parts = words.rest_list(0).filter(|_| words.is(0, b'{'))?;
-        let numbers: Option<Vec<Number>> = parts.iter().map(Words::number).collect();
-        let numbers: [Number; 6] = numbers?.try_into().ok()?;
+        let numbers = six(&parts)?;
         let target = Target {
             name: None,
             file: self.here.file,
