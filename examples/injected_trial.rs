@@ -3,8 +3,8 @@
 //!
 //! `cargo run --release --example injected_trial -- FOLDER`, with a folder for each robot that has
 //! `profile.yaml` and `fit.csv`. Each robot is calibrated (level 3) and diagnosed with all its
-//! rows, what was found is taken into the profile, and that is where the diagnosis of the rows with
-//! an effect added starts.
+//! rows, what was found is taken into the profile, and so on until nothing new is found: that is
+//! where the diagnosis of the rows with an effect added starts.
 
 #[path = "../tests/physics/mod.rs"]
 #[allow(dead_code)]
@@ -45,10 +45,23 @@ struct Trial {
     list: bool,
 }
 
-/// Diagnoses, one after another, whose findings are taken into the start.
-const ROUNDS: usize = 3;
+/// Most diagnoses, one after another, whose findings are taken into the start.
+const ROUNDS: usize = 8;
 /// Sizes, in root mean squares of the residual.
 const SIZES: [f64; 3] = [0.5, 1.0, 2.0];
+
+/// An effect is drawn again where it would have to be beyond this many times its typical size: a
+/// reflector on the axis of a joint does not show how far that rotates.
+const MOST_TIMES: f64 = 20.0;
+/// And at most so often.
+const DRAWS: usize = 100;
+
+/// Whether an arm may have it.
+fn may_be(effect: &Effect) -> bool {
+    let parameters = effect.parameters.iter().zip(effect.definition().parameters);
+    let mut times = parameters.map(|(value, p)| value.abs() / (p.prior_sigma * p.unit.in_si()));
+    effect.beyond_usual().is_none() && times.all(|times| times <= MOST_TIMES)
+}
 
 /// What is added: seven kinds, backlash only where directions are known.
 fn kinds(measurements: &Measurements) -> [Kind; 7] {
@@ -103,7 +116,7 @@ fn robot(folder: &Path) -> Robot {
         alarms = (named.iter().filter(|l| !known.contains(*l)).cloned()).collect();
         known = named;
         let of_robot = |f: &&Found| !f.effect.definition().of_data;
-        if !found.found.iter().any(|f| of_robot(&f)) {
+        if alarms.is_empty() || !found.found.iter().any(|f| of_robot(&f)) {
             break;
         }
         profile = found.profile;
@@ -150,7 +163,6 @@ impl Robot {
                 .for_each(|(most, t)| *most = most.max(t.abs()));
         }
         let count = self.measurements.rows.len();
-        let unit = hidden(kind, count, 45.0 * count as f64, &torques, random);
         let device = self.profile.world_from_device();
         let seen = |effect: &Effect| -> (Measurements, f64) {
             let mut seen = self.measurements.clone();
@@ -173,10 +185,21 @@ impl Robot {
             }
             (seen, (squares / (3.0 * count as f64)).sqrt())
         };
-        let (_, rms) = seen(&unit);
-        let effect = scaled(&unit, size * self.residual_m / rms);
-        let (measurements, _) = seen(&effect);
-        (effect, measurements)
+        let largest = SIZES[SIZES.len() - 1];
+        for _ in 0..DRAWS {
+            let unit = hidden(kind, count, 45.0 * count as f64, &torques, random);
+            let (_, rms) = seen(&unit);
+            let of_size = |size: f64| scaled(&unit, size * self.residual_m / rms);
+            if may_be(&of_size(largest)) {
+                let effect = of_size(size);
+                let (measurements, _) = seen(&effect);
+                return (effect, measurements);
+            }
+        }
+        panic!(
+            "{DRAWS} of {} are larger than any arm has it",
+            kind.definition().id
+        )
     }
 
     /// What is named first beyond what is named anyway.

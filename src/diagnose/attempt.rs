@@ -7,7 +7,7 @@ use super::fit::Fit;
 use super::given::{Given, Kept};
 use super::noise::{Repeats, of_repeats};
 use super::refit::{Refit, refit, shrink};
-use super::search::Chosen;
+use super::search::{Chosen, by_gain};
 use super::session::{Session, Trust, for_choice, held_of, session};
 use super::table::Column;
 use super::unknown::{Library, Likeness, Unknown, chance, likeness};
@@ -189,7 +189,7 @@ pub(super) fn attempt(
             break;
         }
     }
-    let chosen = session.world(&used, &options.accept).ordered(chosen);
+    let chosen = by_gain(chosen);
     progress("fitting what was found");
     let (mut refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");

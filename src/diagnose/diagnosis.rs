@@ -159,7 +159,7 @@ pub struct Diagnosis {
     pub verdict: Verdict,
     /// Why, one sentence each.
     pub reasons: Vec<String>,
-    /// Effects in the order found; the first ones explain most.
+    /// Effects, those first without which most is lost.
     pub found: Vec<Found>,
     /// Configurations that would tell the strongest alternative from the effect found.
     pub telling: Vec<Telling>,
@@ -262,7 +262,12 @@ pub fn diagnose(
                         trusted
                     }
                 }
-                Err(IdentifyError::TooFew { .. } | IdentifyError::NotConverged { .. }) => trusted,
+                // what cannot be fitted anew, or makes no sense then, stays as it was calibrated
+                Err(
+                    IdentifyError::TooFew { .. }
+                    | IdentifyError::NotConverged { .. }
+                    | IdentifyError::Suspicious { .. },
+                ) => trusted,
                 Err(other) => return Err(other),
             }
         }

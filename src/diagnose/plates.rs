@@ -22,7 +22,7 @@ use super::conclusion::corrected;
 use super::diagnosis::{Diagnosis, Found, Options, Verdict};
 use super::fit::{Fit, REDUNDANT};
 use super::judgement::{AGAIN, Against, CLEAR, EVIDENT, Standing, TIE, odds_of};
-use super::search::{Chosen, World};
+use super::search::{Chosen, World, by_gain};
 use super::session::{LEAST, held_of};
 use super::table::{Column, Layout, Stored, add_scaled, dot, lengths_m, table};
 use super::weights::Plain;
@@ -60,7 +60,7 @@ pub struct PlateDiagnosis {
     pub verdict: Verdict,
     /// Why it is not more than that, one sentence each.
     pub reasons: Vec<String>,
-    /// Effects in the order found.
+    /// Effects, those first without which most is lost.
     pub found: Vec<Found>,
     /// Errors at stops that were left out in turn: of the present model, and with the effects
     /// found, mm.
@@ -371,7 +371,7 @@ impl One {
         let candidates = self.candidates(options);
         let every = vec![true; self.layout.rows()];
         let world = self.world(&candidates, &every, &accepted);
-        let chosen = world.ordered(world.search(Vec::new()));
+        let chosen = by_gain(world.search(Vec::new()));
         let fit = world.fit(&chosen);
         let unused = LeftOut::of(self, &candidates, &chosen);
         let mut found = self.found(&world, &fit, &chosen, &accepted);

@@ -6,7 +6,7 @@ use super::scan::View;
 use super::table::{Column, Layout};
 use super::weights::{Plain, Weighted};
 use crate::identify::pick::Pick;
-use crate::model::effects::{Effect, Kind, of_arm};
+use crate::model::effects::{Effect, of_arm};
 
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
@@ -401,48 +401,10 @@ impl World<'_> {
     }
 }
 
-impl World<'_> {
-    /// The cause first without which most is lost, in it the effect that explains most, then what
-    /// explains most given those, and so on.
-    #[must_use]
-    pub fn ordered(&self, mut chosen: Vec<Chosen>) -> Vec<Chosen> {
-        let mut ordered: Vec<Chosen> = Vec::new();
-        while !chosen.is_empty() {
-            let fit = self.fit(&ordered);
-            let gain = |wanted: &dyn Fn(&Chosen) -> bool| {
-                let own = chosen.iter().filter(|c| wanted(c));
-                let columns: Vec<Column> = own.flat_map(|c| c.columns.iter().cloned()).collect();
-                let projections = fit.projections(&columns);
-                let group: Vec<_> = projections.iter().collect();
-                fit.gain(&group, &vec![None; group.len()])
-                    .map_or(0.0, |gain| gain.gain)
-            };
-            let of = |c: &Chosen| {
-                let kind = c.candidate.effect.kind;
-                kind.definition().search.cause.unwrap_or(kind)
-            };
-            let last = ordered.last().map(of);
-            let more = |kind: Kind| chosen.iter().any(|c| of(c) == kind);
-            // what is lost without it: causes that imitate each other share what either explains
-            // alone
-            let of_kind = |kind: Kind| gain(&|_| true) - gain(&|c| of(c) != kind);
-            let kinds = chosen.iter().map(of);
-            let Some(kind) = last
-                .filter(|kind| more(*kind))
-                .or_else(|| kinds.max_by(|a, b| of_kind(*a).total_cmp(&of_kind(*b))))
-            else {
-                break;
-            };
-            let own = (0..chosen.len()).filter(|i| of(&chosen[*i]) == kind);
-            let label = |i: usize| chosen[i].candidate.effect.label();
-            let of_one = |i: usize| gain(&|c| c.candidate.effect.label() == label(i));
-            let Some(most) = own.max_by(|i, j| of_one(*i).total_cmp(&of_one(*j))) else {
-                break;
-            };
-            ordered.push(chosen.remove(most));
-        }
-        ordered
-    }
+/// The effect first without which most is lost.
+pub(super) fn by_gain(mut chosen: Vec<Chosen>) -> Vec<Chosen> {
+    chosen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    chosen
 }
 
 /// The best variant of each effect.

@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, length};
-use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Rotation, Scalar, Vector, add, cross, sub};
 
 /// The base rotates about x and y of its frame in proportion to the moment of the arm about its origin.
@@ -27,7 +27,6 @@ impl Equation for BaseCompliance {
         of_data: false,
         shown_against: Shown::Torque(Some(1)),
         search: Search {
-            cause: Some(Kind::LinkCompliance),
             ..Search::BENDING
         },
     };

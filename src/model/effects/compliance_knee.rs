@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::{deg, digits, joint};
-use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector};
 
 /// A joint that is more compliant while its torque is below the knee: beyond it the additional deflection stays.
@@ -30,7 +30,6 @@ impl Equation for ComplianceKnee {
         shown_against: Shown::Torque(None),
         search: Search {
             rare: true,
-            cause: Some(Kind::JointCompliance),
             held: true,
             never_negative: &[1],
             sets: Sets::At(0, List::Torques),

@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector};
 
 /// A joint stands before or after its command by the direction in which it last moved, the more the higher its torque.
@@ -26,7 +26,6 @@ impl Equation for FrictionBacklash {
         shown_against: Shown::Torque(None),
         search: Search {
             rare: true,
-            cause: Some(Kind::Backlash),
             ..Search::PLAIN
         },
     };

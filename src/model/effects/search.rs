@@ -1,7 +1,5 @@
 //! What a diagnosis knows of an effect: how it is sought, and what it shows against.
 
-use super::Kind;
-
 /// How a diagnosis seeks an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Search {
@@ -10,9 +8,6 @@ pub struct Search {
     /// stiffness, backlash and waves are in every arm, and what needs a column of its own (time,
     /// temperature, order) is distinguished from them by that.
     pub rare: bool,
-    /// The kind whose cause it shares: a gear that gives way, a structure that bends, something
-    /// that moved. Every other kind is its own.
-    pub cause: Option<Kind>,
     /// All places have it together: a load bends all joints at once.
     pub as_a_set: bool,
     /// A profile that has it is not fitted anew in it: what it does is hard to distinguish from
@@ -28,7 +23,6 @@ impl Search {
     /// An effect that every arm has, with all its parameters at once.
     pub(super) const PLAIN: Self = Self {
         rare: false,
-        cause: None,
         as_a_set: false,
         held: false,
         sets: Sets::All,

@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::{deg, joint, length, mm};
-use super::{BASE, Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector};
 
 /// A joint or the base moves with the row number to its last place, exponentially. An effect of the data.
@@ -34,7 +34,6 @@ impl Equation for SessionDrift {
         of_data: true,
         shown_against: Shown::Order,
         search: Search {
-            cause: Some(Kind::FrameShift),
             sets: Sets::At(4, List::Rows),
             ..Search::PLAIN
         },

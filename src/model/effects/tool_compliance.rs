@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, length};
-use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector, cross, sub};
 
 /// The tool rotates about x and y of the flange in proportion to the moment of its own weight there.
@@ -27,7 +27,6 @@ impl Equation for ToolCompliance {
         of_data: false,
         shown_against: Shown::Torque(Some(4)),
         search: Search {
-            cause: Some(Kind::LinkCompliance),
             ..Search::BENDING
         },
     };

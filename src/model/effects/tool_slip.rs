@@ -3,7 +3,7 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{length, mm};
-use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
 use crate::geometry::{Scalar, Vector};
 
 /// From one row of the measurements on, the tool stands elsewhere on the flange. An effect of the data, not of the robot.
@@ -28,7 +28,6 @@ impl Equation for ToolSlip {
         of_data: true,
         shown_against: Shown::Time,
         search: Search {
-            cause: Some(Kind::FrameShift),
             ..Search::PLAIN
         },
     };

@@ -195,7 +195,7 @@ pub struct Diagnosis {
     pub drift: Option<Drift>,
     /// Rows looked at.
     pub rows: usize,
-    /// Effects in the order found; the first ones explain most.
+    /// Effects, those first without which most is lost.
     pub effects: Vec<FoundEffect>,
     /// What was found of each positioner whose plate the measurements have points on.
     pub positioners: Vec<PositionerDiagnosis>,

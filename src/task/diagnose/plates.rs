@@ -26,7 +26,7 @@ pub struct PositionerDiagnosis {
     pub rows: usize,
     /// At how many stops of its axes.
     pub stops: usize,
-    /// Effects in the order found; the first ones explain most.
+    /// Effects, those first without which most is lost.
     pub effects: Vec<FoundEffect>,
     /// Errors at stops that were left out in turn, of the present model.
     pub before: Option<SpreadMm>,
