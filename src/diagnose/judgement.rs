@@ -5,14 +5,15 @@
 //! better with them; each effect has its own standing.
 
 use super::attempt::{ALIKE, Attempt};
-use super::candidates::range;
+use super::candidates::{least, range};
 use super::diagnosis::{Alternative, Found, Verdict};
 use super::proof::Proof;
 use super::refit::{Beyond, Refit};
+use super::search::MOST_EFFECTS;
 use super::stand_ins::StandIn;
 use super::waves::near;
-use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, Need, SiteKey};
+use crate::model::{JOINTS, Slot};
 use std::f64::consts::TAU;
 
 /// Two effects cannot be distinguished where one is better by less than this, in twice a log
@@ -90,7 +91,7 @@ pub(super) fn judge(
     alternatives: &[Alternative],
 ) -> Judged {
     let reasons = objections(attempt, proof, found, alternatives);
-    let is_possible = pushing(&attempt.refit).is_empty();
+    let is_possible = !beyond(&attempt.refit).any(|beyond| is_new(attempt, beyond));
     let is_better = proof.judged().is_some_and(|judged| judged.is_better());
     let verdict = match (reasons.is_empty(), found.is_empty()) {
         (true, true) => Verdict::NothingMissing,
@@ -264,6 +265,13 @@ fn objections(
             series.joint + 1
         ));
     }
+    if found.len() >= MOST_EFFECTS {
+        reasons.push(format!(
+            "{} effects are as many as one diagnosis names, and there may be more: diagnose again \
+             from the improved profile",
+            found.len()
+        ));
+    }
     if let Some(unknown) = attempt.unknown.first() {
         reasons.push(format!(
             "the residual depends on {} (chi-squared falls by {:.0}): no effect known does that",
@@ -308,9 +316,24 @@ fn objections(
     reasons
 }
 
+/// Values fitted along that clearly nothing physical has.
+fn beyond(refit: &Refit) -> impl Iterator<Item = &Beyond> {
+    refit.impossible.iter().filter(|b| b.sigmas > CLEARLY)
+}
+
+/// Whether the profile has no such value in the same place itself: what was found is no better
+/// than it in that, and may be better in all else.
+fn is_new(attempt: &Attempt, beyond: &Beyond) -> bool {
+    let Slot { effect, parameter } = beyond.slot;
+    let own = &attempt.refit.estimate.effects[effect];
+    let mut before = attempt.session.present_estimate.effects.iter();
+    let before = before.find(|e| e.same_place(own));
+    let bound = least(own.kind, parameter);
+    !before.is_some_and(|e| bound.is_some_and(|least| e.parameters[parameter] < least))
+}
+
 /// Values fitted along that nothing physical has, one sentence for each.
 fn pushing(refit: &Refit) -> Vec<String> {
-    let clear = refit.impossible.iter().filter(|b| b.sigmas > CLEARLY);
     let sentence = |beyond: &Beyond| {
         let effect = &refit.estimate.effects[beyond.slot.effect];
         let parameter = &effect.definition().parameters[beyond.slot.parameter];
@@ -324,7 +347,7 @@ fn pushing(refit: &Refit) -> Vec<String> {
             beyond.sigmas
         )
     };
-    clear.map(sentence).collect()
+    beyond(refit).map(sentence).collect()
 }
 
 /// Effects that functions outside the registry explain more than, one sentence for each function.

@@ -11,7 +11,7 @@ use crate::model::effects::{Effect, of_arm};
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
 /// Most effects found.
-const MOST_EFFECTS: usize = 12;
+pub(super) const MOST_EFFECTS: usize = 12;
 /// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one
 /// revolution a step.
 const FEW_EFFECTS: usize = 4;

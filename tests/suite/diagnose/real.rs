@@ -189,6 +189,38 @@ fn the_other_half_of_the_tx2_is_not_predicted_worse() {
     assert!(parts.iter().flatten().all(|p| *p < 1.0), "{parts:?}");
 }
 
+/// Level 3 of the UR5 has a spring of J2 that is surely negative, and what is found does not mend
+/// that. It predicts better all the same.
+#[test]
+fn what_the_start_has_wrong_itself_does_not_keep_the_better_profile_back() {
+    let folder = repository("../shared/data/real/ur5_tracker");
+    let (profile, csv) = (folder.join("profile.yaml"), folder.join("fit.csv"));
+    if !profile.is_file() {
+        skipped(&format!("{} is not there", folder.display()));
+        return;
+    }
+    let scratch = scratch();
+    let [level, better] = ["level3.yaml", "better.yaml"].map(|name| scratch.path().join(name));
+    let run = |command: &str, profile: &Path, output: &Path| {
+        let mut run = poseshift();
+        run.args([command, "--profile"]).arg(profile);
+        run.arg("--measurements").arg(&csv).arg("-o").arg(output);
+        let out = run.output().expect("the program starts");
+        assert_eq!(out.status.code(), Some(0), "{out:?}");
+        String::from_utf8(out.stdout).expect("a text")
+    };
+    run("calibrate", &profile, &level);
+    let calibrated = std::fs::read_to_string(&level).expect("the profile");
+    assert!(calibrated.contains("rad_per_n_m: -"), "{calibrated}");
+    let report = run("diagnose", &level, &better);
+    // the report says both
+    let report: String = report.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in ["no spring is like that", "12 effects are as many as one"] {
+        assert!(report.contains(said), "{said}: {report}");
+    }
+    assert!(better.is_file());
+}
+
 #[test]
 fn on_the_ma1400_alternatives_differ_by_what_the_measurements_say_only() {
     let Some(report) = diagnosed("ma1400_leica") else {
