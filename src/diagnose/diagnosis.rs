@@ -262,12 +262,7 @@ pub fn diagnose(
                         trusted
                     }
                 }
-                // what cannot be fitted anew, or makes no sense then, stays as it was calibrated
-                Err(
-                    IdentifyError::TooFew { .. }
-                    | IdentifyError::NotConverged { .. }
-                    | IdentifyError::Suspicious { .. },
-                ) => trusted,
+                Err(IdentifyError::TooFew { .. } | IdentifyError::NotConverged { .. }) => trusted,
                 Err(other) => return Err(other),
             }
         }

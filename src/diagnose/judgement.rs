@@ -321,15 +321,20 @@ fn beyond(refit: &Refit) -> impl Iterator<Item = &Beyond> {
     refit.impossible.iter().filter(|b| b.sigmas > CLEARLY)
 }
 
-/// Whether the profile has no such value in the same place itself: what was found is no better
-/// than it in that, and may be better in all else.
+/// Whether the profile has no value in the same place that is as clearly none: where it has, what
+/// was found is no better than it in that, and may be better in all else.
 fn is_new(attempt: &Attempt, beyond: &Beyond) -> bool {
     let Slot { effect, parameter } = beyond.slot;
     let own = &attempt.refit.estimate.effects[effect];
+    let Some(least) = least(own.kind, parameter) else {
+        return true;
+    };
     let mut before = attempt.session.present_estimate.effects.iter();
-    let before = before.find(|e| e.same_place(own));
-    let bound = least(own.kind, parameter);
-    !before.is_some_and(|e| bound.is_some_and(|least| e.parameters[parameter] < least))
+    let Some(before) = before.find(|e| e.same_place(own)) else {
+        return true;
+    };
+    let sigma = (least - own.parameters[parameter]) / beyond.sigmas;
+    least - before.parameters[parameter] <= CLEARLY * sigma
 }
 
 /// Values fitted along that nothing physical has, one sentence for each.
