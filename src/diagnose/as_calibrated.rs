@@ -21,6 +21,7 @@ use crate::model::Slot;
 use crate::model::profile::Profile;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// Probability that an arm as it was is measured again.
 pub const SIGNIFICANCE: f64 = 0.01;
@@ -230,7 +231,9 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
     let rows = problem.rows.len() as f64;
     let sees_rad = std::array::from_fn(|joint| {
         let whole = slope(problem, estimate, |p, _, step| {
-            p.rows.iter_mut().for_each(|row| row.q[joint] += step);
+            Arc::make_mut(&mut p.rows)
+                .iter_mut()
+                .for_each(|row| row.q[joint] += step);
         });
         let seen = expected.size(&whole);
         let is_seen = seen > LEAST_SEEN * whole.norm_squared();

@@ -204,7 +204,7 @@ impl Tried {
     pub fn of(problem: &Problem, estimate: &Estimate) -> Self {
         let models = problem.models(estimate, &[]);
         let mut most = [0.0_f64; JOINTS];
-        for row in &problem.rows {
+        for row in problem.rows.iter() {
             let torques = models[row.rig].torques(&row.q, &row.conditions);
             for i in 0..JOINTS {
                 most[i] = most[i].max(torques[i].abs());

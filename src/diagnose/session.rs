@@ -185,7 +185,7 @@ pub fn session(
     } else {
         Pose::identity()
     };
-    let (fit, measurements) = (fit.moved(&nearer), &measurements.moved(&nearer));
+    let (fit, measurements) = (fit.moved(&nearer), &measurements.clone().moved(&nearer));
     let (mut problem, own) =
         Problem::new(profile, measurements, &selection, profile.world_from_base)?;
     problem.gravity_by_base = on_track;

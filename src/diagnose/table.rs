@@ -135,7 +135,7 @@ pub(super) fn table_into<C: Numbers>(
         .iter()
         .filter(|p| matches!(p.subject, Subject::Effect(_)));
     let mut motions = vec![Motion::default(); effects.count()];
-    for row in &problem.rows {
+    for row in problem.rows.iter() {
         let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
         let seen = problem.observe(estimate, row, pose);
         let (gap, weights, count) = (seen.gap(), seen.weights(), row.observed.count());

@@ -20,7 +20,6 @@ use crate::geometry::units::DEG;
 use crate::geometry::{Pose, dot, norm, scale};
 use crate::model::effects::Kind;
 use crate::model::profile::{DevicePlace, Profile};
-use std::borrow::Cow;
 
 /// A row is an outlier whose residual is beyond this many times the limit of normal ones.
 pub const OUTLIER: f64 = 1.6;
@@ -342,14 +341,15 @@ pub(super) fn identify(
     };
     let by_controller = sought && options.base == BasePolicy::Controller;
     let mut world_from_device = profile.world_from_device();
-    let (mut fit, mut measurements) = (fit, Cow::Borrowed(measurements));
+    let mut fit = fit;
+    let mut held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     if by_controller {
         // near enough for the axes of forces; gravity follows the base
         let real = profile.world_from_real_base();
         let nearer = real * guess.world_from_base.inverse();
         world_from_device = nearer * world_from_device;
         fit = fit.moved(&nearer);
-        measurements = Cow::Owned(measurements.moved(&nearer));
+        held = held.moved(&nearer);
         guess.world_from_base = real;
     }
     let moved_base = guess.world_from_base != profile.world_from_base;
@@ -459,7 +459,6 @@ pub(super) fn identify(
     };
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     remarks.extend(plausibility::check_rows(&outliers));
-    let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     let held_out = if held.rows.is_empty() {
         None
     } else {

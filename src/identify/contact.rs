@@ -452,7 +452,7 @@ pub(super) fn start(problem: &mut Problem, estimate: &mut Estimate) -> Result<()
     let models = problem.models(estimate, &[]);
     let mut none: [Motion; 0] = [];
     let mut balls: Vec<Vec<Vector>> = vec![Vec::new(); problem.features.len()];
-    for row in &problem.rows {
+    for row in problem.rows.iter() {
         if let (Observed::Contact(_), Some((feature, _))) = (row.observed, row.touched) {
             let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut none);
             balls[feature].push(pose.transform(problem.point_in_tool_m(estimate, row)));

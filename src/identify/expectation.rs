@@ -11,6 +11,7 @@ use crate::model::batch::{Four, WIDTH};
 use crate::model::external::Stand;
 use crate::model::{Conditions, FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// Random postures within the joint limits.
 pub const POSTURES: usize = 300;
@@ -110,7 +111,7 @@ pub fn expected_error_m(
     let track = &problem.profile.external.track;
     let axes = track.iter().map(|axis| (axis.min_m, axis.max_m));
     let mut elsewhere = problem.clone();
-    elsewhere.rows = (0..POSTURES)
+    let rows = (0..POSTURES)
         .map(|_| Row {
             q: std::array::from_fn(|i| random.between(joints[i].min_rad, joints[i].max_rad)),
             observed: super::measurements::Observed::Position([0.0; 3]),
@@ -126,6 +127,7 @@ pub fn expected_error_m(
             ..like.clone()
         })
         .collect();
+    elsewhere.rows = Arc::new(rows);
     elsewhere.sort_rigs(&estimate.effects);
     let models = elsewhere.models(estimate, parameters);
     let effects = parameters
@@ -135,7 +137,7 @@ pub fn expected_error_m(
     let mut motions = vec![Motion::default(); effects];
     let mut jacobian = DMatrix::zeros(3, parameters.len());
     let mut sum = 0.0;
-    for row in &elsewhere.rows {
+    for row in elsewhere.rows.iter() {
         let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
         let seen = elsewhere.observe(estimate, row, pose);
         slopes(&seen, &motions, parameters, |column, slope| {

@@ -236,7 +236,7 @@ impl Derivatives {
         let is_effect = |p: &&Parameter| matches!(p.subject, Subject::Effect(_));
         let mut motions = vec![Motion::default(); parameters.iter().filter(is_effect).count()];
         let (mut cells, mut height) = (Vec::new(), 0);
-        for row in &problem.rows {
+        for row in problem.rows.iter() {
             let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
             let seen = problem.observe(estimate, row, pose);
             let by = seen.weights().map(|weight| weight * row.sigma_m / sigma_m);

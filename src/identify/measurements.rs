@@ -192,9 +192,8 @@ impl Measurements {
 
     /// The same readings in another frame; forces stay along the axes of the world.
     #[must_use]
-    pub fn moved(&self, to_from_here: &Pose) -> Self {
-        let mut moved = self.clone();
-        for row in &mut moved.rows {
+    pub fn moved(mut self, to_from_here: &Pose) -> Self {
+        for row in &mut self.rows {
             match &mut row.observed {
                 Observed::Position(point) => *point = to_from_here.transform(*point),
                 Observed::Pose(pose) => *pose = *to_from_here * *pose,
@@ -208,7 +207,7 @@ impl Measurements {
                 contact.normal = contact.normal.map(|normal| to_from_here.rotation * normal);
             }
         }
-        moved
+        self
     }
 
     /// The readings in the controller's world, by where the profile has the device.
@@ -219,7 +218,7 @@ impl Measurements {
     pub fn in_world_of(&self, profile: &Profile) -> Result<Cow<'_, Self>, IdentifyError> {
         external::agree(self, profile)?;
         Ok(match &profile.device {
-            Some(device) => Cow::Owned(self.moved(&device.world_from_device)),
+            Some(device) => Cow::Owned(self.clone().moved(&device.world_from_device)),
             None => Cow::Borrowed(self),
         })
     }

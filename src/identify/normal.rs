@@ -323,6 +323,7 @@ mod tests {
     use crate::identify::simulate::{Command, Session, simulate};
     use crate::model::external::Stand;
     use crate::model::profile::Profile;
+    use std::sync::Arc;
 
     #[test]
     fn four_rows_side_by_side_count_as_one_after_another() {
@@ -357,7 +358,7 @@ mod tests {
                 .expect("a problem");
         let of = |rows: &[Row]| {
             let mut part = problem.clone();
-            part.rows = rows.to_vec();
+            part.rows = Arc::new(rows.to_vec());
             Normal::of(&part, &estimate, &problem.parameters, Loss::squares())
         };
         let together = of(&problem.rows);

@@ -28,8 +28,8 @@ impl Pairs {
 /// Points that are compared with a block of others at a time: their coordinates stay in the nearest
 /// cache.
 const BLOCK: usize = 512;
-/// Points of which all pairs are compared; of more, each is compared with half as many others,
-/// picked at random.
+/// Points of which all pairs are compared. Of more, as many pairs as these have are compared, picked
+/// at random.
 const ALL: usize = 20_000;
 /// Beyond this part of a distance, squared, its error is computed the long way.
 const LARGE: f32 = 1e-3;
@@ -226,9 +226,9 @@ fn shuffled(count: usize) -> Vec<usize> {
 /// Errors of the distances between all pairs of points, in the unit of the points; `None` with
 /// fewer than two points.
 ///
-/// Of more than 20 000 points not all pairs are compared: each with 7 000 to 10 000 others, picked
-/// at random, the same in every run. Mean and standard deviation are then those of this sample, and
-/// the largest error is its largest.
+/// Of more than 20 000 points not all pairs are compared but some 200 million, picked at random, the
+/// same in every run. Mean and standard deviation are then those of this sample, and the largest
+/// error is its largest.
 ///
 /// Memory is that of the points. Sums and differences of measured and expected points are rounded
 /// to single precision about their means: the mean is right to some 1e-6 of itself. Points that
@@ -244,7 +244,8 @@ pub fn pairs(measured: &[Vector], expected: &[Vector]) -> Option<Pairs> {
         let order = shuffled(count);
         let picked = |of: &[Vector]| order.iter().map(|i| of[*i]).collect::<Vec<_>>();
         let cloud = (picked(measured), picked(expected));
-        return Some(compared(&cloud.0, &cloud.1, ALL.div_ceil(2 * BLOCK)));
+        let others = ALL.div_ceil(2 * BLOCK) * ALL.div_ceil(BLOCK);
+        return Some(compared(&cloud.0, &cloud.1, others.div_ceil(blocks)));
     }
     Some(compared(&measured[..count], &expected[..count], blocks))
 }

@@ -15,6 +15,7 @@ use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile, is_of_profile};
 use crate::model::{Conditions, Geometry, Mechanism, Sensitivity, Slot};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The standard deviation of a row that gives none, metres.
 pub const DEFAULT_SIGMA_M: f64 = 1e-4;
@@ -136,7 +137,7 @@ pub struct Problem {
     /// What the probe touched and is not wholly known.
     pub features: Vec<Feature>,
     /// Rows to compare.
-    pub rows: Vec<Row>,
+    pub rows: Arc<Vec<Row>>,
     /// Geometries in use.
     pub rigs: Vec<Rig>,
     /// What is identified, in the order in which parameters are kept.
@@ -362,7 +363,7 @@ impl Problem {
             tools,
             points,
             features,
-            rows,
+            rows: Arc::new(rows),
             rigs: Vec::new(),
             parameters,
             sigma_assumed,
@@ -410,7 +411,7 @@ impl Problem {
         let mut problem = Self {
             profile: profile.clone(),
             tools: vec![Mounted::flange()],
-            rows: rows.collect(),
+            rows: Arc::new(rows.collect()),
             points: of.points,
             features: Vec::new(),
             rigs: Vec::new(),
@@ -498,7 +499,7 @@ impl Problem {
         self.rigs.clear();
         let on_track = !self.profile.external.track.is_empty();
         let mut known = BTreeMap::new();
-        for row in &mut self.rows {
+        let mut rig_of = |row: &Row| {
             let conditions = if varies {
                 Conditions {
                     temperature_c: row.conditions.temperature_c,
@@ -519,7 +520,7 @@ impl Problem {
                     Vec::new()
                 },
             );
-            row.rig = *known.entry(key).or_insert_with(|| {
+            *known.entry(key).or_insert_with(|| {
                 self.rigs.push(Rig {
                     tool: row.tool,
                     conditions,
@@ -527,7 +528,19 @@ impl Problem {
                     plate: row.plate,
                 });
                 self.rigs.len() - 1
-            });
+            })
+        };
+        let found: Vec<usize> = self.rows.iter().map(&mut rig_of).collect();
+        // rows that others have, too, stay theirs
+        if self
+            .rows
+            .iter()
+            .zip(&found)
+            .any(|(row, rig)| row.rig != *rig)
+        {
+            for (row, rig) in Arc::make_mut(&mut self.rows).iter_mut().zip(found) {
+                row.rig = rig;
+            }
         }
     }
 
@@ -646,8 +659,10 @@ impl Problem {
     #[must_use]
     pub fn with_rows(&self, keep: impl Fn(usize) -> bool) -> Self {
         let mut other = self.clone();
-        let kept = self.rows.iter().enumerate().filter(|(i, _)| keep(*i));
-        other.rows = kept.map(|(_, row)| row.clone()).collect();
+        if !(0..self.rows.len()).all(&keep) {
+            let kept = self.rows.iter().enumerate().filter(|(i, _)| keep(*i));
+            other.rows = Arc::new(kept.map(|(_, row)| row.clone()).collect());
+        }
         other
     }
 }

@@ -54,26 +54,29 @@ fn mean(of: &[Vector]) -> Vector {
     scale(1.0 / of.len().max(1) as f64, sum)
 }
 
-/// Rows of one configuration and point, in the order of their first ones.
-fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
-    type Key = (Vec<u64>, Option<String>);
-    let mut groups: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
-    for (i, row) in measurements.rows.iter().enumerate() {
-        if row.observed.point_m().is_some() {
-            let key = (
-                row.q
-                    .iter()
-                    .chain(&row.stand.values)
-                    .map(|x| x.to_bits())
-                    .collect(),
-                row.point.clone(),
-            );
-            groups.entry(key).or_default().push(i);
-        }
-    }
-    let mut found: Vec<Vec<usize>> = groups
-        .into_values()
+fn bits(of: &[f64]) -> impl Iterator<Item = u64> {
+    of.iter().map(|x| x.to_bits())
+}
+
+/// Rows of one configuration and point that was measured several times, in the order of their first
+/// ones.
+pub(super) fn groups(measurements: &Measurements) -> Vec<Vec<usize>> {
+    let rows = &measurements.rows;
+    let compared = |a: &usize, b: &usize| {
+        let [a, b] = [a, b].map(|row| &rows[*row]);
+        bits(&a.q)
+            .cmp(bits(&b.q))
+            .then_with(|| bits(&a.stand.values).cmp(bits(&b.stand.values)))
+            .then_with(|| a.point.cmp(&b.point))
+    };
+    let mut order: Vec<usize> = (0..rows.len())
+        .filter(|row| rows[*row].observed.point_m().is_some())
+        .collect();
+    order.sort_by(compared);
+    let mut found: Vec<Vec<usize>> = order
+        .chunk_by(|a, b| compared(a, b).is_eq())
         .filter(|rows| rows.len() >= FEWEST)
+        .map(<[usize]>::to_vec)
         .collect();
     found.sort_by_key(|rows| rows[0]);
     found
@@ -95,13 +98,18 @@ fn directions_of(measurements: &Measurements, rows: &[usize]) -> Vec<Option<Vec<
         .collect()
 }
 
-/// Poses measured at least three times; `misses` of the real and of the controller's model.
-pub(super) fn repeated(measurements: &Measurements, misses: [&[Miss]; 2]) -> Vec<Repeated> {
+/// Poses measured at least three times, as [`groups`] has them; `misses` of the real and of the
+/// controller's model.
+pub(super) fn repeated(
+    measurements: &Measurements,
+    groups: &[Vec<usize>],
+    misses: [&[Miss]; 2],
+) -> Vec<Repeated> {
     let gap = |misses: &[Miss], row: usize| {
         let [x, y, z, ..] = misses[row].gap;
         [x, y, z].map(mm_from_m)
     };
-    groups(measurements)
+    groups
         .iter()
         .map(|rows| {
             let [gaps, commanded] =
@@ -134,9 +142,9 @@ pub(super) fn repeated(measurements: &Measurements, misses: [&[Miss]; 2]) -> Vec
 /// Distances from each pose measured at least three times to the next one of the same point.
 pub(super) fn repeated_distances(
     measurements: &Measurements,
+    groups: &[Vec<usize>],
     misses: [&[Miss]; 2],
 ) -> Vec<RepeatedDistance> {
-    let groups = groups(measurements);
     let point = |rows: &[usize]| &measurements.rows[rows[0]].point;
     let mut found = Vec::new();
     for (number, first) in groups.iter().enumerate() {

@@ -103,7 +103,7 @@ impl Residuals {
         let mut motions = vec![Motion::default(); sought.iter().filter(is_effect).count()];
         let mut residuals = Vec::with_capacity(count);
         let mut slopes = Vec::with_capacity(count * sought.len());
-        for row in &self.problem.rows {
+        for row in self.problem.rows.iter() {
             let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut motions);
             let seen = self.problem.observe(&estimate, row, pose);
             let (gap, weights, numbers) = (seen.gap(), seen.weights(), row.observed.count());

@@ -10,7 +10,7 @@ use super::input_checks::{self, Remark};
 use super::measurements::{Measurement, Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
-use super::repeated::{repeated, repeated_distances};
+use super::repeated::{groups, repeated, repeated_distances};
 use super::robust::Shape;
 use super::solver::solve;
 use super::start;
@@ -20,6 +20,7 @@ use crate::geometry::{Vector, norm, sub};
 use crate::model::effects::Kind;
 use crate::model::external::Listed;
 use crate::model::profile::Profile;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Regions of distance from the middle of the calibration that errors are reported by.
@@ -147,6 +148,7 @@ pub fn validate(
     refit: Refit,
     folds: Option<Folds>,
 ) -> Result<Validation, IdentifyError> {
+    let measurements = Cow::Borrowed(measurements);
     validate_telling(profile, measurements, refit, folds, &mut |_, _| ())
 }
 
@@ -156,12 +158,17 @@ pub fn validate(
 /// As [`validate`].
 pub fn validate_telling(
     profile: &Profile,
-    measurements: &Measurements,
+    measurements: Cow<Measurements>,
     refit: Refit,
     folds: Option<Folds>,
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<Validation, IdentifyError> {
-    let measurements = &*measurements.in_world_of(profile)?;
+    let moved = match measurements.in_world_of(profile)? {
+        Cow::Owned(moved) => Some(moved),
+        Cow::Borrowed(_) => None,
+    };
+    let all = moved.map_or(measurements, Cow::Owned);
+    let measurements = &*all;
     let selection = Selection::level(Level::Frames);
     let unknown = measurements.rows.iter().find(|row| {
         row.point_in_tool_m.is_none()
@@ -185,11 +192,14 @@ pub fn validate_telling(
     let at_rest = |profile: &Profile| {
         Problem::new(profile, measurements, &selection, profile.world_from_base)
     };
-    let (bare, nominal) = at_rest(&controller)?;
+    let (features, nominal) = {
+        let (bare, nominal) = at_rest(&controller)?;
+        (bare.features, nominal)
+    };
     let (problem, own) = at_rest(profile)?;
     // the controller knows nothing of fitted frames: the effects that the selection added are zero
     let mut controller_problem = problem.clone();
-    controller_problem.features = bare.features;
+    controller_problem.features = features;
     controller_problem.sort_rigs(&nominal.effects);
     let is_for = |row: usize| measurements.rows[row].purpose == Some(Purpose::Validate);
     let is_judged = |row: usize| refit != Refit::Others || is_for(row);
@@ -217,7 +227,10 @@ pub fn validate_telling(
         }
     };
     let real_problem = real_problem.with_rows(is_judged);
-    let judged_rows = measurements.filtered(|row, _| is_judged(row));
+    let judged_rows = match refit {
+        Refit::Others => Cow::Owned(measurements.filtered(|row, _| is_judged(row))),
+        Refit::No | Refit::Judged => Cow::Borrowed(measurements),
+    };
     let judged_real = judged(&real_problem, &real);
     let given = !real_problem.sigma_assumed;
     let squares = judged_real
@@ -241,6 +254,7 @@ pub fn validate_telling(
         refit,
     ));
     let by = [judged_real.misses.as_slice(), &controller.misses];
+    let repetitions = groups(&judged_rows);
     Ok(Validation {
         parts: parts(
             profile,
@@ -248,8 +262,12 @@ pub fn validate_telling(
             &judged_real.misses,
             places.as_deref(),
         ),
-        repeated: repeated(&judged_rows, by),
-        repeated_distances: repeated_distances(&judged_rows, by),
+        repeated: repeated(&judged_rows, &repetitions, by),
+        repeated_distances: repeated_distances(&judged_rows, &repetitions, by),
+        measurements: match judged_rows {
+            Cow::Owned(some) => some,
+            Cow::Borrowed(_) => all.into_owned(),
+        },
         remarks,
         controller,
         frames_only,
@@ -258,7 +276,6 @@ pub fn validate_telling(
         normalised_rms: given.then_some(normalised),
         problem: real_problem,
         estimate: real,
-        measurements: judged_rows,
         folds,
     })
 }
@@ -476,7 +493,7 @@ fn cross_validate(
         };
         let solved = solve(&training, from, Shape::Huber, true)?;
         full.extend(misses(&test, &solved.estimate));
-        rows.extend(test.rows);
+        rows.extend(test.rows.iter().cloned());
     }
     Ok((count, Quality::of(&rows, &full), Quality::of(&rows, &alone)))
 }

@@ -17,6 +17,7 @@ use crate::identify::validation::{
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
+use std::borrow::Cow;
 
 /// How to validate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -312,7 +313,8 @@ pub fn validate(
         }
         return Ok(judge(found.clone(), read));
     }
-    let found = validate_telling(&file.profile, &tool, refit, options.folds, hear)
+    let tool = Cow::Owned(tool);
+    let found = validate_telling(&file.profile, tool, refit, options.folds, hear)
         .map_err(|error| too_few(&name, &error))?;
     let standing = if options.as_calibrated {
         Some(standing_of(file, &found)?)

@@ -2,7 +2,7 @@
 
 use super::{Flow, State};
 use crate::motion::before::ANYWHERE;
-use crate::motion::holding::{Atom, Holding, Site};
+use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
     Call, DISPLACED_SOMEHOW, Expr, OVERWRITTEN, RoutineId, Statement, VariableId, short,
 };
@@ -68,7 +68,8 @@ impl Flow<'_> {
         behind
     }
 
-    /// The state in which a call enters a routine: what it is given is bound.
+    /// The state in which a call enters a routine: its own variables are as declared, whatever an
+    /// earlier call left in them; what it is given is bound.
     pub(super) fn entry_of(
         &mut self,
         call: &Call,
@@ -77,6 +78,12 @@ impl Flow<'_> {
         start: &State,
     ) -> State {
         let mut entry = start.clone();
+        for slot in self.locals.get(&routine).cloned().unwrap_or_default() {
+            let variable = self.tracked[slot as usize];
+            let declared = self.script.variables[variable as usize].declared;
+            let held = self.constant(declared, DECLARED);
+            self.set(&mut entry, variable, held);
+        }
         for argument in self.arguments(call) {
             if let Some(parameter) = argument.parameter
                 && self.script.variables[parameter as usize].routine == Some(routine)

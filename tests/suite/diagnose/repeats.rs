@@ -7,10 +7,11 @@ use poseshift::diagnose::noise::{Repeats, of_repeats};
 use poseshift::diagnose::table::Layout;
 use poseshift::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
 use poseshift::identify::parameters::{Level, Selection};
-use poseshift::identify::problem::Problem;
+use poseshift::identify::problem::{Problem, Row};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// Poses, and how often each is measured.
 const SESSION: (usize, usize) = (60, 3);
@@ -50,7 +51,7 @@ fn normal(random: &mut StdRng) -> f64 {
 /// times, then another, and so on, or of all poses once, then all again.
 fn noise_of(
     in_turn: bool,
-    change: impl Fn(&mut Problem),
+    change: impl Fn(&mut Vec<Row>),
     residual: impl Fn(usize, &mut StdRng) -> f64,
 ) -> Option<Repeats> {
     let case = case_of(group("clean"), 0, 5, SESSION);
@@ -61,16 +62,15 @@ fn noise_of(
     if in_turn {
         let (poses, times) = SESSION;
         let rows = problem.rows.clone();
-        problem.rows = (0..poses * times)
-            .map(|k| rows[k % poses * times].clone())
-            .collect();
-        for (k, row) in problem.rows.iter_mut().enumerate() {
+        let other = (0..poses * times).map(|k| rows[k % poses * times].clone());
+        problem.rows = Arc::new(other.collect());
+        for (k, row) in Arc::make_mut(&mut problem.rows).iter_mut().enumerate() {
             row.observed = rows[k].observed;
             row.conditions.time_s = rows[k].conditions.time_s;
             row.conditions.temperature_c = Some(23.0);
         }
     }
-    change(&mut problem);
+    change(Arc::make_mut(&mut problem.rows));
     let mut random = StdRng::seed_from_u64(11);
     let layout = Layout::of(&problem);
     let residual: Vec<f64> = (0..layout.rows())
@@ -138,17 +138,14 @@ fn drift_over_hours_is_no_noise_where_repetitions_follow_one_another() {
     let far = far.expect("enough repetitions").scale;
     assert!(far > 10.0, "{far}");
     // but where some poses were measured again at once, those tell
-    let some = |problem: &mut Problem| {
-        let rows = problem.rows.clone();
+    let some = |rows: &mut Vec<Row>| {
+        let before = rows.clone();
         for k in 0..10 {
-            let (observed, conditions) = (
-                problem.rows[2 * k + 1].observed,
-                problem.rows[2 * k + 1].conditions,
-            );
-            problem.rows[2 * k + 1] = rows[2 * k].clone();
-            problem.rows[2 * k + 1].observed = observed;
-            problem.rows[2 * k + 1].conditions = conditions;
-            problem.rows[2 * k + 1].conditions.direction = rows[2 * k].conditions.direction;
+            let (observed, conditions) = (rows[2 * k + 1].observed, rows[2 * k + 1].conditions);
+            rows[2 * k + 1] = before[2 * k].clone();
+            rows[2 * k + 1].observed = observed;
+            rows[2 * k + 1].conditions = conditions;
+            rows[2 * k + 1].conditions.direction = before[2 * k].conditions.direction;
         }
     };
     let both = noise_of(true, some, |row, random| drift(row) + 2.0 * normal(random));
@@ -158,8 +155,8 @@ fn drift_over_hours_is_no_noise_where_repetitions_follow_one_another() {
 
 #[test]
 fn other_directions_other_points_and_copies_are_no_repetitions() {
-    let other_side = |problem: &mut Problem| {
-        for (k, row) in problem.rows.iter_mut().enumerate() {
+    let other_side = |rows: &mut Vec<Row>| {
+        for (k, row) in rows.iter_mut().enumerate() {
             row.conditions.direction = [[-1.0, 0.0, 1.0][k % 3]; 6];
         }
     };
@@ -167,21 +164,21 @@ fn other_directions_other_points_and_copies_are_no_repetitions() {
         noise_of(false, other_side, |_, random| normal(random)),
         None
     );
-    let copied = |problem: &mut Problem| {
-        for k in 0..problem.rows.len() {
-            problem.rows[k].observed = problem.rows[k / SESSION.1 * SESSION.1].observed;
+    let copied = |rows: &mut Vec<Row>| {
+        for k in 0..rows.len() {
+            rows[k].observed = rows[k / SESSION.1 * SESSION.1].observed;
         }
     };
     assert_eq!(noise_of(false, copied, |_, random| normal(random)), None);
     // three numbers of one pose measured twice are too few
-    let once = |problem: &mut Problem| {
-        for (k, row) in problem.rows.iter_mut().enumerate().skip(2) {
+    let once = |rows: &mut Vec<Row>| {
+        for (k, row) in rows.iter_mut().enumerate().skip(2) {
             row.q[0] += 1e-6 * k as f64;
         }
     };
     assert_eq!(noise_of(false, once, |_, random| normal(random)), None);
-    let signs = |problem: &mut Problem| {
-        for (k, row) in problem.rows.iter_mut().enumerate() {
+    let signs = |rows: &mut Vec<Row>| {
+        for (k, row) in rows.iter_mut().enumerate() {
             row.q[5] = if k % 2 == 0 { 0.0 } else { -0.0 };
         }
     };

@@ -211,6 +211,19 @@ fn jobs_take_positions_as_arguments() {
     );
     let program = read_files(&[&main, &go], &Settings::default()).expect("jobs");
     assert!(program.findings.iter().any(|f| f.id == "computed-target"));
+    // and what it does not give, the one before does not give either
+    let main = job(
+        &positions,
+        "CALL JOB:GO ARGFP001 ARGFP001\nCALL JOB:GO ARGFP001",
+    );
+    let program = read_files(&[&main, &go], &Settings::default()).expect("jobs");
+    assert!(program.findings.iter().any(|f| f.id == "computed-target"));
+    // nor does a job find what it left in its own variables
+    let main = job(&positions, "CALL JOB:GO\nCALL JOB:GO");
+    let go = job("", "MOVL LP003 V=5\nSET LP003 P001").replace("//NAME A", "//NAME GO");
+    let program = read_files(&[&main, &go], &Settings::default()).expect("jobs");
+    assert!(program.findings.iter().any(|f| f.id == "computed-target"));
+    assert!(program.moves.iter().all(|m| m.target.is_none()));
     // to a job that nobody has
     let program = read(&job(&positions, "CALL JOB:GO ARGFP001\nMOVL P001"));
     assert_eq!(errors(&program), ["target-passed-to-routine"]);

@@ -19,6 +19,7 @@ use crate::report::text::fixed as decimals;
 use crate::task::diagnose::{Diagnosis, FoundEffect};
 use crate::task::drift::Drift;
 use crate::task::parts::Statistics;
+use std::sync::Arc;
 
 /// A joint whose rotation moves the measured point by less than this, metres a radian, shows
 /// nothing of its angle.
@@ -239,7 +240,7 @@ fn variable(problem: &Problem, estimate: &Estimate, one: &Found) -> Variable {
 /// How far each row's expected point moves with a joint, metres a radian.
 fn arms(problem: &Problem, estimate: &Estimate, joint: usize) -> Vec<Vector> {
     let mut rotated = problem.clone();
-    for row in &mut rotated.rows {
+    for row in Arc::make_mut(&mut rotated.rows) {
         row.q[joint] += STEP_RAD;
     }
     let (a, b) = (misses(problem, estimate), misses(&rotated, estimate));
