@@ -94,6 +94,33 @@ fn quality_of(profile: &Profile) -> Option<Quality<'_>> {
     (is_whole && found.variance > 0.0 && found.freedom >= 1.0).then_some(found)
 }
 
+impl Quality<'_> {
+    /// The parameters that an estimate has, too, and their covariance, SI.
+    fn of_estimate(&self, estimate: &Estimate) -> (Vec<Subject>, DMatrix<f64>) {
+        let known: Vec<(usize, Subject, f64)> = (self.names.iter().enumerate())
+            .filter_map(|(index, name)| {
+                let (subject, unit) = parameter(estimate, name)?;
+                Some((index, subject, unit))
+            })
+            .collect();
+        let covariance = DMatrix::from_fn(known.len(), known.len(), |i, j| {
+            let ((a, _, of_a), (b, _, of_b)) = (&known[i], &known[j]);
+            self.covariance[*a.max(b)][*a.min(b)] * of_a * of_b
+        });
+        let subjects = known.iter().map(|(_, subject, _)| *subject);
+        (subjects.collect(), covariance)
+    }
+}
+
+/// How well a profile's calibration knows the parameters of an estimate: which, and their
+/// covariance, SI; `None` where it does not say.
+pub(super) fn known_of(
+    profile: &Profile,
+    estimate: &Estimate,
+) -> Option<(Vec<Subject>, DMatrix<f64>)> {
+    quality_of(profile).map(|quality| quality.of_estimate(estimate))
+}
+
 /// Gaps of the coordinates of positions and distances, metres.
 fn gaps(problem: &Problem, estimate: &Estimate) -> DVector<f64> {
     let missed = misses(problem, estimate);
@@ -130,20 +157,11 @@ impl Expected {
                 *e.value_mut(subject) += step;
             })
         };
-        let known: Vec<(usize, Subject, f64)> = (quality.names.iter().enumerate())
-            .filter_map(|(index, name)| {
-                let (subject, unit) = parameter(estimate, name)?;
-                Some((index, subject, unit))
-            })
-            .collect();
+        let (known, covariance) = quality.of_estimate(estimate);
         let sigma = quality.variance.sqrt();
-        let covariance = DMatrix::from_fn(known.len(), known.len(), |i, j| {
-            let ((a, _, of_a), (b, _, of_b)) = (&known[i], &known[j]);
-            quality.covariance[*a.max(b)][*a.min(b)] * of_a * of_b / quality.variance
-        });
-        let eigen = covariance.symmetric_eigen();
+        let eigen = (covariance / quality.variance).symmetric_eigen();
         let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
-        let slopes: Vec<_> = known.iter().map(|(_, subject, _)| by(*subject)).collect();
+        let slopes: Vec<_> = known.into_iter().map(by).collect();
         let count = problem
             .rows
             .iter()

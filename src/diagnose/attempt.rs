@@ -6,7 +6,7 @@ use super::diagnosis::Options;
 use super::fit::Fit;
 use super::given::{Given, Kept};
 use super::noise::{Repeats, of_repeats};
-use super::refit::{Refit, refit, shrink};
+use super::refit::{Refit, moved, refit};
 use super::search::{Chosen, by_gain};
 use super::session::{Session, Trust, for_choice, held_of, session};
 use super::table::Column;
@@ -15,6 +15,7 @@ use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
+use crate::identify::problem::Estimate;
 use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::model::profile::Profile;
 
@@ -37,6 +38,8 @@ pub(super) struct Attempt {
     pub session: Session,
     pub chosen: Vec<Chosen>,
     pub refit: Refit,
+    /// Its estimate with what the calibration holds moved, where that is.
+    pub moved: Option<Estimate>,
     /// How much of each row's own numbers its expectation follows.
     pub leverage: Vec<f64>,
     /// Functions outside the registry that explain the residual.
@@ -191,7 +194,7 @@ pub(super) fn attempt(
     }
     let chosen = by_gain(chosen);
     progress("fitting what was found");
-    let (mut refit, last) = refit(session.start(), &chosen, &used);
+    let (refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
     let given = Given::of(&last, &last, &[]);
@@ -200,9 +203,10 @@ pub(super) fn attempt(
     unknown.retain(|u| u.gain > library.cost(u.count));
     let likeness = likeness(&session.problem, &session.layout, &used, &last);
     let leverage = last.leverage(&session.layout);
-    if matches!(trust, Trust::Calibrated { .. }) {
-        shrink(session.start(), &mut refit, &last);
-    }
+    let moved = match trust {
+        Trust::Calibrated { .. } => moved(session.start(), profile, &refit, &last),
+        Trust::Nothing => None,
+    };
     // each fit holds a basis as large as all columns: no more of them at once than needed
     drop(last);
     let fit = session.world(&used, &options.accept).fit(&chosen);
@@ -218,6 +222,7 @@ pub(super) fn attempt(
             session,
             chosen,
             refit,
+            moved,
             leverage,
             unknown,
             outdone,

@@ -9,6 +9,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
     BASE, Effect, Kind, List, MOST_PARAMETERS, Need, Sets, Site, SiteKey, shown_by_tool,
 };
+use crate::model::profile::Mounted;
 use crate::model::{JOINTS, Slot};
 
 /// Harmonics are sought up to this many periods a revolution.
@@ -177,8 +178,17 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
 }
 
 /// The smallest value of a parameter that is physical, SI.
-pub(super) fn least(kind: Kind, parameter: usize) -> Option<f64> {
-    let search = &kind.definition().search;
+pub(super) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Option<f64> {
+    let search = &effect.definition().search;
+    if search.mass == Some(parameter) {
+        let own = |tool: &&Mounted| {
+            let name = effect.site.tool.as_ref();
+            name.is_none_or(|name| *name == tool.name)
+        };
+        let masses = problem.tools.iter().filter(own);
+        let masses = masses.map(|tool| tool.load.map_or(0.0, |(mass, _)| mass));
+        return masses.reduce(f64::min).map(|mass| -mass);
+    }
     search.never_negative.contains(&parameter).then_some(0.0)
 }
 
@@ -464,7 +474,7 @@ impl Candidates {
                 let scale = definition.parameters[*number].prior_sigma
                     * definition.parameters[*number].unit.in_si();
                 let now = present.map_or(0.0, |e| e.parameters[*number]);
-                least(effect.kind, *number).map(|low| (low - now) / scale)
+                least(problem, effect, *number).map(|low| (low - now) / scale)
             };
             let place = |n: &usize| numbers.iter().position(|known| known == n);
             let columns = sought.iter().filter_map(place).map(|p| first[at] + p);

@@ -2,9 +2,9 @@
 //! verdict, and the improved profile.
 
 use super::attempt::Attempt;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, range};
 use super::diagnosis::{
-    Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow,
+    Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
 use super::improved::improved;
 use super::judgement::{Judged, Standing, judge, stand};
@@ -17,6 +17,7 @@ use super::stand_ins::{StandIn, impossible, stand_ins};
 use super::table::lengths_m;
 use super::unknown::chance;
 use super::whereabouts::spots;
+use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
@@ -24,7 +25,7 @@ use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;
-use crate::model::effects::{Effect, of_arm};
+use crate::model::effects::{Effect, Kind, Seen, of_arm};
 use crate::model::profile::Profile;
 use rayon::prelude::*;
 
@@ -86,6 +87,9 @@ pub(super) fn conclude(
         others.remove(i);
         again(&others)
     });
+    // where nothing is missing nothing is moved
+    let moved = (attempt.moved.as_ref()).filter(|_| verdict != Verdict::NothingMissing);
+    let written = moved.unwrap_or(&attempt.refit.estimate);
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
@@ -137,7 +141,7 @@ pub(super) fn conclude(
         outliers: outliers(attempt, measurements, &residual_lengths),
         remarks,
         lengths: (present_lengths, residual_lengths),
-        profile: improved(profile, session, &attempt.refit),
+        profile: improved(profile, session, written),
         problem: session.problem.clone(),
         estimate: attempt.refit.estimate.clone(),
     })
@@ -169,8 +173,15 @@ fn effects(
     spreads: &[Option<Spread>],
 ) -> Vec<Found> {
     let refit = &attempt.refit;
+    let rows = &attempt.session.problem.rows;
+    let seen = Seen {
+        base_m: refit.estimate.world_from_base.translation,
+        rows: rows.len(),
+        seconds: range(rows.iter().filter_map(|row| row.conditions.time_s)),
+    };
     let of = |(i, chosen): (usize, &Chosen)| {
-        let mut effect = refit.estimate.effects[refit.places[i]].clone();
+        let place = &refit.estimate.effects[refit.places[i]];
+        let mut effect = since(place, &refit.estimate, &attempt.session.present_estimate);
         effect.site = chosen.candidate.effect.site.clone();
         let parameters = chosen.values.len() + chosen.candidate.chosen;
         let asked_for = |p: &Pick| p.means(&chosen.candidate.effect);
@@ -185,12 +196,31 @@ fn effects(
             before: spreads[1 + i],
             after: spreads[2 + i],
             found_again: proof.again[i],
-            base_m: refit.estimate.world_from_base.translation,
+            seen,
             standing: Standing::Possible,
             against: Vec::new(),
         }
     };
     attempt.chosen.iter().enumerate().map(of).collect()
+}
+
+/// An effect as it is reported: of a frame how it stands in `now` from where it stood before.
+fn since(effect: &Effect, now: &Estimate, before: &Estimate) -> Effect {
+    let mut moved = effect.clone();
+    let stood = |of: &Estimate, own: Option<&Effect>| {
+        let deviation =
+            own.map_or_else(Pose::identity, |own| Pose::from_xyz_rxryrz(own.parameters));
+        match effect.kind {
+            Kind::BaseFrame => of.world_from_base * deviation,
+            _ => deviation,
+        }
+    };
+    if matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame) {
+        let known = before.effects.iter().find(|e| e.same_place(effect));
+        let by = stood(before, known).inverse() * stood(now, Some(effect));
+        moved.parameters = by.xyz_rxryrz();
+    }
+    moved
 }
 
 /// Effects that explain the data nearly as well as those found, the nearest first.

@@ -10,14 +10,13 @@ use super::session::{Trust, for_choice, is_nominal};
 use super::stand_ins::{Impossible, StandIn};
 use super::unknown::Unknown;
 use super::whereabouts::Spot;
-use crate::geometry::Vector;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
 use crate::identify::{IdentifyError, Line};
-use crate::model::effects::Effect;
+use crate::model::effects::{Effect, Seen};
 use crate::model::profile::Profile;
 
 /// A calibration of unknown worth is taken to be worth as much as these measurements.
@@ -120,8 +119,8 @@ pub struct Found {
     pub after: Option<Spread>,
     /// In how many of the parts of the measurements it was found again without them.
     pub found_again: (usize, usize),
-    /// Where the robot stands in the world, metres.
-    pub base_m: Vector,
+    /// Where it was seen.
+    pub seen: Seen,
     /// How sure it is.
     pub standing: Standing,
     /// What it may be instead, the likeliest first.

@@ -4,6 +4,7 @@
 use super::table::{Column, Layout, add_scaled, dot};
 use super::weights::Plain;
 use crate::identify::robust::median_of_squares;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -258,6 +259,25 @@ impl Fit {
         values
     }
 
+    /// Values of the columns that are held, of `count`, which follow a part of what is left along
+    /// them as far as their `precision` lets them; those sought stay.
+    pub(super) fn followed(&self, count: usize, part: f64, precision: &DMatrix<f64>) -> Vec<f64> {
+        let lower = DMatrix::from_fn(self.base, self.base, |j, k| {
+            self.triangle[j].get(k).copied().unwrap_or(0.0)
+        });
+        let parts = part * DVector::from_vec(self.remaining(&self.sought()));
+        let own = |i: usize, j: usize| precision[(self.kept[i], self.kept[j])];
+        let matrix = &lower * lower.transpose() + DMatrix::from_fn(self.base, self.base, own);
+        let mut values = vec![0.0; count];
+        if let Some(factor) = matrix.cholesky() {
+            let solved = factor.solve(&(&lower * parts));
+            for (index, value) in self.kept.iter().zip(solved.iter()) {
+                values[*index] = *value;
+            }
+        }
+        values
+    }
+
     /// Residuals of all rows, those not used included, without weights.
     #[must_use]
     pub fn unweighted_rest(&self, residual: &[f64], held: &[Held]) -> Column {
@@ -355,8 +375,7 @@ impl Fit {
     #[must_use]
     pub fn deviations(&self, group: &[&Projection]) -> Vec<f64> {
         let count = group.len();
-        let gram =
-            nalgebra::DMatrix::from_fn(count, count, |i, j| self.product(group[i], group[j]));
+        let gram = DMatrix::from_fn(count, count, |i, j| self.product(group[i], group[j]));
         match gram.cholesky() {
             Some(factor) => {
                 let inverse = factor.inverse();

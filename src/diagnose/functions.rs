@@ -89,6 +89,13 @@ pub(super) enum Function {
     ClockWave(Wave, u32, usize),
 }
 
+impl Function {
+    /// Whether it is one of the row or the time.
+    pub(super) const fn of_session(self) -> bool {
+        matches!(self, Self::ClockPower(..) | Self::ClockWave(..))
+    }
+}
+
 impl fmt::Display for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let order = |halves: u32| f64::from(halves) / 2.0;

@@ -3,12 +3,12 @@
 //! Effects of the data repair the analysis and are none of the robot's, but what they moved stays
 //! where it is: base, tool and zeros are those of the last row.
 
-use super::refit::Refit;
 use super::session::Session;
 use crate::geometry::Pose;
+use crate::identify::problem::Estimate;
 use crate::model::Conditions;
 use crate::model::effects::{Deflection, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, State};
-use crate::model::profile::{DevicePlace, Profile};
+use crate::model::profile::{DevicePlace, Mounted, Profile};
 
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
@@ -48,9 +48,34 @@ fn at(effects: &mut Vec<Effect>, kind: Kind, site: Site) -> &mut Effect {
     &mut effects[index]
 }
 
+/// Makes one of the deviations of the only tool's frame, each of which stands on the one before.
+fn join_tool_frames(effects: &mut Vec<Effect>, tools: &[Mounted]) {
+    let [tool] = tools else { return };
+    let is_own = |effect: &Effect| {
+        let name = effect.site.tool.as_ref();
+        effect.kind == Kind::ToolFrame && name.is_none_or(|name| *name == tool.name)
+    };
+    let own = effects.iter().filter(|effect| is_own(effect));
+    if own.clone().count() < 2 {
+        return;
+    }
+    let poses = own.clone().map(|e| Pose::from_xyz_rxryrz(e.parameters));
+    let joined = poses.fold(Pose::identity(), |all, next| all * next);
+    let named = own
+        .clone()
+        .find(|e| e.site.tool.is_some())
+        .or(own.clone().next());
+    let site = named.map_or_else(Site::default, |e| e.site.clone());
+    effects.retain(|effect| !is_own(effect));
+    effects.push(Effect {
+        kind: Kind::ToolFrame,
+        site,
+        parameters: joined.xyz_rxryrz(),
+    });
+}
+
 /// The profile with what was found, as the robot stands after the last row.
-pub(super) fn improved(profile: &Profile, session: &Session, refit: &Refit) -> Profile {
-    let estimate = &refit.estimate;
+pub(super) fn improved(profile: &Profile, session: &Session, estimate: &Estimate) -> Profile {
     let mut improved = profile.clone();
     // a device that stands elsewhere, or that the profile knows of, says nothing of the robot
     let keep_base = session.elsewhere || profile.device.is_some();
@@ -89,6 +114,7 @@ pub(super) fn improved(profile: &Profile, session: &Session, refit: &Refit) -> P
             at(&mut effects, Kind::LinkGeometry, site).parameters[THETA] += sign * by;
         }
     }
+    join_tool_frames(&mut effects, &session.problem.tools);
     effects.retain(|e| !e.is_zero());
     effects.sort_by_key(|e| REGISTRY.iter().position(|kind| *kind == e.kind));
     improved.effects = effects;

@@ -5,13 +5,14 @@
 //! better with them; each effect has its own standing.
 
 use super::attempt::{ALIKE, Attempt};
-use super::candidates::{least, range};
+use super::candidates::{CannotTest, least, range};
 use super::diagnosis::{Alternative, Found, Verdict};
 use super::proof::Proof;
 use super::refit::{Beyond, Refit};
 use super::search::MOST_EFFECTS;
 use super::stand_ins::StandIn;
 use super::waves::near;
+use crate::geometry::norm;
 use crate::model::effects::{Effect, Kind, Need, SiteKey};
 use crate::model::{JOINTS, Slot};
 use std::f64::consts::TAU;
@@ -22,7 +23,7 @@ pub(super) const TIE: f64 = 1.0;
 /// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors"
 /// (1995): very strong).
 pub(super) const CLEAR: f64 = 10.0;
-/// So many slow functions of one joint's angle, a harmonic among them, are the series of another.
+/// So many low functions of one joint's angle, a slow harmonic among them, are the series of another.
 const SERIES: usize = 2;
 /// So many functions of one joint's angle, two waves among them, are the series of another, too.
 const WAVES: usize = 3;
@@ -31,7 +32,7 @@ const WAVES: usize = 3;
 const TEETH: f64 = 10.0;
 /// Fewer periods of a wave in the range of its angle are what any slow function looks like.
 const FEW_PERIODS: f64 = 2.0;
-/// A value fitted along is clearly below zero by more than this many standard deviations.
+/// A value is clearly none that is possible by more than this many standard deviations.
 const CLEARLY: f64 = 5.0;
 /// An effect is there by its own evidence where chance does that less often.
 pub(super) const EVIDENT: f64 = 1e-4;
@@ -41,6 +42,8 @@ pub(super) const AGAIN: f64 = 0.8;
 const TELLS_NOISE: f64 = 100.0;
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
+/// Where the tool is from the base, about: there a base that is rotated is seen to be.
+const REACH_M: f64 = 0.5;
 /// Odds beyond e to this are not distinguished.
 const MOST_LN_ODDS: f64 = 20.0;
 
@@ -118,6 +121,8 @@ pub(super) fn stand(
     let is_missing = !series.is_empty()
         || attempt.likeness.in_posture < ALIKE
         || !pushing(&attempt.refit).is_empty();
+    let is_changing =
+        attempt.likeness.in_order < ALIKE || attempt.unknown.first().is_some_and(|u| u.of_session);
     let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
     let unresolved: Vec<bool> = (found.iter())
         .map(|f| is_unresolved(attempt, found, f))
@@ -146,6 +151,7 @@ pub(super) fn stand(
             put(labels.join(" + "), group.behind);
         }
         against.sort_by(|a, b| a.odds.total_cmp(&b.odds));
+        let untested = untested(attempt, one);
         let is_tied = against.first().is_some_and(|a| a.odds < odds_of(TIE));
         let (times, of) = one.found_again;
         let is_again = times as f64 >= AGAIN * of as f64;
@@ -153,20 +159,36 @@ pub(super) fn stand(
         // this
         let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i])
             || smooth[i] && is_missing
-            || one.effect.definition().of_data && attempt.likeness.in_order < ALIKE;
+            || one.effect.definition().of_data && is_changing;
         one.standing = if is_tied || series.contains(&i) || is_seldom(one) {
             Standing::Possible
         } else if against.is_empty()
             && is_again
-            && !(is_shadow || unresolved[i])
+            && !(is_shadow || unresolved[i] || one.accepted)
+            && untested.is_empty()
             && one.p_value < EVIDENT
         {
             Standing::Certain
         } else {
             Standing::Likely
         };
+        against.extend(untested.into_iter().map(|rival| Against {
+            what: format!(
+                "{}, which needs {}",
+                rival.kind.definition().id,
+                rival.missing
+            ),
+            odds: 1.0,
+        }));
         one.against = against;
     }
+}
+
+/// Effects that do what one found does, and that cannot be tested.
+fn untested<'a>(attempt: &'a Attempt, found: &Found) -> Vec<&'a CannotTest> {
+    let rivals = found.effect.definition().search.rivals;
+    let all = attempt.session.candidates.cannot_test.iter();
+    all.filter(|c| rivals.contains(&c.kind)).collect()
 }
 
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
@@ -256,6 +278,16 @@ fn objections(
             alternative.effect.label()
         ));
     }
+    for one in found.iter().filter(|f| !f.accepted) {
+        for rival in untested(attempt, one) {
+            reasons.push(format!(
+                "{} may be {}, which cannot be tested: it needs {}",
+                one.effect.label(),
+                rival.kind.definition().id,
+                rival.missing
+            ));
+        }
+    }
     reasons.extend(outdone(attempt, found));
     if let Some(series) = series(attempt, found) {
         reasons.push(format!(
@@ -316,7 +348,7 @@ fn objections(
     reasons
 }
 
-/// Values fitted along that clearly nothing physical has.
+/// Values that clearly nothing physical has.
 fn beyond(refit: &Refit) -> impl Iterator<Item = &Beyond> {
     refit.impossible.iter().filter(|b| b.sigmas > CLEARLY)
 }
@@ -326,7 +358,7 @@ fn beyond(refit: &Refit) -> impl Iterator<Item = &Beyond> {
 fn is_new(attempt: &Attempt, beyond: &Beyond) -> bool {
     let Slot { effect, parameter } = beyond.slot;
     let own = &attempt.refit.estimate.effects[effect];
-    let Some(least) = least(own.kind, parameter) else {
+    let Some(least) = least(&attempt.session.problem, own, parameter) else {
         return true;
     };
     let mut before = attempt.session.present_estimate.effects.iter();
@@ -337,16 +369,15 @@ fn is_new(attempt: &Attempt, beyond: &Beyond) -> bool {
     least - before.parameters[parameter] <= CLEARLY * sigma
 }
 
-/// Values fitted along that nothing physical has, one sentence for each.
+/// Values that nothing physical has, one sentence for each.
 fn pushing(refit: &Refit) -> Vec<String> {
     let sentence = |beyond: &Beyond| {
         let effect = &refit.estimate.effects[beyond.slot.effect];
         let parameter = &effect.definition().parameters[beyond.slot.parameter];
         let value = effect.parameters[beyond.slot.parameter] / parameter.unit.in_si();
         format!(
-            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below zero: \
-             no spring is like that, \
-             something else is missing or the masses are wrong",
+            "{} fits the measurements with {} = {value:.2e}, {:.0} standard deviations below what \
+             is possible: something else is missing or the masses are wrong",
             effect.label(),
             parameter.key,
             beyond.sigmas
@@ -399,7 +430,7 @@ struct Series {
 }
 
 /// Effects found at one joint that may together be the series of another function of its angle:
-/// slow ones, without two whole periods in its range, where a harmonic is among them; or more of
+/// low ones where a slow harmonic is among them, without two whole periods in its range; or more of
 /// them and of waves than an eccentric gear has.
 fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
     let is_wave = |i: &usize| found[*i].effect.definition().is_wave();
@@ -414,17 +445,24 @@ fn series(attempt: &Attempt, found: &[Found]) -> Option<Series> {
         let (slow, low) = (only(&is_slow), only(&is_low));
         let waves = low.iter().filter(|i| is_wave(i)).count();
         let is_series =
-            slow.len() >= SERIES && slow.iter().any(is_wave) || low.len() >= WAVES && waves >= 2;
+            slow.iter().any(is_wave) && low.len() >= SERIES || low.len() >= WAVES && waves >= 2;
         is_series.then_some(Series { joint, members })
     })
 }
 
-/// Whether an effect is a function of this joint's angle alone.
+/// Whether an effect is a function of this joint's angle alone: the zero of the first joint is that
+/// of the base, of the last one that of the tool.
 fn is_of_angle(joint: usize, found: &Found) -> bool {
     let effect = &found.effect;
-    if effect.site.index != joint || found.accepted {
+    if found.accepted {
         return false;
     }
-    effect.definition().of_joint_angle()
-        || effect.kind == Kind::LinkGeometry && found.sought.contains(&THETA)
+    let [x, y, z, _, _, about_z] = effect.parameters;
+    match effect.kind {
+        Kind::BaseFrame => joint == 0 && about_z.abs() * REACH_M > norm([x, y, z]),
+        Kind::ToolFrame => joint + 1 == JOINTS,
+        _ if effect.site.index != joint => false,
+        Kind::LinkGeometry => found.sought.contains(&THETA),
+        _ => effect.definition().of_joint_angle(),
+    }
 }

@@ -36,7 +36,7 @@ use crate::identify::plates::{Shown, shown};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
 use crate::model::Motion;
-use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Parameter, Site};
+use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Parameter, Seen, Site};
 use crate::model::external::Listed;
 use nalgebra::DMatrix;
 
@@ -481,7 +481,7 @@ impl One {
                 before: None,
                 after: None,
                 found_again: (0, 0),
-                base_m: [0.0; 3],
+                seen: Seen::default(),
                 standing: Standing::Possible,
                 against,
             }

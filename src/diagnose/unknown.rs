@@ -66,6 +66,8 @@ pub struct Unknown {
     pub gain: f64,
     /// Its parameters.
     pub count: usize,
+    /// It runs with the session: of the row or the time.
+    pub of_session: bool,
 }
 
 impl Unknown {
@@ -292,6 +294,7 @@ impl Library {
                     ),
                     gain: gain.gain,
                     count: gain.count,
+                    of_session: self.features[pairs[i].1].function.of_session(),
                 };
                 all.into_iter().map(named).collect()
             })

@@ -151,6 +151,19 @@ pub fn poseshift() -> assert_cmd::Command {
     command
 }
 
+/// What a command that succeeds prints with `--json`.
+pub fn report(command: &mut assert_cmd::Command) -> serde_json::Value {
+    let run = command.output().expect("the program starts");
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{command:?}: {}{}",
+        String::from_utf8_lossy(&run.stderr),
+        String::from_utf8_lossy(&run.stdout)
+    );
+    serde_json::from_slice(&run.stdout).expect("JSON")
+}
+
 /// A new empty folder that is gone at the end of the test.
 pub fn scratch() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder for scratch files")

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// a joint stands half the width before or after its command, by the direction in which it last moved (negative width: it lags).
 pub(super) struct Backlash;
@@ -33,7 +33,7 @@ impl Equation for Backlash {
         deflection.joints[site.index] += half * p[0];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         if effect.parameters[0] < 0.0 {
             format!("{} loses {}° when it reverses", joint(effect), deg(-effect.parameters[0]))
         } else {

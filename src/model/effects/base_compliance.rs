@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, length};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Rotation, Scalar, Vector, add, cross, sub};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::{Rotation, Scalar, add, cross, sub};
 
 /// The base rotates about x and y of its frame in proportion to the moment of the arm about its origin.
 pub(super) struct BaseCompliance;
@@ -50,7 +50,7 @@ impl Equation for BaseCompliance {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("The pedestal tilts: {}° under 100 N m", deg(100.0 * length(&effect.parameters[..2])))
     }
 }

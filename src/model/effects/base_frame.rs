@@ -3,8 +3,8 @@
 use super::definition::{Definition, frame_parameters};
 use super::search::{FRAME, Search, Shown};
 use super::words::{deg, length, mm};
-use super::{Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Pose, Scalar, Vector};
+use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::{Pose, Scalar};
 use crate::model::{Conditions, Geometry};
 
 /// `world_from_base · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the base's own frame.
@@ -34,7 +34,7 @@ impl Equation for BaseFrame {
         geometry.world_from_base = geometry.world_from_base * Pose::from_xyz_rxryrz(*p);
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "The base stands {} mm from where the profile has it and rotated by {}°",
             mm(length(&effect.parameters[..3])),

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::{deg, digits, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A joint that is more compliant while its torque is below the knee: beyond it the additional deflection stays.
 pub(super) struct ComplianceKnee;
@@ -44,7 +44,7 @@ impl Equation for ComplianceKnee {
         deflection.joints[site.index] += p[1] * state.torques[site.index].min(knee).max(-knee);
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} is soft near zero load: {}° more up to {} N m",
             joint(effect),

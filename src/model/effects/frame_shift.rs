@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, SiteKey, frame_parameters};
 use super::search::{FRAME, Search, Shown};
 use super::words::mm;
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Pose, Scalar, Vector, norm, sub};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::{Pose, Scalar, norm, sub};
 
 /// From one row of the measurements on, everything is seen moved in the world. An effect of the data, not of the robot.
 pub(super) struct FrameShift;
@@ -39,13 +39,13 @@ impl Equation for FrameShift {
         }
     }
 
-    fn sentence(effect: &Effect, base_m: Vector) -> String {
+    fn sentence(effect: &Effect, seen: &Seen) -> String {
         // a rotation about the device far away moves it by the lever
-        let moved = Pose::from_xyz_rxryrz(effect.parameters).transform(base_m);
+        let moved = Pose::from_xyz_rxryrz(effect.parameters).transform(seen.base_m);
         format!(
             "The measuring device or the base moved before row {} by {} mm where the robot stands",
             effect.site.order,
-            mm(norm(sub(moved, base_m)))
+            mm(norm(sub(moved, seen.base_m)))
         )
     }
 }

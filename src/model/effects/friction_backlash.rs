@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A joint stands before or after its command by the direction in which it last moved, the more the higher its torque.
 pub(super) struct FrictionBacklash;
@@ -37,7 +37,7 @@ impl Equation for FrictionBacklash {
         deflection.joints[site.index] += p[0] * state.torques[site.index].abs() * direction;
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} {} {}° under 100 N m by the side it comes from",
             joint(effect),

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// a gearbox twists under the torque of gravity and external force.
 pub(super) struct JointCompliance;
@@ -35,7 +35,7 @@ impl Equation for JointCompliance {
         deflection.joints[site.index] += p[0] * state.torques[site.index];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} yields by {}° under 100 N m", joint(effect), deg(100.0 * effect.parameters[0]))
     }
 }

@@ -3,9 +3,9 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::units::DEG;
-use crate::geometry::{Scalar, Vector};
+use crate::geometry::Scalar;
 
 /// motion of one joint leaks into another.
 pub(super) struct JointCoupling;
@@ -34,7 +34,7 @@ impl Equation for JointCoupling {
         deflection.joints[site.index] += p[0] * state.commanded[site.on];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} is taken along by J{}: {}° in 90°",
             joint(effect),

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint, length};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// an eccentric gear or encoder adds a wave of so many periods in one revolution.
 pub(super) struct JointHarmonic;
@@ -33,7 +33,7 @@ impl Equation for JointHarmonic {
         deflection.joints[site.index] += p[0] * cosine + p[1] * sine;
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} runs fast and slow by {}°, {} times a revolution (eccentric gear or encoder)",
             joint(effect),

@@ -3,9 +3,9 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::units::DEG;
-use crate::geometry::{Scalar, Vector};
+use crate::geometry::Scalar;
 
 /// a joint rotates more or less than commanded, in proportion.
 pub(super) struct JointScale;
@@ -31,7 +31,7 @@ impl Equation for JointScale {
         deflection.joints[site.index] += p[0] * state.commanded[site.index];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} rotates {}° too far in 90°", joint(effect), deg(effect.parameters[0] * 90.0 * DEG))
     }
 }

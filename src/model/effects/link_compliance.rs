@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, length};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A link, and everything behind it, rotates about x and y of its frame in proportion to the moment it carries.
 pub(super) struct LinkCompliance;
@@ -40,7 +40,7 @@ impl Equation for LinkCompliance {
         deflection.links[site.index][1] += p[1] * moment[1];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("Link {} bends: {}° under 100 N m", effect.site.index + 1, deg(100.0 * length(&effect.parameters[..2])))
     }
 }

@@ -2,8 +2,8 @@
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Sets, Shown};
-use super::{Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 use crate::model::{Conditions, Geometry};
 
 /// Deviations of one row of the chain; θ is the joint's zero offset in the sense of the chain.
@@ -46,7 +46,7 @@ impl Equation for LinkGeometry {
         link.d_m += p[4];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("Link {} differs from the profile", effect.site.index + 1)
     }
 }

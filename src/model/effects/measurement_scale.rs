@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
 use super::words::digits;
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// The device sees everything farther away from its origin than it is. An effect of the data, not of the robot.
 pub(super) struct MeasurementScale;
@@ -26,6 +26,7 @@ impl Equation for MeasurementScale {
         shown_against: Shown::Order,
         search: Search {
             rare: true,
+            rivals: &[Kind::ThermalGrowth],
             ..Search::PLAIN
         },
     };
@@ -39,7 +40,7 @@ impl Equation for MeasurementScale {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "The measuring device's lengths are {} ppm too {}",
             digits(1e6 * effect.parameters[0].abs()),

@@ -72,9 +72,19 @@ trait Equation {
         let _ = (site, p, at, error);
     }
 
-    /// The effect in one sentence that a person understands; the robot stands at `base_m` in the
-    /// world.
-    fn sentence(effect: &Effect, base_m: Vector) -> String;
+    /// The effect in one sentence that a person understands.
+    fn sentence(effect: &Effect, seen: &Seen) -> String;
+}
+
+/// Where an effect was seen: what its sentence may need to know of the measurements.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    /// Where the robot stands in the world, metres.
+    pub base_m: Vector,
+    /// How many rows there are.
+    pub rows: usize,
+    /// How long the session lasted, seconds; zero where nobody wrote it down.
+    pub seconds: f64,
 }
 
 /// Where an external axis stands.
@@ -152,10 +162,10 @@ macro_rules! registry {
         }
 
         impl Effect {
-            /// The effect in one sentence that a person understands; the robot stands at `base_m` in the world.
+            /// The effect in one sentence that a person understands.
             #[must_use]
-            pub fn sentence(&self, base_m: Vector) -> String {
-                let text = match self.kind { $(Kind::$name => $file::$name::sentence(self, base_m),)+ };
+            pub fn sentence(&self, seen: &Seen) -> String {
+                let text = match self.kind { $(Kind::$name => $file::$name::sentence(self, seen),)+ };
                 format!("{text} ({}).", self.definition().id)
             }
         }

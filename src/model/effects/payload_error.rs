@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Sets, Shown};
 use super::words::{digits, length, mm};
-use super::{Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector, add};
+use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::{Scalar, add};
 use crate::model::{Conditions, Geometry};
 
 /// The tool weighs more, or elsewhere: seen only through what bends under it.
@@ -34,6 +34,7 @@ impl Equation for PayloadError {
             rare: true,
             held: true,
             sets: Sets::Of(&[&[0], &[1, 2, 3], &[0, 1, 2, 3]]),
+            mass: Some(0),
             ..Search::PLAIN
         },
     };
@@ -45,10 +46,11 @@ impl Equation for PayloadError {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
-            "The load on the flange is {} kg heavier than the profile says, its centre of gravity {} mm elsewhere",
-            digits(effect.parameters[0]),
+            "The load on the flange is {} kg {} than the profile says, its centre of gravity {} mm elsewhere",
+            digits(effect.parameters[0].abs()),
+            if effect.parameters[0] < 0.0 { "lighter" } else { "heavier" },
             mm(length(&effect.parameters[1..4]))
         )
     }

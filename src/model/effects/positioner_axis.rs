@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, deg, length, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Along and about the axis itself nothing shows: that is `positioner_zero` and the plate.
 pub(super) struct PositionerAxis;
@@ -38,7 +38,7 @@ impl Equation for PositionerAxis {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} is {} mm and {}° from where the profile has it",
             axis(effect),

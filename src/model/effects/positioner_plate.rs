@@ -3,8 +3,8 @@
 use super::definition::{Definition, SiteKey, frame_parameters};
 use super::search::{Search, Shown};
 use super::words::{axis, deg, length, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// `axis` is the positioner’s last one. Eccentricity is x and y.
 pub(super) struct PositionerPlate;
@@ -33,7 +33,7 @@ impl Equation for PositionerPlate {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "The plate on {} sits {} mm and {}° from where the profile has it",
             axis(effect),

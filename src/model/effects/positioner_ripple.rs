@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, deg, length};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// As `joint_harmonic` of an arm’s joint.
 pub(super) struct PositionerRipple;
@@ -35,7 +35,7 @@ impl Equation for PositionerRipple {
         error.angle += p[0] * cosine + p[1] * sine;
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} runs fast and slow by {}°, {} times a revolution",
             axis(effect),

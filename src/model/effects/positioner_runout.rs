@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, length, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Radial and axial error motion.
 pub(super) struct PositionerRunout;
@@ -36,7 +36,7 @@ impl Equation for PositionerRunout {
         error.offset[site.on] += p[0] * cosine + p[1] * sine;
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} wobbles by {} mm, {} times a revolution",
             axis(effect),

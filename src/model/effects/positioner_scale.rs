@@ -3,9 +3,9 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, deg};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::units::DEG;
-use crate::geometry::{Scalar, Vector};
+use crate::geometry::Scalar;
 
 /// The angle from its zero, times a ratio.
 pub(super) struct PositionerScale;
@@ -34,7 +34,7 @@ impl Equation for PositionerScale {
         error.scale += p[0];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} rotates {}° too far in 90°", axis(effect), deg(effect.parameters[0] * 90.0 * DEG))
     }
 }

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, deg};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// The same as a rotation of the plate about the last axis: known only where the plate is.
 pub(super) struct PositionerZero;
@@ -33,7 +33,7 @@ impl Equation for PositionerZero {
         error.angle += p[0];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} has its zero {}° elsewhere", axis(effect), deg(effect.parameters[0]))
     }
 }

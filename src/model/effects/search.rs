@@ -1,5 +1,7 @@
 //! What a diagnosis knows of an effect: how it is sought, and what it shows against.
 
+use super::Kind;
+
 /// How a diagnosis seeks an effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Search {
@@ -17,6 +19,10 @@ pub struct Search {
     pub sets: Sets,
     /// Those of its parameters that are negative on no arm.
     pub never_negative: &'static [usize],
+    /// The parameter that is more, or less, of a mass: no mass is negative.
+    pub mass: Option<usize>,
+    /// Effects that do nearly the same where a column is missing that would tell them.
+    pub rivals: &'static [Kind],
 }
 
 impl Search {
@@ -27,6 +33,8 @@ impl Search {
         held: false,
         sets: Sets::All,
         never_negative: &[],
+        mass: None,
+        rivals: &[],
     };
 
     /// A structure that bends about x and y.

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::{deg, joint, length, mm};
-use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A joint or the base moves with the row number to its last place, exponentially. An effect of the data.
 pub(super) struct SessionDrift;
@@ -53,13 +53,16 @@ impl Equation for SessionDrift {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, seen: &Seen) -> String {
+        let (rows, all) = (effect.parameters[4], seen.rows as f64);
+        // what it reaches by the last row, not what it would reach
+        let part = 1.0 - (-all / rows.max(SHORTEST)).exp();
         let (what, by) = if effect.site.index == BASE {
-            ("The base or the measuring device".to_owned(), mm(length(&effect.parameters[1..4])) + " mm")
+            ("The base or the measuring device".to_owned(), mm(part * length(&effect.parameters[1..4])) + " mm")
         } else {
-            (joint(effect), deg(effect.parameters[0]) + "°")
+            (joint(effect), deg(part * effect.parameters[0]) + "°")
         };
-        let rows = effect.parameters[4];
-        format!("{what} drifts by {by} in the course of the session, most of it in {rows:.0} rows")
+        let when = if rows < all { format!("most of it in {rows:.0} rows") } else { "about evenly".to_owned() };
+        format!("{what} drifts by {by} in the course of the session, {when}")
     }
 }

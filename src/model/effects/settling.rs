@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{digits, joint};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A part of the joint's last move is still missing when it is read.
 pub(super) struct Settling;
@@ -27,6 +27,7 @@ impl Equation for Settling {
         shown_against: Shown::Move,
         search: Search {
             rare: true,
+            rivals: &[Kind::Backlash, Kind::FrictionBacklash],
             ..Search::PLAIN
         },
     };
@@ -38,7 +39,7 @@ impl Equation for Settling {
         deflection.joints[site.index] += moved * p[0];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "{} is read before it rests: {} % of its last move {}",
             joint(effect),

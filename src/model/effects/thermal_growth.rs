@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::mm;
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector, sub};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::{Scalar, sub};
 
 /// All lengths of the arm from the base to the last link grow alike, so that the flange moves away from the base's origin.
 pub(super) struct ThermalGrowth;
@@ -47,7 +47,7 @@ impl Equation for ThermalGrowth {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("The arm grows with temperature: {} mm a metre in 10 K", mm(10.0 * effect.parameters[0]))
     }
 }

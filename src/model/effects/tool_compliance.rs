@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
 use super::words::{deg, length};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector, cross, sub};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::{Scalar, cross, sub};
 
 /// The tool rotates about x and y of the flange in proportion to the moment of its own weight there.
 pub(super) struct ToolCompliance;
@@ -47,7 +47,7 @@ impl Equation for ToolCompliance {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("The tool bends at the flange: {}° under 10 N m", deg(10.0 * length(&effect.parameters[..2])))
     }
 }

@@ -3,8 +3,8 @@
 use super::definition::{Definition, SiteKey, frame_parameters};
 use super::search::{FRAME, Search, Shown};
 use super::words::{length, mm};
-use super::{Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Pose, Scalar, Vector};
+use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::{Pose, Scalar};
 use crate::model::{Conditions, Geometry};
 
 /// `flange_from_tool · Trans(x, y, z) · Rx · Ry · Rz`: the deviation is given in the tool's own frame.
@@ -36,7 +36,7 @@ impl Equation for ToolFrame {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("The tool's tip is {} mm from where the profile has it", mm(length(&effect.parameters[..3])))
     }
 }

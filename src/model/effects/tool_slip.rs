@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{length, mm};
-use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// From one row of the measurements on, the tool stands elsewhere on the flange. An effect of the data, not of the robot.
 pub(super) struct ToolSlip;
@@ -42,7 +42,7 @@ impl Equation for ToolSlip {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "The tool or the reflector slipped before row {} by {} mm",
             effect.site.order,

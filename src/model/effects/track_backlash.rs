@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Half the width in the direction of the last motion; nothing where that is not known.
 pub(super) struct TrackBacklash;
@@ -33,7 +33,7 @@ impl Equation for TrackBacklash {
         error.offset[0] += p[0] * S::constant(0.5 * at.direction);
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} loses {} mm when it reverses", axis(effect), mm(effect.parameters[0]))
     }
 }

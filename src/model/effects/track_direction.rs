@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{EITHER, Search, Shown};
 use super::words::{axis, deg, length};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Pitch (about y) and yaw (about z) of the rail.
 pub(super) struct TrackDirection;
@@ -39,7 +39,7 @@ impl Equation for TrackDirection {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} runs {}° off the direction of the profile", axis(effect), deg(length(&effect.parameters[..2])))
     }
 }

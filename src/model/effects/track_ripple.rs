@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, length, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Zero in the middle of the rail, where `base_frame` stands for the constant part.
 pub(super) struct TrackRipple;
@@ -38,7 +38,7 @@ impl Equation for TrackRipple {
         error.offset[site.on] += p[0] * (cosine - S::one()) + p[1] * sine;
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
             "The error of {} repeats every {} mm, by {} mm",
             axis(effect),

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, deg};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site, power};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site, power};
+use crate::geometry::Scalar;
 
 /// A power of the place on the rail about x (roll), y (pitch) or z (yaw); gravity stays in the world.
 pub(super) struct TrackRotation;
@@ -34,7 +34,7 @@ impl Equation for TrackRotation {
         error.turn[site.on] += p[0] * power(at.part, site.order);
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("The carriage of {} rotates by {}° to its ends", axis(effect), deg(effect.parameters[0]))
     }
 }

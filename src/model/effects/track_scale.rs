@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
+use crate::geometry::Scalar;
 
 /// Travel counted from the middle of the axis’ limits, times a ratio.
 pub(super) struct TrackScale;
@@ -33,7 +33,7 @@ impl Equation for TrackScale {
         error.scale += p[0];
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} goes {} mm too far in a metre", axis(effect), mm(effect.parameters[0]))
     }
 }

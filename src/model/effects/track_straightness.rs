@@ -3,8 +3,8 @@
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
 use super::words::{axis, mm};
-use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Site, power};
-use crate::geometry::{Scalar, Vector};
+use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site, power};
+use crate::geometry::Scalar;
 
 /// A power of the place on the rail; degree 1 is `track_direction`, degree 0 `base_frame`.
 pub(super) struct TrackStraightness;
@@ -34,7 +34,7 @@ impl Equation for TrackStraightness {
         error.offset[site.on] += p[0] * power(at.part, site.order);
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
+    fn sentence(effect: &Effect, _: &Seen) -> String {
         format!("{} is bent by {} mm at its ends", axis(effect), mm(effect.parameters[0]))
     }
 }

@@ -3,8 +3,8 @@
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
 use super::words::{deg, joint, length, mm};
-use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Site, State};
-use crate::geometry::{Scalar, Vector};
+use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
+use crate::geometry::Scalar;
 
 /// A joint or the base moves to its warm place, exponentially.
 pub(super) struct WarmUpDrift;
@@ -54,12 +54,20 @@ impl Equation for WarmUpDrift {
         }
     }
 
-    fn sentence(effect: &Effect, _: Vector) -> String {
-        let minutes = effect.parameters[4] / 60.0;
-        if effect.site.index == BASE {
-            format!("The base drifts by {} mm while it warms up, in some {minutes:.0} min", mm(length(&effect.parameters[1..4])))
+    fn sentence(effect: &Effect, seen: &Seen) -> String {
+        let (constant, all) = (effect.parameters[4], seen.seconds);
+        // what it reaches in the session, not what it would reach
+        let part = if all > 0.0 { 1.0 - (-all / constant.max(SHORTEST_S)).exp() } else { 1.0 };
+        let (what, by) = if effect.site.index == BASE {
+            ("The base".to_owned(), mm(part * length(&effect.parameters[1..4])) + " mm")
         } else {
-            format!("{} drifts by {}° while it warms up, in some {minutes:.0} min", joint(effect), deg(effect.parameters[0]))
-        }
+            (joint(effect), deg(part * effect.parameters[0]) + "°")
+        };
+        let when = if all > 0.0 && constant >= all {
+            "about evenly in the session".to_owned()
+        } else {
+            format!("in some {:.0} min", constant / 60.0)
+        };
+        format!("{what} drifts by {by} while it warms up, {when}")
     }
 }

@@ -136,7 +136,7 @@ impl From<&engine::Found> for FoundEffect {
                     odds: a.odds,
                 })
                 .collect(),
-            sentence: f.effect.sentence(f.base_m),
+            sentence: f.effect.sentence(&f.seen),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `diagnose` from outside: report, files, exit status, bad input.
 
 use super::{group, without_sigma};
-use crate::support::{poseshift, run, scratch, text};
+use crate::support::{poseshift, report, run, scratch, text};
 use crate::trial::{Case, case};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -31,22 +31,15 @@ fn the_report_names_the_effect_and_the_profile_has_it() {
     let case = case_with("backlash");
     let (folder, profile, csv) = files(&case);
     let better = folder.path().join("better.yaml");
-    let run = poseshift()
-        .args(["diagnose", "--json", "--profile"])
-        .arg(&profile)
-        .arg("--measurements")
-        .arg(&csv)
-        .arg("-o")
-        .arg(&better)
-        .output()
-        .expect("the program starts");
-    assert_eq!(
-        run.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&run.stderr)
+    let report = report(
+        poseshift()
+            .args(["diagnose", "--json", "--profile"])
+            .arg(&profile)
+            .arg("--measurements")
+            .arg(&csv)
+            .arg("-o")
+            .arg(&better),
     );
-    let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
     assert_eq!(report["poseshift"], "diagnosis/1");
     assert_eq!(report["verdict"], "explained");
     let effect = &report["effects"][0];

@@ -6,6 +6,7 @@ mod physics;
 mod real;
 mod repeats;
 mod standing;
+mod written;
 
 use crate::trial::{Case, GROUPS, Group, case, label};
 use poseshift::diagnose::{Options, Verdict, diagnose};

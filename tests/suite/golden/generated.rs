@@ -1,7 +1,7 @@
 //! A generated path in one language, compensated by the command.
 
 use crate::path;
-use crate::support::{poseshift, scratch};
+use crate::support::{poseshift, report, scratch};
 use serde_json::Value;
 
 /// The folder with `in/` and `out/`, and the targets that were rewritten.
@@ -21,23 +21,15 @@ pub fn compensated((language, ending): (&str, &str), points: u32, every: u32) ->
     if let Some((name, text)) = path::given(language, points) {
         std::fs::write(at("in").join(name), text).expect("scratch");
     }
-    let output = poseshift()
-        .arg("compensate")
-        .arg(at("in"))
-        .args(["--tool", "artifact", "--json", "--profile"])
-        .arg(at("profile.yaml"))
-        .arg("-o")
-        .arg(at("out"))
-        .output()
-        .expect("the program starts");
-    let reported = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{language}: {reported}{}",
-        String::from_utf8_lossy(&output.stdout)
+    let report = report(
+        poseshift()
+            .arg("compensate")
+            .arg(at("in"))
+            .args(["--tool", "artifact", "--json", "--profile"])
+            .arg(at("profile.yaml"))
+            .arg("-o")
+            .arg(at("out")),
     );
-    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(report["language"], language);
     let targets = report["targets"].as_array().expect("a list").iter();
     let rewritten = targets.filter(|target| !target["fake"].is_null());

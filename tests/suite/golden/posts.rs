@@ -5,7 +5,7 @@
 //! that they are skipped.
 
 use super::unmarked;
-use crate::support::{poseshift, repository, scratch, skipped, text};
+use crate::support::{poseshift, report, repository, scratch, skipped, text};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -207,19 +207,7 @@ fn joints_that_were_meant_are_found_again() {
         if files.len() > 1 {
             std::fs::create_dir(scratch.path().join("out")).expect("scratch");
         }
-        let output = command
-            .args(post.options)
-            .arg("--json")
-            .output()
-            .expect("the program starts");
-        let reported = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(
-            output.status.code(),
-            Some(0),
-            "{:?}: {reported}",
-            post.files
-        );
-        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let report = report(command.args(post.options).arg("--json"));
         let targets = report["targets"].as_array().expect("a list");
         let points = (post.points)();
         assert_eq!(targets.len(), points.len(), "{:?}", post.files);

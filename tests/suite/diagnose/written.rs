@@ -1,0 +1,165 @@
+//! What is written is the model that was judged: it predicts the rows as was reported, and other
+//! rows no worse than the profile did before.
+
+use crate::support::{poseshift, report, repository, scratch};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
+type Joints = [f64; 6];
+
+/// Postures all over the work space.
+fn everywhere(seed: u64, count: usize) -> Vec<Joints> {
+    let mut random = StdRng::seed_from_u64(seed);
+    let limits = [130.0, 80.0, 70.0, 130.0, 95.0, 140.0];
+    let one = |_| limits.map(|limit: f64| random.random_range(-limit..limit));
+    (0..count).map(one).collect()
+}
+
+/// Postures along one path, which hardly show some parameters of the arm.
+fn along_a_path(count: usize) -> Vec<Joints> {
+    let one = |k: usize| {
+        let t = k as f64 / count as f64;
+        [
+            -30.0 + 60.0 * t,
+            20.0 + 8.0 * (5.0 * t).sin(),
+            -15.0 + 10.0 * (7.0 * t).cos(),
+            5.0 * (3.0 * t).sin(),
+            60.0 + 6.0 * (4.0 * t).cos(),
+            20.0 * t,
+        ]
+    };
+    (0..count).map(one).collect()
+}
+
+/// The arm of a profile measured at postures at which each joint is off by what `hidden` says, in
+/// degrees.
+fn measured(
+    folder: &Path,
+    name: &str,
+    (joints, noise_mm): (&[Joints], f64),
+    hidden: impl Fn(&Joints) -> Joints,
+) -> PathBuf {
+    let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
+    let row = |q: &Joints| q.map(|q| format!("{q:.6}")).join(",");
+    let (mut asked, real) = (header.to_owned(), folder.join("joints.csv"));
+    for q in joints {
+        let off = hidden(q);
+        let _ = writeln!(asked, "{}", row(&std::array::from_fn(|k| q[k] + off[k])));
+    }
+    std::fs::write(&real, asked).expect("a scratch file");
+    let seen = folder.join("seen.csv");
+    poseshift()
+        .args(["simulate", "--tool", "artifact", "--seed", "7", "--profile"])
+        .arg(repository(PROFILE))
+        .args(["--noise-mm", &noise_mm.to_string(), "--joints"])
+        .arg(&real)
+        .arg("-o")
+        .arg(&seen)
+        .assert()
+        .success();
+    // at the angles that the controller believes
+    let text = std::fs::read_to_string(&seen).expect("measurements");
+    let mut lines = text.lines();
+    let columns: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let first = columns.iter().position(|c| *c == "q1_deg").expect("joints");
+    let mut csv = columns.join(",") + "\n";
+    for (line, q) in lines.zip(joints) {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        for k in 0..6 {
+            cells[first + k] = format!("{:.6}", q[k]);
+        }
+        csv += &(cells.join(",") + "\n");
+    }
+    let path = folder.join(name);
+    std::fs::write(&path, csv).expect("a scratch file");
+    path
+}
+
+/// The mean error of a profile on some rows, mm.
+fn mean(profile: &Path, rows: &Path) -> f64 {
+    let found = report(
+        poseshift()
+            .args(["validate", "--json", "--profile"])
+            .arg(profile)
+            .arg("--measurements")
+            .arg(rows),
+    );
+    let mean = &found["position"]["real"]["mean_mm"];
+    mean.as_f64().expect("positions")
+}
+
+/// Mean errors on the rows diagnosed and on others, before and after, and the verdict.
+fn written(joints: &[Joints], hidden: impl Fn(&Joints) -> Joints) -> ([f64; 4], String) {
+    let folder = scratch();
+    let none = |_: &Joints| [0.0; 6];
+    let calibrated = measured(folder.path(), "first.csv", (&everywhere(5, 80), 0.03), none);
+    let start = folder.path().join("start.yaml");
+    poseshift()
+        .args(["calibrate", "--level", "3", "--profile"])
+        .arg(repository(PROFILE))
+        .arg("--measurements")
+        .arg(calibrated)
+        .arg("-o")
+        .arg(&start)
+        .assert()
+        .success();
+    let rows = measured(folder.path(), "rows.csv", (joints, 0.03), &hidden);
+    let others = measured(
+        folder.path(),
+        "others.csv",
+        (&everywhere(99, 200), 0.0),
+        &hidden,
+    );
+    let better = folder.path().join("better.yaml");
+    let run = poseshift()
+        .args(["diagnose", "--json", "--profile"])
+        .arg(&start)
+        .arg("--measurements")
+        .arg(&rows)
+        .arg("-o")
+        .arg(&better)
+        .output()
+        .expect("the program starts");
+    let found: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    let verdict = found["verdict"].as_str().expect("a word").to_owned();
+    assert_eq!(better.exists(), run.status.code() == Some(0), "{verdict}");
+    let after = if better.exists() {
+        better
+    } else {
+        start.clone()
+    };
+    let means = [
+        mean(&start, &rows),
+        mean(&after, &rows),
+        mean(&start, &others),
+        mean(&after, &others),
+    ];
+    (means, verdict)
+}
+
+#[test]
+fn nothing_is_moved_where_nothing_is_missing() {
+    for joints in [along_a_path(120), everywhere(4, 150)] {
+        let ([before, after, elsewhere, then], verdict) = written(&joints, |_| [0.0; 6]);
+        assert_eq!(verdict, "nothing_missing");
+        assert!(after < 1.02 * before, "{before} {after}");
+        assert!(then < 1.1 * elsewhere + 0.005, "{elsewhere} {then}");
+    }
+}
+
+#[test]
+fn what_no_effect_does_makes_no_profile_worse() {
+    let of_two: fn(&Joints) -> Joints = |q| [0.0, 0.05 * q[1] * q[2] / 3000.0, 0.0, 0.0, 0.0, 0.0];
+    let wave: fn(&Joints) -> Joints = |q| {
+        let angle = (3.0 * (q[1] + q[2])).to_radians();
+        [0.0, 0.0, 0.05 * angle.sin(), 0.0, 0.0, 0.0]
+    };
+    for (count, hidden) in [(150, of_two), (300, wave)] {
+        let ([before, after, elsewhere, then], verdict) = written(&everywhere(31, count), hidden);
+        assert!(after <= before, "{verdict}: {before} {after}");
+        assert!(then < 1.05 * elsewhere, "{verdict}: {elsewhere} {then}");
+    }
+}
