@@ -215,7 +215,7 @@ fn what_the_start_has_wrong_itself_does_not_keep_the_better_profile_back() {
     let report = run("diagnose", &level, &better);
     // the report says both
     let report: String = report.split_whitespace().collect::<Vec<_>>().join(" ");
-    for said in ["no spring is like that", "12 effects are as many as one"] {
+    for said in ["below what is possible", "12 effects are as many as one"] {
         assert!(report.contains(said), "{said}: {report}");
     }
     assert!(better.is_file());
