@@ -106,13 +106,8 @@ impl Reader<'_> {
             return Ok(function.map(Written::Base));
         }
         let name = self.parsed.symbols.intern(self.text(first));
-        let index = match self.index()? {
-            Index::Whole => 0,
-            other => {
-                self.parsed.indices.push(other);
-                short(self.parsed.indices.len())
-            }
-        };
+        let index = self.index()?;
+        let index = self.parsed.keep_index(name, index);
         Ok(Some(Written::Base(Base::Named { name, index })))
     }
 

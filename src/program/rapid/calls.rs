@@ -3,9 +3,7 @@
 
 use super::builtins::Known;
 use super::resolved::{Callees, Entity, named};
-use super::syntax::{
-    Argument, Base, Callee, Expression, Index, Part, Path, Storage, Type, Verb, indices,
-};
+use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Call, Expr, How, Place, VariableId, Write, Written, short};
@@ -202,7 +200,7 @@ impl Translator<'_> {
             arguments,
         });
         for &routine in &callees.routines {
-            self.written_arrays(routine, all);
+            self.written_back(routine, all);
         }
     }
 
@@ -226,16 +224,9 @@ impl Translator<'_> {
                 Some(argument) if kind.is_frame() => self.frame_from(argument.expression),
                 Some(argument) => self.position_from(argument.expression, kind),
             };
-            let by_reference = matches!(
-                parameter.storage,
-                Storage::Parameter {
-                    by_reference: true,
-                    ..
-                }
-            );
-            let back = match value {
-                Expr::Variable(variable)
-                    if by_reference && resolved.is_written(Entity::Declared(datum)) =>
+            let back = match (value, argument) {
+                (Expr::Variable(variable), Some(argument))
+                    if resolved.is_written_back(datum) && self.is_one_of(argument) =>
                 {
                     Some(variable)
                 }
@@ -310,33 +301,49 @@ impl Translator<'_> {
         }
     }
 
-    /// Arrays that a routine writes through its parameter: which elements is known at run time
-    /// only.
-    fn written_arrays(&mut self, routine: u32, all: &[Argument]) {
+    /// Whether an argument is a variable of its own, which a routine may write as a whole.
+    fn is_one_of(&self, argument: &Argument) -> bool {
+        let Some((name, index)) = self.resolved.place_of(&argument.expression) else {
+            return true;
+        };
+        match self.resolved.meaning(name, self.context) {
+            Meaning::One(datum) => self.is_one(Entity::Declared(datum), index),
+            Meaning::Nothing => self.is_one(Entity::Undeclared(name), index),
+            Meaning::Several(_) => false,
+        }
+    }
+
+    /// What a routine writes through its parameters besides variables that it is given as a whole:
+    /// parts of data, and elements that only the running program knows.
+    fn written_back(&mut self, routine: u32, all: &[Argument]) {
         let resolved = self.resolved;
         for (datum, argument) in resolved.parameters(routine, all) {
             let Some(argument) = argument else {
                 continue;
             };
-            let kind = resolved.datum(datum).kind;
-            if !kind.is_target() || !resolved.is_written(Entity::Declared(datum)) {
+            if !resolved.is_written_back(datum) {
                 continue;
             }
-            if let Expression::Point {
-                base: Base::Named { name, index: 0 },
-                ..
-            } = argument.expression
-                && let Meaning::One(of) = resolved.meaning(name, self.context)
-                && matches!(self.position_of_datum(of, Index::Whole), Expr::Any { .. })
-                && resolved.is_written(Entity::Declared(of))
-            {
-                let how = How::PartSomehow(self.changed());
-                let table = self.table(of);
-                self.emit_write(Write {
-                    place: self.here,
-                    variable: Written::AnyOf(table),
-                    how,
-                });
+            if matches!(argument.expression, Expression::Member { .. }) {
+                let part = How::PartSomehow(self.changed());
+                self.write_argument(argument, part);
+            }
+            if !resolved.datum(datum).kind.is_target() || self.is_one_of(argument) {
+                continue;
+            }
+            let Some((name, index)) = resolved.place_of(&argument.expression) else {
+                continue;
+            };
+            let whole = Expr::Variable(self.parameter(datum));
+            for variable in self.written(name, index) {
+                for how in [How::PartSomehow(self.changed()), How::Whole(whole)] {
+                    let place = self.here;
+                    self.emit_write(Write {
+                        place,
+                        variable,
+                        how,
+                    });
+                }
             }
         }
     }
@@ -391,7 +398,7 @@ impl Translator<'_> {
             let how = How::PartSomehow(self.changed());
             let variable = match value {
                 Expr::Variable(variable) => Written::One(variable),
-                Expr::Any { .. } => Written::AnyOf(self.table(at)),
+                Expr::Any { .. } => Written::AnyOf(self.table(Entity::Declared(at))),
                 _ => continue,
             };
             let place: Place = self.here;

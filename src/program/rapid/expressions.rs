@@ -274,8 +274,8 @@ impl Reader<'_> {
             Kind::Assign => {}
             Kind::Sign(sign) => {
                 call.argument = match (sign, call.argument) {
-                    (b'{', Given::Name(of)) => Given::Element(of),
-                    (b'.', Given::Name(of) | Given::Element(of) | Given::Member(of))
+                    (b'{', Given::Name(of)) => Given::Element(of, token.start),
+                    (b'.', Given::Name(of) | Given::Element(of, _) | Given::Member(of))
                     | (b'{', Given::Member(of)) => Given::Member(of),
                     _ => Given::Other,
                 }
@@ -297,9 +297,9 @@ impl Reader<'_> {
         let expression = match call.argument {
             Given::Nothing => Expression::Nothing,
             Given::Name(name) => named(name, 0),
-            Given::Element(name) => {
-                self.parsed.indices.push(Index::Variable);
-                named(name, short(self.parsed.indices.len()))
+            Given::Element(name, open) => {
+                let index = index_at(self.bytes, open);
+                named(name, self.parsed.keep_index(name, index))
             }
             Given::Member(name) => Expression::Member { name, index: 0 },
             Given::Other => Expression::Computed((call.mentions, end)),
@@ -365,9 +365,30 @@ pub(super) struct OpenCall {
 enum Given {
     Nothing,
     Name(Symbol),
-    Element(Symbol),
+    /// With the bracket of its index.
+    Element(Symbol, u32),
     Member(Symbol),
     Other,
+}
+
+/// The index whose bracket opens there.
+fn index_at(bytes: &[u8], open: u32) -> Index {
+    let mut behind = bytes[open as usize + 1..].split(|b| *b == b'}');
+    let mut place = [0; 3];
+    for (at, text) in behind
+        .next()
+        .unwrap_or_default()
+        .split(|b| *b == b',')
+        .enumerate()
+    {
+        let digits = std::str::from_utf8(text.trim_ascii()).ok();
+        let number = digits.and_then(|digits| digits.parse().ok());
+        match (place.get_mut(at), number) {
+            (Some(slot), Some(number @ 1..)) => *slot = number,
+            _ => return Index::Variable,
+        }
+    }
+    Index::At(place)
 }
 
 fn closes(open: u8, close: u8) -> bool {

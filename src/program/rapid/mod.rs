@@ -20,6 +20,7 @@ mod calls;
 mod confdata;
 mod declarations;
 mod drive;
+mod elements;
 mod expressions;
 mod handlers;
 mod insert;

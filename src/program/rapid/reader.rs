@@ -404,6 +404,7 @@ impl<'a> Reader<'a> {
     /// `name{i}.part := value`; the present token is what follows the name.
     fn assignment(&mut self, start: u32, name: Symbol) -> Result<(), Fault> {
         let index = self.index()?;
+        self.parsed.note_place(name, index);
         let path = self.component()?;
         if self.token.kind != Kind::Assign {
             // a call of something like `record.component`: nothing of the language, passed over

@@ -1,5 +1,6 @@
 //! What the language reads, by behaviour.
 
+mod arrays;
 mod posts;
 mod robust;
 mod samples;

@@ -44,8 +44,8 @@ pub(super) struct Translator<'a> {
     pub records: HashMap<Entity, ValueId>,
     pub named_elements: HashMap<String, ValueId>,
     pub loads: HashMap<Symbol, ValueId>,
-    pub lists: HashMap<u32, (u32, u32)>,
-    pub tables: HashMap<u32, TableId>,
+    pub lists: HashMap<Entity, (u32, u32)>,
+    pub tables: HashMap<Entity, TableId>,
     pub remarks: HashMap<(&'static str, Symbol), RemarkId>,
     /// What functions of the files give, by routine.
     pub results: HashMap<u32, VariableId>,
