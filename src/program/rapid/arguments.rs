@@ -170,7 +170,14 @@ impl Reader<'_> {
         let amount = match token.kind {
             Kind::Number => number::parse(self.text(token))
                 .map_or(Amount::Computed, |value| Amount::Number(sign * value)),
-            Kind::Name => Amount::Named(self.parsed.symbols.intern(self.text(token)), sign),
+            Kind::Name => {
+                let name = self.parsed.symbols.intern(self.text(token));
+                if self.loops.iter().any(|open| open.counter == Some(name)) {
+                    Amount::Computed
+                } else {
+                    Amount::Named(name, sign)
+                }
+            }
             _ => Amount::Computed,
         };
         if amount != Amount::Computed {

@@ -67,21 +67,19 @@ impl Translator<'_> {
             return verb;
         };
         match verb {
-            Verb::Move { .. } if self.resolved.is_routine(name, self.context) => Verb::Other,
-            Verb::Other if self.is_like_move(name, arguments) => UNKNOWN_MOVE,
+            _ if self.resolved.is_routine(name, self.context) => Verb::Other,
+            Verb::Other if self.is_like_move(arguments) => UNKNOWN_MOVE,
             _ => verb,
         }
     }
 
-    fn is_like_move(&self, name: Symbol, arguments: Part) -> bool {
+    fn is_like_move(&self, arguments: Part) -> bool {
         let all = &self.resolved.parsed.arguments[indices(arguments)];
         let wobj = self.words.wobj;
         let is_frame = |argument: &Argument| {
             wobj.is_some() && argument.option == wobj || self.is_tool(argument)
         };
-        all.iter().any(is_frame)
-            && all.iter().any(|argument| self.leads_to_target(argument))
-            && !self.resolved.is_routine(name, self.context)
+        all.iter().any(is_frame) && all.iter().any(|argument| self.leads_to_target(argument))
     }
 
     /// Whether an argument gives a target away.
@@ -220,6 +218,7 @@ impl Translator<'_> {
             }
             let variable = self.parameter(datum);
             let value = match argument {
+                None if self.is_left_out(routine, datum) => Expr::Value(self.wobj0),
                 None => self.unknown(kind),
                 Some(argument) if kind.is_frame() => self.frame_from(argument.expression),
                 Some(argument) => self.position_from(argument.expression, kind),
@@ -238,6 +237,13 @@ impl Translator<'_> {
                 back,
             });
         }
+    }
+
+    /// Whether a work object that is not given is one that moves leave out, too (`\WObj?name`):
+    /// these are in wobj0.
+    fn is_left_out(&self, routine: u32, parameter: u32) -> bool {
+        let of = self.resolved.datum(parameter);
+        of.kind == Type::Wobjdata && self.resolved.parsed.if_given.contains(&(routine, of.name))
     }
 
     /// The variable of a parameter.

@@ -67,8 +67,12 @@ impl Reader<'_> {
                     let begin = self.token.start;
                     self.advance()?;
                     let option = Some(self.name("the name of an optional argument")?);
-                    let expression = if self.token.kind == Kind::Assign {
+                    let if_given = self.token.is(b'?');
+                    let expression = if if_given || self.token.kind == Kind::Assign {
                         self.advance()?;
+                        if if_given {
+                            self.note_if_given();
+                        }
                         self.argument(None)?
                     } else {
                         Expression::Nothing
@@ -107,6 +111,15 @@ impl Reader<'_> {
             self.parsed.arguments.truncate(start);
         }
         Ok((short(start), short(self.parsed.arguments.len())))
+    }
+
+    /// `\WObj?name`: the option is there where the parameter of this name, the present token, is
+    /// given.
+    fn note_if_given(&mut self) {
+        if let (Some(routine), Kind::Name) = (self.context.routine, self.token.kind) {
+            let name = self.parsed.symbols.intern(self.text(self.token));
+            self.parsed.if_given.insert((routine, name));
+        }
     }
 
     /// Whether the present word starts a statement: the semicolon before it is missing. Data may be
@@ -271,7 +284,7 @@ impl Reader<'_> {
                     call.after_backslash = true;
                 }
             }
-            Kind::Assign => {}
+            Kind::Assign | Kind::Sign(b'?') => {}
             Kind::Sign(sign) => {
                 call.argument = match (sign, call.argument) {
                     (b'{', Given::Name(of)) => Given::Element(of, token.start),

@@ -20,6 +20,15 @@ use crate::program::script::{Place, short};
 #[derive(Clone, Copy)]
 pub(super) struct Mark<'a>(Scanner<'a>, Token, u32, Lengths);
 
+/// A loop that is not closed yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct OpenLoop {
+    /// Only its own statements leave it.
+    pub endless: bool,
+    /// What FOR counts with: it hides data of its name.
+    pub counter: Option<Symbol>,
+}
+
 /// Reads one file into the parsed of all.
 pub(super) struct Reader<'a> {
     pub(super) bytes: &'a [u8],
@@ -42,8 +51,8 @@ pub(super) struct Reader<'a> {
     pub(super) given: Vec<Argument>,
     /// The function whose call the last expression is, if it is nothing else.
     pub(super) alone: Option<u32>,
-    /// For each open loop whether only its own statements leave it.
-    pub(super) loops: Vec<bool>,
+    /// Loops that are open.
+    pub(super) loops: Vec<OpenLoop>,
     /// Short IFs whose statement has not come yet.
     pub(super) short_ifs: u32,
     /// Anything of the language was seen.

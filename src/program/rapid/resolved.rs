@@ -344,7 +344,11 @@ impl<'a> Resolved<'a> {
     }
 
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
-        match given.verb {
+        let verb = match given.callee {
+            Callee::Named(name) if self.is_routine(name, given.context) => Verb::Other,
+            _ => given.verb,
+        };
+        match verb {
             Verb::Writes(position) => self.mark_argument(given, position),
             Verb::Move { first: 2, .. } => self.mark_argument(given, 1),
             Verb::WritesTool => {
@@ -363,12 +367,7 @@ impl<'a> Resolved<'a> {
             }
             _ => {}
         }
-        let is_call = match (given.verb, given.callee) {
-            (Verb::Other | Verb::CallByVar, _) => true,
-            (Verb::Move { .. }, Callee::Named(name)) => self.is_routine(name, given.context),
-            _ => false,
-        };
-        if is_call {
+        if matches!(verb, Verb::Other | Verb::CallByVar) {
             calls.push(given);
         }
     }

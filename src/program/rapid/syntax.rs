@@ -4,6 +4,7 @@ use super::aggregate::Leaf;
 use crate::program::names::{Context, Symbol, Symbols};
 use crate::program::script::{Place, short};
 use crate::program::{Number, Target, TargetId};
+use foldhash::HashSet;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -32,6 +33,8 @@ pub(super) struct Parsed {
     pub steps: Vec<Step>,
     /// Indices of names in arguments.
     pub indices: Vec<Index>,
+    /// Parameters that a routine hands on with `?` where they are given: the routine and the name.
+    pub if_given: HashSet<(u32, Symbol)>,
     /// Elements that statements name by constants, with a number of each from 1 on.
     pub places: BTreeMap<(Symbol, [u32; 3]), u32>,
     /// Arguments of instructions.
