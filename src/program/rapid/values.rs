@@ -387,7 +387,8 @@ impl Translator<'_> {
                     _ => None,
                 };
                 Variable {
-                    kept: datum.storage == Storage::Persistent,
+                    // VAR data of a module begin anew only where the program does
+                    kept: datum.context.routine.is_none(),
                     routine: datum.context.routine,
                     ..Variable::new(
                         name.unwrap_or_else(|| self.resolved.spelling(datum.name).into()),

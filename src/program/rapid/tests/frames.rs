@@ -118,3 +118,28 @@ fn work_pieces_in_hand_and_moving_frames_are_refused() {
     assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
     assert_eq!(program.frames[1].name, "w{2}");
 }
+
+#[test]
+fn data_of_a_module_are_kept_to_the_next_cycle() {
+    let data = |storage: &str| {
+        format!(
+            "MODULE m\n CONST robtarget p1:=[[1,2,3],[1,0,0,0],CONF;\n{storage} wobjdata \
+             w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nPROC main()\n"
+        )
+    };
+    let go = "MoveL p1,v5,z5,tool0\\WObj:=w;\n";
+    let set = "w.uframe.trans:=[0,0,100];\n";
+    let end = "ENDPROC\nENDMODULE";
+    for storage in ["PERS", "VAR", "LOCAL VAR"] {
+        let data = data(storage);
+        let program = read(&format!("{data}{go}{set}{end}"));
+        assert_eq!(heights(&program), [0.0, 100.0], "{storage}");
+        let program = read(&format!("{data}{set}{go}{end}"));
+        assert_eq!(heights(&program), [100.0], "{storage}");
+    }
+    let program = path(
+        "VAR wobjdata own:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\nMoveL \
+         p1,v5,z5,t\\WObj:=own;\nown.uframe.trans:=[0,0,100];",
+    );
+    assert_eq!(heights(&program), [0.0], "of a routine's own");
+}
