@@ -252,7 +252,9 @@ pub(super) enum Stored {
     Elements { elements: Part, sizes: [u32; 3] },
     /// A tool, frame or load, part of [`Parsed::leaves`].
     Leaves(Part),
-    /// An array of tools or frames, or a value that is not written out.
+    /// A row of so many tools or frames, one after the other in [`Parsed::leaves`].
+    Row { leaves: Part, count: u32 },
+    /// A value that is not written out, or an array without one.
     Computed,
     /// A number.
     Number(f64),

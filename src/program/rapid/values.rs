@@ -11,8 +11,8 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, Place, Remark, RemarkId,
-    Variable, VariableId, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark,
+    RemarkId, Variable, VariableId, short,
 };
 use crate::program::{Displacement, Shift};
 
@@ -281,7 +281,7 @@ impl Translator<'_> {
         match index {
             Index::Variable => return self.frame_chosen(),
             Index::At(_) if is_written => return self.frame_assigned(),
-            Index::At(place) => return self.frame_element(name, place),
+            Index::At(place) => return self.frame_element(entity, name, place),
             Index::Whole => {}
         }
         if let Entity::Declared(datum) = entity
@@ -301,14 +301,26 @@ impl Translator<'_> {
     }
 
     /// An element of an array of tools or work objects.
-    fn frame_element(&mut self, name: Symbol, place: [u32; 3]) -> Expr {
+    fn frame_element(&mut self, entity: Entity, name: Symbol, place: [u32; 3]) -> Expr {
+        if let Some(&known) = self.frame_elements.get(&(entity, place)) {
+            return Expr::Value(known);
+        }
         let name = element_name(self.resolved.spelling(name), place);
-        let known = self.named_elements.get(&name).copied();
-        Expr::Value(known.unwrap_or_else(|| {
-            let value = self.builder.script.frame(name.as_str(), None);
-            self.named_elements.insert(name, value);
-            value
-        }))
+        let value = if let Entity::Declared(datum) = entity
+            && let datum = *self.resolved.datum(datum)
+            && let Some(leaves) = of_row(datum.value, place)
+        {
+            Held::Record {
+                name: name.into(),
+                parts: self.record_parts(leaves, datum.place),
+                on: Box::default(),
+            }
+        } else {
+            Held::Frame(NamedFrame::still(name, None))
+        };
+        let value = self.builder.script.value(value);
+        self.frame_elements.insert((entity, place), value);
+        Expr::Value(value)
     }
 
     /// A tool or work object as it is declared.
@@ -325,7 +337,7 @@ impl Translator<'_> {
         };
         let parts = match leaves {
             Stored::Leaves(leaves) => self.record_parts(leaves, place),
-            Stored::Computed => {
+            Stored::Computed | Stored::Row { .. } => {
                 let computed = part_of(super::aggregate::Leaf::Computed, place);
                 self.add_parts(vec![computed; super::aggregate::MOST])
             }
@@ -461,4 +473,17 @@ impl Translator<'_> {
         }
         values.iter().all(|v| v.is_finite()).then_some(values)
     }
+}
+
+/// The leaves of a tool or frame in a row.
+fn of_row(value: Stored, place: [u32; 3]) -> Option<Part> {
+    let Stored::Row { leaves, count } = value else {
+        return None;
+    };
+    let [at @ 1.., 0, 0] = place else {
+        return None;
+    };
+    let each = (leaves.1 - leaves.0) / count;
+    let first = leaves.0 + (at - 1) * each;
+    (at <= count).then_some((first, first + each))
 }

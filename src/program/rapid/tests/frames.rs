@@ -143,3 +143,36 @@ fn data_of_a_module_are_kept_to_the_next_cycle() {
     );
     assert_eq!(heights(&program), [0.0], "of a routine's own");
 }
+
+#[test]
+fn tools_and_work_objects_in_a_row_are_where_the_file_says() {
+    let at = |x: i32| format!("[TRUE,[[0,0,{x}],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]");
+    let work = "[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,50],[1,0,0,0]]]";
+    let program = path(&format!(
+        "PERS tooldata ts{{2}}:=[{},{}];\nPERS wobjdata ws{{1}}:=[{work}];\nMoveL \
+         p1,v5,z5,ts{{1}};\nMoveL p2,v5,z5,ts{{2}}\\WObj:=ws{{1}};",
+        at(100),
+        at(200)
+    ));
+    let tool = |m: &crate::program::Move| program.tools[m.tool].flange_from_tool;
+    let z: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| tool(m).expect("a tool").translation[2])
+        .collect();
+    assert_eq!((z, ids(&program)), (vec![0.1, 0.2], vec![]));
+    assert_eq!(program.tools[0].name, "ts{1}");
+    assert_eq!(heights(&program), [0.0, 50.0]);
+    for row in ["[t,t]", "[[t,t],[t,t]]", "other"] {
+        let program = path(&format!(
+            "PERS tooldata ts{{2}}:={row};\nMoveL p1,v5,z5,ts{{1}};"
+        ));
+        assert_eq!(program.tools[0].flange_from_tool, None, "{row}");
+        assert_eq!(program.tools[0].name, "ts{1}", "{row}");
+    }
+    let program = path(&format!(
+        "PERS tooldata ts{{1}}:=[{}];\nMoveL p1,v5,z5,ts{{2}};",
+        at(100)
+    ));
+    assert_eq!(program.tools[0].flange_from_tool, None, "behind the last");
+}
