@@ -106,13 +106,8 @@ impl Reader<'_> {
             return Ok(function.map(Written::Base));
         }
         let name = self.parsed.symbols.intern(self.text(first));
-        let index = match self.index()? {
-            Index::Whole => 0,
-            other => {
-                self.parsed.indices.push(other);
-                short(self.parsed.indices.len())
-            }
-        };
+        let index = self.index()?;
+        let index = self.parsed.keep_index(name, index);
         Ok(Some(Written::Base(Base::Named { name, index })))
     }
 
@@ -175,7 +170,14 @@ impl Reader<'_> {
         let amount = match token.kind {
             Kind::Number => number::parse(self.text(token))
                 .map_or(Amount::Computed, |value| Amount::Number(sign * value)),
-            Kind::Name => Amount::Named(self.parsed.symbols.intern(self.text(token)), sign),
+            Kind::Name => {
+                let name = self.parsed.symbols.intern(self.text(token));
+                if self.loops.iter().any(|open| open.counter == Some(name)) {
+                    Amount::Computed
+                } else {
+                    Amount::Named(name, sign)
+                }
+            }
             _ => Amount::Computed,
         };
         if amount != Amount::Computed {

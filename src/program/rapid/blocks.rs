@@ -1,6 +1,6 @@
 //! Statements that lead elsewhere: choices, loops, jumps, handlers.
 
-use super::reader::Reader;
+use super::reader::{OpenLoop, Reader};
 use super::syntax::{Expression, StatementKind};
 use super::tokens::{Fault, Kind};
 
@@ -53,12 +53,17 @@ impl Reader<'_> {
             b"endif" | b"endtest" => self.note(start, StatementKind::EndChoice),
             b"while" => self.while_loop(start)?,
             b"for" => {
+                let is_name = self.token.kind == Kind::Name;
+                let counter = is_name.then(|| self.parsed.symbols.intern(self.text(self.token)));
                 self.condition()?;
                 self.note(start, StatementKind::Loop { may_pass: true });
-                self.loops.push(false);
+                self.loops.push(OpenLoop {
+                    endless: false,
+                    counter,
+                });
             }
             b"endwhile" | b"endfor" => {
-                let endless = self.loops.pop().unwrap_or(false);
+                let endless = self.loops.pop().unwrap_or_default().endless;
                 self.note(start, StatementKind::EndLoop { endless });
             }
             b"test" => {
@@ -123,7 +128,10 @@ impl Reader<'_> {
         } else if !forever {
             self.parsed.statements[at].kind = StatementKind::Loop { may_pass: true };
         }
-        self.loops.push(forever || calls);
+        self.loops.push(OpenLoop {
+            endless: forever || calls,
+            counter: None,
+        });
         Ok(())
     }
 

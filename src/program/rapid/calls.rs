@@ -3,9 +3,7 @@
 
 use super::builtins::Known;
 use super::resolved::{Callees, Entity, named};
-use super::syntax::{
-    Argument, Base, Callee, Expression, Index, Part, Path, Storage, Type, Verb, indices,
-};
+use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Call, Expr, How, Place, VariableId, Write, Written, short};
@@ -69,21 +67,19 @@ impl Translator<'_> {
             return verb;
         };
         match verb {
-            Verb::Move { .. } if self.resolved.is_routine(name, self.context) => Verb::Other,
-            Verb::Other if self.is_like_move(name, arguments) => UNKNOWN_MOVE,
+            _ if self.resolved.is_routine(name, self.context) => Verb::Other,
+            Verb::Other if self.is_like_move(arguments) => UNKNOWN_MOVE,
             _ => verb,
         }
     }
 
-    fn is_like_move(&self, name: Symbol, arguments: Part) -> bool {
+    fn is_like_move(&self, arguments: Part) -> bool {
         let all = &self.resolved.parsed.arguments[indices(arguments)];
         let wobj = self.words.wobj;
         let is_frame = |argument: &Argument| {
             wobj.is_some() && argument.option == wobj || self.is_tool(argument)
         };
-        all.iter().any(is_frame)
-            && all.iter().any(|argument| self.leads_to_target(argument))
-            && !self.resolved.is_routine(name, self.context)
+        all.iter().any(is_frame) && all.iter().any(|argument| self.leads_to_target(argument))
     }
 
     /// Whether an argument gives a target away.
@@ -202,7 +198,7 @@ impl Translator<'_> {
             arguments,
         });
         for &routine in &callees.routines {
-            self.written_arrays(routine, all);
+            self.written_back(routine, all);
         }
     }
 
@@ -222,20 +218,14 @@ impl Translator<'_> {
             }
             let variable = self.parameter(datum);
             let value = match argument {
+                None if self.is_left_out(routine, datum) => Expr::Value(self.wobj0),
                 None => self.unknown(kind),
                 Some(argument) if kind.is_frame() => self.frame_from(argument.expression),
                 Some(argument) => self.position_from(argument.expression, kind),
             };
-            let by_reference = matches!(
-                parameter.storage,
-                Storage::Parameter {
-                    by_reference: true,
-                    ..
-                }
-            );
-            let back = match value {
-                Expr::Variable(variable)
-                    if by_reference && resolved.is_written(Entity::Declared(datum)) =>
+            let back = match (value, argument) {
+                (Expr::Variable(variable), Some(argument))
+                    if resolved.is_written_back(datum) && self.is_one_of(argument) =>
                 {
                     Some(variable)
                 }
@@ -247,6 +237,13 @@ impl Translator<'_> {
                 back,
             });
         }
+    }
+
+    /// Whether a work object that is not given is one that moves leave out, too (`\WObj?name`):
+    /// these are in wobj0.
+    fn is_left_out(&self, routine: u32, parameter: u32) -> bool {
+        let of = self.resolved.datum(parameter);
+        of.kind == Type::Wobjdata && self.resolved.parsed.if_given.contains(&(routine, of.name))
     }
 
     /// The variable of a parameter.
@@ -310,33 +307,49 @@ impl Translator<'_> {
         }
     }
 
-    /// Arrays that a routine writes through its parameter: which elements is known at run time
-    /// only.
-    fn written_arrays(&mut self, routine: u32, all: &[Argument]) {
+    /// Whether an argument is a variable of its own, which a routine may write as a whole.
+    fn is_one_of(&self, argument: &Argument) -> bool {
+        let Some((name, index)) = self.resolved.place_of(&argument.expression) else {
+            return true;
+        };
+        match self.resolved.meaning(name, self.context) {
+            Meaning::One(datum) => self.is_one(Entity::Declared(datum), index),
+            Meaning::Nothing => self.is_one(Entity::Undeclared(name), index),
+            Meaning::Several(_) => false,
+        }
+    }
+
+    /// What a routine writes through its parameters besides variables that it is given as a whole:
+    /// parts of data, and elements that only the running program knows.
+    fn written_back(&mut self, routine: u32, all: &[Argument]) {
         let resolved = self.resolved;
         for (datum, argument) in resolved.parameters(routine, all) {
             let Some(argument) = argument else {
                 continue;
             };
-            let kind = resolved.datum(datum).kind;
-            if !kind.is_target() || !resolved.is_written(Entity::Declared(datum)) {
+            if !resolved.is_written_back(datum) {
                 continue;
             }
-            if let Expression::Point {
-                base: Base::Named { name, index: 0 },
-                ..
-            } = argument.expression
-                && let Meaning::One(of) = resolved.meaning(name, self.context)
-                && matches!(self.position_of_datum(of, Index::Whole), Expr::Any { .. })
-                && resolved.is_written(Entity::Declared(of))
-            {
-                let how = How::PartSomehow(self.changed());
-                let table = self.table(of);
-                self.emit_write(Write {
-                    place: self.here,
-                    variable: Written::AnyOf(table),
-                    how,
-                });
+            if matches!(argument.expression, Expression::Member { .. }) {
+                let part = How::PartSomehow(self.changed());
+                self.write_argument(argument, part);
+            }
+            if !resolved.datum(datum).kind.is_target() || self.is_one_of(argument) {
+                continue;
+            }
+            let Some((name, index)) = resolved.place_of(&argument.expression) else {
+                continue;
+            };
+            let whole = Expr::Variable(self.parameter(datum));
+            for variable in self.written(name, index) {
+                for how in [How::PartSomehow(self.changed()), How::Whole(whole)] {
+                    let place = self.here;
+                    self.emit_write(Write {
+                        place,
+                        variable,
+                        how,
+                    });
+                }
             }
         }
     }
@@ -391,7 +404,7 @@ impl Translator<'_> {
             let how = How::PartSomehow(self.changed());
             let variable = match value {
                 Expr::Variable(variable) => Written::One(variable),
-                Expr::Any { .. } => Written::AnyOf(self.table(at)),
+                Expr::Any { .. } => Written::AnyOf(self.table(Entity::Declared(at))),
                 _ => continue,
             };
             let place: Place = self.here;

@@ -39,12 +39,8 @@ impl Reader<'_> {
             self.advance()?;
             value = match kind {
                 Type::Robtarget | Type::Jointtarget => self.targets(kind, name, dimensions)?,
-                Type::Tooldata if dimensions == 0 && self.token.is(b'[') => {
-                    Stored::Leaves(self.leaves(TOOLDATA)?)
-                }
-                Type::Wobjdata if dimensions == 0 && self.token.is(b'[') => {
-                    Stored::Leaves(self.leaves(WOBJDATA)?)
-                }
+                Type::Tooldata if self.token.is(b'[') => self.frames(TOOLDATA, dimensions)?,
+                Type::Wobjdata if self.token.is(b'[') => self.frames(WOBJDATA, dimensions)?,
                 Type::Loaddata if dimensions == 0 && self.token.is(b'[') => {
                     Stored::Leaves(self.leaves(LOADDATA)?)
                 }
@@ -204,6 +200,35 @@ impl Reader<'_> {
         };
         self.parsed.elements.push(element);
         Ok(())
+    }
+
+    /// The value of a tool or work object, or of a row of them; the present token is its bracket.
+    fn frames(&mut self, template: &[u8], dimensions: usize) -> Result<Stored, Fault> {
+        if dimensions == 0 {
+            return self.leaves(template).map(Stored::Leaves);
+        }
+        let mark = self.mark();
+        let (first, mut count) = (short(self.parsed.leaves.len()), 0);
+        self.advance()?;
+        // names, and rows of rows, are not followed
+        while dimensions == 1 && self.token.is(b'[') {
+            match self.leaves(template) {
+                Ok(_) => count += 1,
+                Err(Fault::Unexpected { .. }) => break,
+                Err(fault) => return Err(fault),
+            }
+            if self.token.is(b']') {
+                self.advance()?;
+                let leaves = (first, short(self.parsed.leaves.len()));
+                return Ok(Stored::Row { leaves, count });
+            }
+            if !self.token.is(b',') {
+                break;
+            }
+            self.advance()?;
+        }
+        self.rewind(mark);
+        self.expression().map(|_| Stored::Computed)
     }
 
     fn leaves(&mut self, template: &[u8]) -> Result<Part, Fault> {

@@ -67,8 +67,12 @@ impl Reader<'_> {
                     let begin = self.token.start;
                     self.advance()?;
                     let option = Some(self.name("the name of an optional argument")?);
-                    let expression = if self.token.kind == Kind::Assign {
+                    let if_given = self.token.is(b'?');
+                    let expression = if if_given || self.token.kind == Kind::Assign {
                         self.advance()?;
+                        if if_given {
+                            self.note_if_given();
+                        }
                         self.argument(None)?
                     } else {
                         Expression::Nothing
@@ -107,6 +111,15 @@ impl Reader<'_> {
             self.parsed.arguments.truncate(start);
         }
         Ok((short(start), short(self.parsed.arguments.len())))
+    }
+
+    /// `\WObj?name`: the option is there where the parameter of this name, the present token, is
+    /// given.
+    fn note_if_given(&mut self) {
+        if let (Some(routine), Kind::Name) = (self.context.routine, self.token.kind) {
+            let name = self.parsed.symbols.intern(self.text(self.token));
+            self.parsed.if_given.insert((routine, name));
+        }
     }
 
     /// Whether the present word starts a statement: the semicolon before it is missing. Data may be
@@ -271,11 +284,11 @@ impl Reader<'_> {
                     call.after_backslash = true;
                 }
             }
-            Kind::Assign => {}
+            Kind::Assign | Kind::Sign(b'?') => {}
             Kind::Sign(sign) => {
                 call.argument = match (sign, call.argument) {
-                    (b'{', Given::Name(of)) => Given::Element(of),
-                    (b'.', Given::Name(of) | Given::Element(of) | Given::Member(of))
+                    (b'{', Given::Name(of)) => Given::Element(of, token.start),
+                    (b'.', Given::Name(of) | Given::Element(of, _) | Given::Member(of))
                     | (b'{', Given::Member(of)) => Given::Member(of),
                     _ => Given::Other,
                 }
@@ -297,9 +310,9 @@ impl Reader<'_> {
         let expression = match call.argument {
             Given::Nothing => Expression::Nothing,
             Given::Name(name) => named(name, 0),
-            Given::Element(name) => {
-                self.parsed.indices.push(Index::Variable);
-                named(name, short(self.parsed.indices.len()))
+            Given::Element(name, open) => {
+                let index = index_at(self.bytes, open);
+                named(name, self.parsed.keep_index(name, index))
             }
             Given::Member(name) => Expression::Member { name, index: 0 },
             Given::Other => Expression::Computed((call.mentions, end)),
@@ -365,9 +378,30 @@ pub(super) struct OpenCall {
 enum Given {
     Nothing,
     Name(Symbol),
-    Element(Symbol),
+    /// With the bracket of its index.
+    Element(Symbol, u32),
     Member(Symbol),
     Other,
+}
+
+/// The index whose bracket opens there.
+fn index_at(bytes: &[u8], open: u32) -> Index {
+    let mut behind = bytes[open as usize + 1..].split(|b| *b == b'}');
+    let mut place = [0; 3];
+    for (at, text) in behind
+        .next()
+        .unwrap_or_default()
+        .split(|b| *b == b',')
+        .enumerate()
+    {
+        let digits = std::str::from_utf8(text.trim_ascii()).ok();
+        let number = digits.and_then(|digits| digits.parse().ok());
+        match (place.get_mut(at), number) {
+            (Some(slot), Some(number @ 1..)) => *slot = number,
+            _ => return Index::Variable,
+        }
+    }
+    Index::At(place)
 }
 
 fn closes(open: u8, close: u8) -> bool {

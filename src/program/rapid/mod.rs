@@ -20,6 +20,7 @@ mod calls;
 mod confdata;
 mod declarations;
 mod drive;
+mod elements;
 mod expressions;
 mod handlers;
 mod insert;
@@ -36,6 +37,7 @@ mod values;
 mod verbs;
 
 use super::kit::not_this_language;
+use super::names::Symbols;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
@@ -164,15 +166,28 @@ impl Language for Rapid {
 /// External axes in their order.
 const EXTERNAL: [&str; 6] = ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"];
 
-/// Parsed what all files say, then puts it together.
-fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
-    let (mut parsed, mut verbs) = (Parsed::default(), Verbs::default());
+/// Reads what all files say.
+fn parse(sources: &[Source], symbols: Symbols, verbs: &mut Verbs) -> Result<Parsed, ReadError> {
+    let mut parsed = Parsed {
+        symbols,
+        ..Parsed::default()
+    };
     for (file, source) in sources.iter().enumerate() {
-        let recognised = Reader::read(source, short(file), &mut parsed, &mut verbs)
+        let recognised = Reader::read(source, short(file), &mut parsed, verbs)
             .map_err(|fault| fault.in_source(source))?;
         if !recognised {
             return Err(not_this_language(&ABOUT, source));
         }
+    }
+    Ok(parsed)
+}
+
+/// Reads what all files say, then puts it together.
+fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+    let mut verbs = Verbs::default();
+    let mut parsed = parse(sources, Symbols::default(), &mut verbs)?;
+    if verbs.hide(&parsed.routines) {
+        parsed = parse(sources, parsed.symbols, &mut verbs)?;
     }
     let mut script = Script {
         targets: std::mem::take(&mut parsed.targets),

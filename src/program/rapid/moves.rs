@@ -393,12 +393,17 @@ impl Translator<'_> {
                     return Vec::new();
                 }
                 let entity = Entity::Undeclared(name);
-                let known = self.variables.get(&(entity, 0)).copied();
-                let variable = known.unwrap_or_else(|| {
-                    let holds = self.undeclared(name);
-                    self.variable(entity, 0, holds)
-                });
-                return vec![Written::One(variable)];
+                let holds = self.undeclared(name);
+                if matches!(holds, Expr::Value(_)) {
+                    return vec![Written::One(self.variable(entity, 0, holds))];
+                }
+                if !self.is_one(entity, index) {
+                    return vec![Written::AnyOf(self.table(entity))];
+                }
+                return match self.without_value(entity, index, holds) {
+                    Expr::Variable(variable) => vec![Written::One(variable)],
+                    _ => Vec::new(),
+                };
             }
             Meaning::One(datum) => vec![datum],
             Meaning::Several(list) => resolved.several(list).to_vec(),
@@ -406,20 +411,20 @@ impl Translator<'_> {
         let several = data.len() > 1;
         let mut all = Vec::new();
         for datum in data {
+            let entity = Entity::Declared(datum);
             let kind = resolved.datum(datum).kind;
-            let value = if kind.is_target() {
-                self.position_of_datum(datum, index)
+            let (value, is_one) = if kind.is_target() {
+                let value = self.position_of_datum(datum, index);
+                (value, !several && self.is_one(entity, index))
             } else if kind.is_frame() && !several {
-                self.frame(name, Index::Whole)
+                (self.frame(name, Index::Whole), true)
             } else {
                 continue;
             };
             match value {
-                Expr::Variable(variable) if !several => all.push(Written::One(variable)),
-                Expr::Variable(_) | Expr::Any { .. }
-                    if resolved.is_written(Entity::Declared(datum)) =>
-                {
-                    all.push(Written::AnyOf(self.table(datum)));
+                Expr::Variable(variable) if is_one => all.push(Written::One(variable)),
+                Expr::Variable(_) | Expr::Any { .. } if resolved.is_written(entity) => {
+                    all.push(Written::AnyOf(self.table(entity)));
                 }
                 _ => {}
             }

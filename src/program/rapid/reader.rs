@@ -20,6 +20,15 @@ use crate::program::script::{Place, short};
 #[derive(Clone, Copy)]
 pub(super) struct Mark<'a>(Scanner<'a>, Token, u32, Lengths);
 
+/// A loop that is not closed yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct OpenLoop {
+    /// Only its own statements leave it.
+    pub endless: bool,
+    /// What FOR counts with: it hides data of its name.
+    pub counter: Option<Symbol>,
+}
+
 /// Reads one file into the parsed of all.
 pub(super) struct Reader<'a> {
     pub(super) bytes: &'a [u8],
@@ -42,8 +51,8 @@ pub(super) struct Reader<'a> {
     pub(super) given: Vec<Argument>,
     /// The function whose call the last expression is, if it is nothing else.
     pub(super) alone: Option<u32>,
-    /// For each open loop whether only its own statements leave it.
-    pub(super) loops: Vec<bool>,
+    /// Loops that are open.
+    pub(super) loops: Vec<OpenLoop>,
     /// Short IFs whose statement has not come yet.
     pub(super) short_ifs: u32,
     /// Anything of the language was seen.
@@ -404,6 +413,7 @@ impl<'a> Reader<'a> {
     /// `name{i}.part := value`; the present token is what follows the name.
     fn assignment(&mut self, start: u32, name: Symbol) -> Result<(), Fault> {
         let index = self.index()?;
+        self.parsed.note_place(name, index);
         let path = self.component()?;
         if self.token.kind != Kind::Assign {
             // a call of something like `record.component`: nothing of the language, passed over

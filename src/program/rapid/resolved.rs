@@ -2,8 +2,8 @@
 
 use super::builtins::Known;
 use super::syntax::{
-    Argument, Base, Callee, Datum, Expression, Function, Parsed, Part, StatementKind, Storage,
-    Stored, Type, Verb, indices,
+    Argument, Base, Callee, Datum, Expression, Function, Index, Parsed, Part, StatementKind,
+    Storage, Stored, Type, Verb, indices,
 };
 use super::verbs::Verbs;
 use crate::program::Source;
@@ -23,6 +23,8 @@ pub(super) struct Resolved<'a> {
     written: Vec<bool>,
     /// The same of names that the files do not declare.
     undeclared: HashSet<Symbol>,
+    /// Data that are written at an index that is not constant, or as a whole.
+    scattered: HashSet<Entity>,
 }
 
 /// Data: a declaration, or a name that the files do not declare.
@@ -73,6 +75,7 @@ impl<'a> Resolved<'a> {
             verbs,
             written,
             undeclared: HashSet::new(),
+            scattered: HashSet::new(),
         };
         resolved.find_written();
         resolved
@@ -104,6 +107,37 @@ impl<'a> Resolved<'a> {
             Entity::Declared(datum) => self.written[datum as usize],
             Entity::Undeclared(name) => self.undeclared.contains(&name),
         }
+    }
+
+    /// Whether data are written at an index that is not constant, or as a whole.
+    pub(super) fn is_scattered(&self, entity: Entity) -> bool {
+        self.scattered.contains(&entity)
+    }
+
+    /// Whether what a routine writes into a parameter is written where it is called.
+    pub(super) fn is_written_back(&self, parameter: u32) -> bool {
+        let by_reference = matches!(
+            self.datum(parameter).storage,
+            Storage::Parameter {
+                by_reference: true,
+                ..
+            }
+        );
+        by_reference && self.written[parameter as usize]
+    }
+
+    /// The data that an expression is or a part of which it is, and which element of them.
+    pub(super) fn place_of(&self, expression: &Expression) -> Option<(Symbol, Index)> {
+        let name = named(expression)?;
+        let index = match *expression {
+            Expression::Point {
+                base: Base::Named { index, .. },
+                ..
+            }
+            | Expression::Member { index, .. } => self.parsed.index(index),
+            _ => Index::Whole,
+        };
+        Some((name, index))
     }
 
     /// Whether a name is written that the files do not declare.
@@ -210,15 +244,24 @@ impl<'a> Resolved<'a> {
 
     // ---- what may be written
 
-    /// Marks what a name may mean; whether that is new.
-    fn mark(&mut self, name: Symbol, context: Context) -> bool {
+    /// Marks what a name may mean, where an element of it is written; whether that is new.
+    fn mark(&mut self, (name, index): (Symbol, Index), context: Context) -> bool {
+        let is_scattered = !matches!(index, Index::At(_));
         let data = match self.data.meaning(name, context) {
             Meaning::One(datum) => vec![datum],
             Meaning::Several(list) => self.data.several(list).to_vec(),
-            Meaning::Nothing => return self.undeclared.insert(name),
+            Meaning::Nothing => {
+                if is_scattered {
+                    self.scattered.insert(Entity::Undeclared(name));
+                }
+                return self.undeclared.insert(name);
+            }
         };
         let mut changed = false;
         for datum in data {
+            if is_scattered && self.datum(datum).value == Stored::Computed {
+                self.scattered.insert(Entity::Declared(datum));
+            }
             let constant = self.datum(datum).storage == Storage::Constant;
             let written = &mut self.written[datum as usize];
             changed |= !constant && !*written;
@@ -250,8 +293,8 @@ impl<'a> Resolved<'a> {
                     file: in_file,
                     context: now,
                 } => (context, file) = (now, in_file),
-                StatementKind::Assign { name, .. } => {
-                    self.mark(name, context);
+                StatementKind::Assign { name, index, .. } => {
+                    self.mark((name, index), context);
                 }
                 StatementKind::Function(function) => {
                     let function = self.parsed.functions[function as usize];
@@ -301,13 +344,17 @@ impl<'a> Resolved<'a> {
     }
 
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
-        match given.verb {
+        let verb = match given.callee {
+            Callee::Named(name) if self.is_routine(name, given.context) => Verb::Other,
+            _ => given.verb,
+        };
+        match verb {
             Verb::Writes(position) => self.mark_argument(given, position),
             Verb::Move { first: 2, .. } => self.mark_argument(given, 1),
             Verb::WritesTool => {
                 for at in indices(given.arguments) {
-                    if let Some(name) = named(&self.parsed.arguments[at].expression) {
-                        self.mark(name, given.context);
+                    if let Some(place) = self.place_of(&self.parsed.arguments[at].expression) {
+                        self.mark(place, given.context);
                     }
                 }
             }
@@ -320,12 +367,7 @@ impl<'a> Resolved<'a> {
             }
             _ => {}
         }
-        let is_call = match (given.verb, given.callee) {
-            (Verb::Other | Verb::CallByVar, _) => true,
-            (Verb::Move { .. }, Callee::Named(name)) => self.is_routine(name, given.context),
-            _ => false,
-        };
-        if is_call {
+        if matches!(verb, Verb::Other | Verb::CallByVar) {
             calls.push(given);
         }
     }
@@ -335,8 +377,8 @@ impl<'a> Resolved<'a> {
             .iter()
             .filter(|argument| argument.option.is_none());
         let argument = positional.nth(usize::from(position));
-        if let Some(name) = argument.and_then(|argument| named(&argument.expression)) {
-            self.mark(name, given.context);
+        if let Some(place) = argument.and_then(|argument| self.place_of(&argument.expression)) {
+            self.mark(place, given.context);
         }
     }
 
@@ -344,33 +386,27 @@ impl<'a> Resolved<'a> {
     fn mark_given(&mut self, given: Given) -> bool {
         let callees = self.callees(given.callee, given.arguments, given.context, given.file);
         let arguments = &self.list(given.of_function)[indices(given.arguments)];
-        let mut names = Vec::new();
+        let mut places = Vec::new();
         for &routine in &callees.routines {
             for (datum, argument) in self.parameters(routine, arguments) {
-                let by_reference = matches!(
-                    self.datum(datum).storage,
-                    Storage::Parameter {
-                        by_reference: true,
-                        ..
-                    }
-                );
-                if by_reference && self.written[datum as usize] {
-                    names.extend(argument.and_then(|argument| named(&argument.expression)));
+                if self.is_written_back(datum) {
+                    places
+                        .extend(argument.and_then(|argument| self.place_of(&argument.expression)));
                 }
             }
         }
         if callees.foreign {
             let own = arguments
                 .iter()
-                .filter_map(|argument| named(&argument.expression));
-            names.extend(own.filter(|name| {
+                .filter_map(|argument| self.place_of(&argument.expression));
+            places.extend(own.filter(|(name, _)| {
                 self.kind(*name, given.context)
                     .is_some_and(|kind| kind.is_target() || kind.is_frame())
             }));
         }
         let mut changed = false;
-        for name in names {
-            changed |= self.mark(name, given.context);
+        for place in places {
+            changed |= self.mark(place, given.context);
         }
         changed
     }

@@ -2,8 +2,10 @@
 
 use super::aggregate::Leaf;
 use crate::program::names::{Context, Symbol, Symbols};
-use crate::program::script::Place;
+use crate::program::script::{Place, short};
 use crate::program::{Number, Target, TargetId};
+use foldhash::HashSet;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Everything noted of all files.
@@ -31,6 +33,10 @@ pub(super) struct Parsed {
     pub steps: Vec<Step>,
     /// Indices of names in arguments.
     pub indices: Vec<Index>,
+    /// Parameters that a routine hands on with `?` where they are given: the routine and the name.
+    pub if_given: HashSet<(u32, Symbol)>,
+    /// Elements that statements name by constants, with a number of each from 1 on.
+    pub places: BTreeMap<(Symbol, [u32; 3]), u32>,
     /// Arguments of instructions.
     pub arguments: Vec<Argument>,
     /// Functions that are called in expressions.
@@ -69,6 +75,31 @@ impl Parsed {
             0 => Index::Whole,
             _ => self.indices[index as usize - 1],
         }
+    }
+
+    /// Keeps the index of a name in an argument: see [`Self::index`].
+    pub(super) fn keep_index(&mut self, name: Symbol, index: Index) -> u32 {
+        if index == Index::Whole {
+            return 0;
+        }
+        self.note_place(name, index);
+        self.indices.push(index);
+        short(self.indices.len())
+    }
+
+    /// Notes that a statement names an element.
+    pub(super) fn note_place(&mut self, name: Symbol, index: Index) {
+        if let Index::At(place) = index {
+            let next = short(self.places.len()) + 1;
+            self.places.entry((name, place)).or_insert(next);
+        }
+    }
+
+    /// The elements of a name that statements name, each with its number.
+    pub(super) fn places_of(&self, name: Symbol) -> impl Iterator<Item = ([u32; 3], u32)> {
+        let all = (name, [0; 3])..=(name, [u32::MAX; 3]);
+        let found = self.places.range(all);
+        found.map(|(&(_, place), &number)| (place, number))
     }
 
     /// How long the lists are.
@@ -221,7 +252,9 @@ pub(super) enum Stored {
     Elements { elements: Part, sizes: [u32; 3] },
     /// A tool, frame or load, part of [`Parsed::leaves`].
     Leaves(Part),
-    /// An array of tools or frames, or a value that is not written out.
+    /// A row of so many tools or frames, one after the other in [`Parsed::leaves`].
+    Row { leaves: Part, count: u32 },
+    /// A value that is not written out, or an array without one.
     Computed,
     /// A number.
     Number(f64),

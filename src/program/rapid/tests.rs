@@ -1,8 +1,12 @@
 //! What the language reads, by behaviour.
 
+mod arrays;
+mod calls;
+mod frames;
 mod posts;
 mod robust;
 mod samples;
+mod text;
 
 use super::*;
 use crate::finding::{Finding, Severity};
@@ -185,6 +189,17 @@ fn displacements_add_up_and_unknown_ones_are_reported() {
 }
 
 #[test]
+fn what_a_loop_counts_with_hides_a_constant() {
+    let program = path(
+        "CONST num i:=5;\nFOR i FROM 1 TO 40 DO\nMoveL Offs(p1,0,0,i),v5,z5,t;\nWHILE a DO\nMoveL \
+         RelTool(p1,0,0,-i),v5,z5,t;\nENDWHILE\nENDFOR\nMoveL Offs(p1,0,0,i),v5,z5,t;",
+    );
+    let by: Vec<_> = program.moves.iter().map(|m| &m.displacement).collect();
+    assert_eq!(by[..2], [&Displacement::Unknown, &Displacement::Unknown]);
+    assert!(matches!(by[2], Displacement::By(_)), "behind the loop");
+}
+
+#[test]
 fn odd_instructions_find_their_arguments() {
     let program = path(
         "MoveLDO p1, v1000, z30, t2, do1, 1;\nTriggL p1,v5,gunon\\T2:=x,z5,t\\WObj:=w;\n\
@@ -335,131 +350,6 @@ fn expressions_names_and_routines_block_targets() {
 }
 
 #[test]
-fn parameters_are_what_each_call_gives() {
-    let rm = "ENDPROC\nPROC rm(robtarget p\\switch fast|num slow\\robtarget via, PERS tooldata g)\n\
-              MoveL p,v5,z5,g;\nIF Present(via) MoveL via,v5,z5,g;";
-    let program = path(&format!(
-        "rm p1,t;\nrm Offs(p2,0,0,5),t\\via:=p3;\nrm \\fast,p1,t2;\n{rm}"
-    ));
-    assert_eq!(to(&program), ["p1", "p2", "p1", "?", "p3", "?"]);
-    assert_eq!(ids(&program), ["computed-target"], "the way without via");
-    let tools: Vec<_> = program
-        .moves
-        .iter()
-        .map(|m| program.tools[m.tool].name.as_str())
-        .collect();
-    assert_eq!(tools, ["t", "t", "t2", "t", "t", "t2"]);
-    let program = path("rm;\nENDPROC\nPROC rm(\\robtarget p)\nMoveL p,v5,z5,t;");
-    assert_eq!(ids(&program), ["computed-target"]);
-}
-
-#[test]
-fn parameters_by_reference_are_written_back() {
-    let program = path(
-        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(INOUT robtarget r)\nsub r;\nENDPROC\n\
-         PROC sub(INOUT robtarget s)\ns:=p1;",
-    );
-    assert_eq!((to(&program), ids(&program)), (vec!["p1"], vec![]));
-    let program = path(
-        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(robtarget r)\nr:=p1;\nMoveL r,v5,z5,t;",
-    );
-    assert_eq!(to(&program), ["p3", "p1"], "a copy");
-}
-
-#[test]
-fn functions_give_positions_and_move() {
-    let program = path(
-        "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC \
-         f(p1),f(p2),v5,z5,t;\nok:=g(1)+1;\n\
-         ENDPROC\nFUNC robtarget f(robtarget a)\nRETURN Offs(a,1,2,3);\nENDFUNC\n\
-         FUNC num g(num x)\nMoveL p3,v5,z5,t;\nRETURN 1;\nENDFUNC\nPROC last()",
-    );
-    assert_eq!(to(&program), ["p1", "p2", "p1", "p2", "p3"]);
-    assert_eq!(ids(&program), [""; 0]);
-    assert!(
-        program.moves[..4]
-            .iter()
-            .all(|m| m.displacement != Displacement::None)
-    );
-}
-
-#[test]
-fn routines_that_are_not_in_the_files_may_do_anything_with_targets() {
-    for call in [
-        "Pick p1;",
-        "b:=fPlace(p1);",
-        "IF fReady(1,p1) Stop;",
-        "%\"Pick\"% p1;",
-        "%name%p1;",
-    ] {
-        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
-        assert_eq!(ids(&program), ["target-passed-to-routine"], "{call}");
-        assert_eq!(blocked(&program), ["p1"], "{call}");
-    }
-    for call in [
-        "d:=Distance(p1.trans,p2.trans);",
-        "TPWrite \"x\"\\Pos:=p1.trans;",
-        "Pick 1;",
-    ] {
-        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
-        assert_eq!(ids(&program), [""; 0], "{call}");
-    }
-}
-
-#[test]
-fn late_bound_calls_find_their_routines() {
-    let rest = "ENDPROC\nPROC Pick1()\nMoveL p2,v5,z5,t;\nENDPROC\nPROC Pick2()\nMoveL p3,v5,z5,t;";
-    for call in ["%\"m:Pick1\"%;", "%\"pick1\"%;"] {
-        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
-        let configured: Vec<_> = program.moves.iter().map(|m| m.configured).collect();
-        assert_eq!(configured, [false, true], "{call}");
-    }
-    for call in [
-        "%\"Pick\"+ValToStr(i)%;",
-        "CallByVar \"Pick\",i;",
-        "%name%;",
-    ] {
-        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
-        assert!(program.moves.iter().all(|m| !m.configured), "{call}");
-    }
-}
-
-#[test]
-fn handlers_may_run_between_any_statements() {
-    let program = path(
-        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL \
-         p3,v5,z5,t;\nRETRY;\n\
-         ENDIF\nRAISE;",
-    );
-    let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
-    for name in ["p1", "p2", "p3"] {
-        let mut configured = all
-            .iter()
-            .filter(|(to, _)| *to == name)
-            .map(|(_, m)| m.configured);
-        assert!(configured.clone().any(|c| c) && configured.any(|c| !c));
-    }
-    assert!(
-        all.iter().all(|(_, m)| program.before(m).len() > 1),
-        "the handler goes on anywhere"
-    );
-    let program = path("MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;\nERROR\nWaitTime 1;\nRETRY;");
-    assert_eq!(
-        program.before(&program.moves[1]),
-        [crate::program::Before::One(0)]
-    );
-}
-
-#[test]
-fn traps_may_run_at_any_place() {
-    let program = path("MoveL p3,v5,z5,t;\nENDPROC\nTRAP tr\np3:=CRobT();\nENDTRAP\nPROC last()");
-    assert_eq!(
-        (to(&program), ids(&program)),
-        (vec!["p3", "?"], vec!["run-time-position"])
-    );
-}
-
-#[test]
 fn blocks_and_jumps_lead_where_they_say() {
     let before = |statements: &str, at: usize| -> Vec<String> {
         let program = path(statements);
@@ -565,123 +455,6 @@ fn wrist_mode_lasts_until_it_is_left() {
 }
 
 #[test]
-fn frames_assigned_once_or_alike_replace_the_declared_ones() {
-    let program = path(
-        "w.uframe := [[0,0,500],[1,0,0,0]];\nt.tframe.trans.z:=42;\nMoveL p1,v5,z5,t\\WObj:=w;\n\
-         w.uframe := [[0,0,500],[1,0,0,0]];",
-    );
-    let frame = program.frames[0].world_from_frame.expect("a frame");
-    assert_eq!(frame.translation, [0.01, 0.0, 0.5]);
-    let tool = program.tools[0].flange_from_tool.expect("a tool");
-    assert_eq!(tool.translation, [0.0, 0.0, 0.042]);
-    assert_eq!(ids(&program), [""; 0]);
-}
-
-fn heights(program: &Program) -> Vec<f64> {
-    let frame = |m: &crate::program::Move| program.frames[m.frame].world_from_frame;
-    let z = |m| (frame(m).expect("a frame").translation[2] * 1e3).round();
-    program.moves.iter().map(z).collect()
-}
-
-#[test]
-fn different_frames_hold_one_after_another() {
-    let text = "w.uframe.trans := [0,0,100];\nMoveL p1,v5,z5,t\\WObj:=w;\n\
-                w.uframe.trans := [0,0,200];\nMoveL p2,v5,z5,t\\WObj:=w;";
-    assert_eq!(heights(&path(text)), [100.0, 200.0]);
-    assert_eq!(
-        heights(&path(&format!("IF a THEN\n{text}\nENDIF"))),
-        [100.0, 200.0]
-    );
-    let other = format!("{text}\nENDPROC\nPROC b()\nMoveL p1,v5,z5,t\\WObj:=w;");
-    assert_eq!(heights(&path(&other)), [100.0, 200.0, 0.0], "as declared");
-    // PERS data are kept to the next run
-    let before = format!("MoveL p1,v5,z5,t\\WObj:=w;\n{text}");
-    assert_eq!(heights(&path(&before)), [0.0, 200.0, 100.0, 200.0]);
-    let written = path(&before).moves[1].frame_written.expect("a place");
-    assert!(written.offset > 0);
-    let program = path(&text.replace("200", "x"));
-    assert_eq!(
-        (ids(&program), blocked(&program)),
-        (vec!["frame-assigned-at-run-time"], vec!["p2"])
-    );
-    let called = format!(
-        "MoveL p1,v5,z5,t\\WObj:=w;\nENDPROC\nPROC never()\n{}",
-        text.replace("p1", "p3")
-    );
-    let program = path(&called);
-    assert_eq!(
-        heights(&program),
-        [0.0, 100.0, 200.0],
-        "the declaration holds"
-    );
-    assert_eq!(ids(&program), ["write-not-called"]);
-}
-
-#[test]
-fn tools_and_work_objects_are_written_by_others() {
-    for text in [
-        "Incr w.oframe.trans.x;\nMoveL p1,v5,z5,t\\WObj:=w;",
-        "MToolTCPCalib j1,j2,j3,j4,t,max,mean;\nMoveL p1,v5,z5,t;",
-        "w.oframe:=f(1);\nMoveL p1,v5,z5,t\\WObj:=w;",
-        "w:=CWObj();\nMoveL p1,v5,z5,t\\WObj:=w;",
-    ] {
-        let program = path(text);
-        assert!(ids(&program)[0].starts_with("frame-"), "{text}");
-        assert_eq!(blocked(&program), ["p1"], "{text}");
-    }
-    let program = path("SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;");
-    assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
-    let program = path("w:=w2;\nMoveL p1,v5,z5,t\\WObj:=w;");
-    assert_eq!(
-        (program.frames[0].name.as_str(), ids(&program)),
-        ("w2", vec![])
-    );
-}
-
-#[test]
-fn work_pieces_in_hand_and_moving_frames_are_refused() {
-    for (declaration, id) in [
-        (
-            "PERS wobjdata x:=[TRUE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
-            "held-work-piece",
-        ),
-        (
-            "PERS wobjdata x:=[FALSE,FALSE,\"CNV1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
-            "moving-frame",
-        ),
-        (
-            "PERS wobjdata x:=[FALSE,FALSE,\"ROB_2\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
-            "two-robots",
-        ),
-    ] {
-        let program = path(&format!("{declaration}\nMoveL p1,v5,z5,t\\WObj:=x;"));
-        assert_eq!((ids(&program), blocked(&program)), (vec![id], vec!["p1"]));
-    }
-    // on a unit the frame is that of the unit, and the user frame of the file is not used; a fixed
-    // one is fixed whatever is named
-    for (fixed, on, x) in [("FALSE", 1, 0.002), ("TRUE", 0, 0.003)] {
-        let wobj = format!(
-            "PERS wobjdata x:=[FALSE,{fixed},\"STN1\",[[1,0,0],[1,0,0,0]],[[2,0,0],[1,0,0,0]]];"
-        );
-        let program = path(&format!("{wobj}\nMoveL p1,v5,z5,t\\WObj:=x;"));
-        let frame = &program.frames[0];
-        assert_eq!((ids(&program), frame.on.len()), (vec![], on));
-        assert_eq!(
-            frame.world_from_frame.map(|pose| pose.translation[0]),
-            Some(x)
-        );
-    }
-    let program = path(
-        "PERS tooldata x:=[FALSE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nMoveL \
-         p1,v5,z5,x;",
-    );
-    assert_eq!(ids(&program), ["stationary-tool"]);
-    let program = path("MoveL p1,v5,z5,tools{i};\nMoveL p2,v5,z5,t\\WObj:=w{2};");
-    assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
-    assert_eq!(program.frames[1].name, "w{2}");
-}
-
-#[test]
 fn an_active_displacement_blocks_what_it_may_reach() {
     let program =
         path("MoveL p1,v5,z5,t;\nPDispSet d;\nMoveL p2,v5,z5,t;\nPDispOff;\nMoveL p3,v5,z5,t;");
@@ -728,91 +501,6 @@ fn local_data_hide_others_and_double_names_are_ambiguous() {
 }
 
 #[test]
-fn missing_semicolons_short_ifs_and_headers_do_not_hide_moves() {
-    let program = read(
-        "%%%\n VERSION:1\n LANGUAGE:ENGLISH\n%%%\n\nMODULE m(SYSMODULE, NOSTEPIN)\nPROC a()\n \
-         SetDO d, 1\n SetDO d, 0\n\
-         IF di1=1 MoveL [[1,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n TEST n\n CASE 1,2:\n\
-         MoveL [[4,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n DEFAULT:\n Stop;\n ENDTEST\n FOR i FROM 1 TO \
-             3 DO\n\
-         MoveL [[5,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n ENDFOR\nERROR\n RETRY;\nENDPROC\nENDMODULE",
-    );
-    assert_eq!((program.targets.len(), program.moves.len()), (3, 3));
-    assert_eq!(program.findings, []);
-}
-
-#[test]
-fn broken_text_is_an_error_with_its_place() {
-    for (text, place, word) in [
-        ("MODULE m\nPROC a()\nENDPROC\n", (1, 1), "module"),
-        ("MODULE m\nPROC a()\n", (2, 1), "routine"),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0];\nENDMODULE",
-            (2, 20),
-            "bracket",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,2,3,4],[1,0,0,0],CONF;\nENDMODULE",
-            (2, 27),
-            "]",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],CONF];\nENDMODULE",
-            (2, 75),
-            "semicolon",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1e400,2,3],[1,0,0,0],CONF;\nENDMODULE",
-            (2, 22),
-            "number",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[NaN,2,3],[1,0,0,0],CONF;\nENDMODULE",
-            (2, 22),
-            "number",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1.#QNAN,2,3],[1,0,0,0],CONF;\nENDMODULE",
-            (2, 22),
-            "number",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,9E9,3],[1,0,0,0],CONF;\nENDMODULE",
-            (2, 24),
-            "coordinate",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,2,3],[0,0,0,0],CONF;\nENDMODULE",
-            (2, 30),
-            "quaternion",
-        ),
-        (
-            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0.2,0,0],CONF;\nENDMODULE",
-            (2, 30),
-            "quaternion",
-        ),
-        (
-            "MODULE m\nPROC a()\nTPWrite \"open;\nENDPROC\nENDMODULE",
-            (3, 9),
-            "string",
-        ),
-    ] {
-        let error = read_files(&[text]).expect_err(text);
-        let (_, line, column) = error.place();
-        assert_eq!((line, column), place, "{error}");
-        assert!(error.to_string().contains(word), "{error}");
-    }
-    assert!(matches!(
-        read_files(&["hello resolved"]),
-        Err(ReadError::NotThisLanguage { .. })
-    ));
-    assert!(matches!(
-        read_files(&["MODULE\0"]),
-        Err(ReadError::Binary { .. })
-    ));
-}
-
-#[test]
 fn a_slightly_short_quaternion_is_made_a_unit_one() {
     let numbers = [1.0, 2.0, 3.0, 0.995, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let Value::Pose(pose) = Rapid.decode(POSE, &numbers, &Settings::default()).value else {
@@ -839,76 +527,6 @@ fn encoding_keeps_the_sign_of_the_quaternion() {
         &mut numbers,
     );
     assert!((numbers[3] + 0.6).abs() < 1e-12 && (numbers[4] - 0.8).abs() < 1e-12);
-}
-
-#[test]
-fn the_marker_stands_behind_the_module_line() {
-    let marker = Marker {
-        version: "1".into(),
-        profile_sha256: "a".into(),
-        source_sha256: "b".into(),
-        decided: Vec::new(),
-    };
-    for (text, before) in [
-        (
-            "%%%\r\n  VERSION:1\r\n%%%\r\nMODULE m(SYSMODULE) ! x\r\nENDMODULE\r\n",
-            "ENDMODULE",
-        ),
-        ("CONST robtarget p:=[[1,2,3],[1,0,0,0],CONF;\n", "CONST"),
-        ("MODULE m ENDMODULE", "MODULE"),
-    ] {
-        let source = Source::new("a", text.replace("CONF", CONF).into_bytes());
-        let (at, lines) = Rapid.mark(&source, &marker);
-        assert!(source.bytes[at..].starts_with(before.as_bytes()), "{text}");
-        assert!(lines.ends_with(source.line_end()) && lines.starts_with(b"  ! "));
-        let mut marked = source.bytes.clone();
-        marked.splice(at..at, lines);
-        let marked = [Source::new("a", marked)];
-        assert!(motion::read(&Rapid, &marked, &Settings::default()).is_ok());
-    }
-}
-
-#[test]
-fn rapid_is_distinguished_from_other_text() {
-    for text in [
-        "%%%\nVERSION:1\n%%%\nMODULE m\nENDMODULE",
-        "! c\nMODULE x(NOSTEPIN)\nEND",
-        "CONST robtarget p:=[[1",
-        "MoveL p10, v100, z10, tool0;",
-        "MoveJ [[1,2,3],[1,0,0,0]",
-    ] {
-        assert!(Rapid.recognises(&Source::new("a", text.into())), "{text}");
-    }
-    for text in [
-        "1 MOV P1\n2 MVS P2",
-        "PROCEDURE x\n SET TALK OFF\nRETURN",
-        "module foo\n implicit none\nend module",
-        "module foo(a, b);\n input a;\nendmodule",
-        "/PROG A\n/MN\n",
-        "DEF x()\nPTP HOME\nEND",
-        "",
-    ] {
-        assert!(!Rapid.recognises(&Source::new("a", text.into())), "{text}");
-    }
-}
-
-#[test]
-fn nothing_before_a_move_swallows_it() {
-    for before in [
-        "<SMT>",
-        "sub\n",
-        "Set do1\n",
-        "x:=y",
-        "x:=1\n",
-        "label:",
-        "<SMT>;",
-        "Stop",
-        "IF a=1",
-        "IF a THEN\n",
-    ] {
-        let program = path(&format!("{before} MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;"));
-        assert_eq!(to(&program), ["p1", "p2"], "{before}");
-    }
 }
 
 #[test]

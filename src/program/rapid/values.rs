@@ -1,24 +1,23 @@
 //! Names and expressions as values: targets, tools, work objects, and the variables that hold them.
 
 use super::builtins::Known;
+use super::elements::element_name;
 use super::records::{assigned, load_of, part_of};
 use super::resolved::Entity;
-use super::syntax::{
-    Amount, Base, Element, Expression, Index, Part, Step, Storage, Stored, Type, indices,
-};
+use super::syntax::{Amount, Base, Expression, Index, Part, Step, Storage, Stored, Type, indices};
 use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, Place, Remark, RemarkId, Table,
-    TableId, Variable, VariableId, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark,
+    RemarkId, Variable, VariableId, short,
 };
 use crate::program::{Displacement, Shift};
 
 /// Copies of copies of a target that are followed.
-const DEEPEST: u32 = 8;
+pub(super) const DEEPEST: u32 = 8;
 
 /// What is said of a position that the files do not tell.
 pub(super) const AT_RUN_TIME: &str = "write the position with numbers where it must be exact";
@@ -55,7 +54,7 @@ impl Translator<'_> {
         )
     }
 
-    fn computed_name(&mut self, name: Symbol) -> Expr {
+    pub(super) fn computed_name(&mut self, name: Symbol) -> Expr {
         Expr::Unknown(self.remark(name, |name| {
             Remark {
                 id: "computed-target",
@@ -70,7 +69,7 @@ impl Translator<'_> {
         }))
     }
 
-    fn not_in_files(&mut self, name: Symbol, wanted: Type) -> Expr {
+    pub(super) fn not_in_files(&mut self, name: Symbol, wanted: Type) -> Expr {
         let (id, severity) = match wanted {
             Type::Jointtarget => ("joint-target-not-in-files", Severity::Note),
             _ => ("target-not-in-files", Severity::Error),
@@ -107,7 +106,7 @@ impl Translator<'_> {
         self.position_in(name, index, wanted, self.context, 0)
     }
 
-    fn position_in(
+    pub(super) fn position_in(
         &mut self,
         name: Symbol,
         index: Index,
@@ -118,7 +117,7 @@ impl Translator<'_> {
         match self.resolved.meaning(name, context) {
             Meaning::Nothing if self.resolved.is_written(Entity::Undeclared(name)) => {
                 let declared = self.not_in_files(name, wanted);
-                Expr::Variable(self.variable(Entity::Undeclared(name), 0, declared))
+                self.without_value(Entity::Undeclared(name), index, declared)
             }
             Meaning::Nothing => self.not_in_files(name, wanted),
             Meaning::One(datum) => self.position_of(datum, index, wanted, depth),
@@ -139,44 +138,6 @@ impl Translator<'_> {
         }
     }
 
-    fn position_of(&mut self, datum: u32, index: Index, wanted: Type, depth: u32) -> Expr {
-        let declared = *self.resolved.datum(datum);
-        if !declared.kind.is_target() {
-            return self.not_in_files(declared.name, wanted);
-        }
-        let Stored::Elements { elements, sizes } = declared.value else {
-            let holds = self.computed_name(declared.name);
-            let parameter = matches!(declared.storage, Storage::Parameter { .. });
-            if parameter || self.resolved.is_written(Entity::Declared(datum)) {
-                return Expr::Variable(self.variable(Entity::Declared(datum), 0, holds));
-            }
-            return holds;
-        };
-        match index {
-            Index::At(place) => match element(place, sizes, elements) {
-                Some(one) => self.element(datum, one, depth),
-                None => self.computed_name(declared.name),
-            },
-            Index::Whole | Index::Variable if elements.1 - elements.0 == 1 => {
-                self.element(datum, elements.0, depth)
-            }
-            Index::Whole | Index::Variable => {
-                let known = self.lists.get(&datum).copied();
-                let (first, end) = known.unwrap_or_else(|| {
-                    let all: Vec<Expr> = (elements.0..elements.1)
-                        .map(|one| self.element(datum, one, depth))
-                        .collect();
-                    let Expr::Any { first, end } = self.builder.script.any(all) else {
-                        return (0, 0);
-                    };
-                    self.lists.insert(datum, (first, end));
-                    (first, end)
-                });
-                Expr::Any { first, end }
-            }
-        }
-    }
-
     /// The position that a declaration with an index means.
     pub(super) fn position_of_datum(&mut self, datum: u32, index: Index) -> Expr {
         let wanted = self.resolved.datum(datum).kind;
@@ -192,37 +153,8 @@ impl Translator<'_> {
         }
     }
 
-    /// An element of a declaration, by its index in the parsed.
-    fn element(&mut self, datum: u32, element: u32, depth: u32) -> Expr {
-        let declared = *self.resolved.datum(datum);
-        let entity = Entity::Declared(datum);
-        let is_written = self.resolved.is_written(entity);
-        let key = (entity, element);
-        if is_written && let Some(&known) = self.variables.get(&key) {
-            return Expr::Variable(known);
-        }
-        let holds = match self.resolved.parsed.elements[element as usize] {
-            Element::Target(target) if self.is_dead(target) => self.computed_name(declared.name),
-            Element::Target(target) => Expr::Target(target),
-            Element::Named(_) | Element::Composed(_) if depth > DEEPEST => self.computed(),
-            Element::Named(other) => self.position_in(
-                other,
-                Index::Whole,
-                declared.kind,
-                declared.context,
-                depth + 1,
-            ),
-            Element::Composed(names) => self.composed(names),
-            Element::Computed => self.computed_name(declared.name),
-        };
-        if is_written {
-            return Expr::Variable(self.variable(entity, element, holds));
-        }
-        holds
-    }
-
     /// A target some of whose parts are expressions with these names.
-    fn composed(&mut self, names: Part) -> Expr {
+    pub(super) fn composed(&mut self, names: Part) -> Expr {
         self.somewhere_near(names).unwrap_or_else(|| {
             self.builder.script.unknown(Remark {
                 id: "target-has-expressions",
@@ -349,7 +281,7 @@ impl Translator<'_> {
         match index {
             Index::Variable => return self.frame_chosen(),
             Index::At(_) if is_written => return self.frame_assigned(),
-            Index::At(place) => return self.frame_element(name, place),
+            Index::At(place) => return self.frame_element(entity, name, place),
             Index::Whole => {}
         }
         if let Entity::Declared(datum) = entity
@@ -369,19 +301,26 @@ impl Translator<'_> {
     }
 
     /// An element of an array of tools or work objects.
-    fn frame_element(&mut self, name: Symbol, place: [u32; 3]) -> Expr {
-        let name = self.resolved.spelling(name);
-        let name = match place {
-            [i, 0, _] => format!("{name}{{{i}}}"),
-            [i, j, 0] => format!("{name}{{{i},{j}}}"),
-            [i, j, k] => format!("{name}{{{i},{j},{k}}}"),
+    fn frame_element(&mut self, entity: Entity, name: Symbol, place: [u32; 3]) -> Expr {
+        if let Some(&known) = self.frame_elements.get(&(entity, place)) {
+            return Expr::Value(known);
+        }
+        let name = element_name(self.resolved.spelling(name), place);
+        let value = if let Entity::Declared(datum) = entity
+            && let datum = *self.resolved.datum(datum)
+            && let Some(leaves) = of_row(datum.value, place)
+        {
+            Held::Record {
+                name: name.into(),
+                parts: self.record_parts(leaves, datum.place),
+                on: Box::default(),
+            }
+        } else {
+            Held::Frame(NamedFrame::still(name, None))
         };
-        let known = self.named_elements.get(&name).copied();
-        Expr::Value(known.unwrap_or_else(|| {
-            let value = self.builder.script.frame(name.as_str(), None);
-            self.named_elements.insert(name, value);
-            value
-        }))
+        let value = self.builder.script.value(value);
+        self.frame_elements.insert((entity, place), value);
+        Expr::Value(value)
     }
 
     /// A tool or work object as it is declared.
@@ -398,7 +337,7 @@ impl Translator<'_> {
         };
         let parts = match leaves {
             Stored::Leaves(leaves) => self.record_parts(leaves, place),
-            Stored::Computed => {
+            Stored::Computed | Stored::Row { .. } => {
                 let computed = part_of(super::aggregate::Leaf::Computed, place);
                 self.add_parts(vec![computed; super::aggregate::MOST])
             }
@@ -460,7 +399,8 @@ impl Translator<'_> {
                     _ => None,
                 };
                 Variable {
-                    kept: datum.storage == Storage::Persistent,
+                    // VAR data of a module begin anew only where the program does
+                    kept: datum.context.routine.is_none(),
                     routine: datum.context.routine,
                     ..Variable::new(
                         name.unwrap_or_else(|| self.resolved.spelling(datum.name).into()),
@@ -476,30 +416,6 @@ impl Translator<'_> {
         };
         let made = script.variable(variable);
         self.variables.insert((entity, element), made);
-        made
-    }
-
-    /// The variables of all elements of an array.
-    pub(super) fn table(&mut self, datum: u32) -> TableId {
-        if let Some(&known) = self.tables.get(&datum) {
-            return known;
-        }
-        let declared = *self.resolved.datum(datum);
-        let mut table = Table {
-            name: self.resolved.spelling(declared.name).into(),
-            ..Table::default()
-        };
-        if let Stored::Elements { elements, .. } = declared.value {
-            for (number, element) in (1..).zip(indices(elements)) {
-                if let Expr::Variable(variable) = self.element(datum, short(element), 0) {
-                    table.entries.insert(number, variable);
-                }
-            }
-        }
-        let tables = &mut self.builder.script.tables;
-        tables.push(table);
-        let made = short(tables.len() - 1);
-        self.tables.insert(datum, made);
         made
     }
 
@@ -559,32 +475,15 @@ impl Translator<'_> {
     }
 }
 
-/// The element at a place of an array.
-fn element(place: [u32; 3], sizes: [u32; 3], elements: Part) -> Option<u32> {
-    let count: u64 = sizes.iter().map(|&s| u64::from(s.max(1))).product();
-    if count != u64::from(elements.1 - elements.0) {
+/// The leaves of a tool or frame in a row.
+fn of_row(value: Stored, place: [u32; 3]) -> Option<Part> {
+    let Stored::Row { leaves, count } = value else {
         return None;
-    }
-    let mut offset = 0;
-    for (&at, &size) in place.iter().zip(&sizes) {
-        if (at == 0) != (size == 0) || at > size {
-            return None;
-        }
-        offset = offset * size.max(1) + at.max(1) - 1;
-    }
-    Some(elements.0 + offset)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn elements_of_arrays_are_counted_by_rows() {
-        assert_eq!(element([2, 3, 0], [2, 4, 0], (10, 18)), Some(16));
-        assert_eq!(element([3, 0, 0], [3, 0, 0], (0, 3)), Some(2));
-        assert_eq!(element([4, 0, 0], [3, 0, 0], (0, 3)), None);
-        assert_eq!(element([1, 1, 0], [3, 0, 0], (0, 3)), None);
-        assert_eq!(element([1, 1, 0], [2, 2, 0], (0, 3)), None, "ragged");
-    }
+    };
+    let [at @ 1.., 0, 0] = place else {
+        return None;
+    };
+    let each = (leaves.1 - leaves.0) / count;
+    let first = leaves.0 + (at - 1) * each;
+    (at <= count).then_some((first, first + each))
 }

@@ -1,7 +1,7 @@
 //! What instructions do, by their names.
 
 use super::builtins::{self, Known};
-use super::syntax::{Mode, Path, Set, Verb};
+use super::syntax::{Mode, Path, Routine, Set, Verb};
 use crate::program::Source;
 use crate::program::names::Symbol;
 
@@ -34,6 +34,26 @@ impl Verbs {
     pub(super) fn function(&mut self, name: Symbol, spelling: &[u8]) -> Known {
         *slot(&mut self.functions, name)
             .get_or_insert_with(|| builtins::function(&Source::text(spelling).to_ascii_lowercase()))
+    }
+
+    /// Within its scope a routine hides the instruction or function of its name: calls of what
+    /// these routines hide mean something, too. Whether any was passed over.
+    pub(super) fn hide(&mut self, routines: &[Routine]) -> bool {
+        let mut hidden = false;
+        for routine in routines {
+            let at = routine.name.0 as usize;
+            if let Some(verb @ Some(Verb::Harmless)) = self.instructions.get_mut(at) {
+                *verb = Some(Verb::Other);
+                hidden = true;
+            }
+            if let Some(Some(known)) = self.functions.get_mut(at)
+                && *known != Known::Other
+            {
+                *known = Known::Other;
+                hidden = true;
+            }
+        }
+        hidden
     }
 
     /// What a function of this name does that was met before.

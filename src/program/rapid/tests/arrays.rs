@@ -1,0 +1,106 @@
+//! Elements of arrays: which are distinguished, and what is written into them.
+
+use super::*;
+
+/// Behind the statements of a routine: an array with values, and a routine that nothing calls.
+const ARRAY: &str = "ENDPROC\nPERS robtarget a{2}:=[[[11,0,0],[1,0,0,0],CONF,[[12,0,0],[1,0,0,0],\
+                     CONF];\nPROC last()";
+
+fn both(statements: &str) -> (Vec<String>, Vec<&'static str>) {
+    let program = path(statements);
+    let names = to(&program).into_iter().map(str::to_owned).collect();
+    (names, ids(&program))
+}
+
+#[test]
+fn elements_without_values_are_variables_each() {
+    for declaration in ["VAR robtarget q{2};\n", "VAR robtarget q{2}:=other;\n", ""] {
+        let (names, said) = both(&format!(
+            "{declaration}q{{1}}:=p1;\nq{{2}}:=p2;\nMoveL q{{1}},v5,z5,t;\nMoveL \
+             q{{2}},v5,z5,t;\nq{{1}}:=p3;\nMoveL q{{1}},v5,z5,t;"
+        ));
+        assert_eq!(names, ["p1", "p2", "p3"], "{declaration}");
+        assert_eq!(said, [""; 0], "{declaration}");
+    }
+    let (names, said) = both(
+        "VAR robtarget q{2,2};\nq{1,1}:=p1;\nq{2,1}:=p2;\nMoveL q{1,1},v5,z5,t;\nFOR i FROM 1 TO \
+         2 DO\nMoveL q{i,1},v5,z5,t;\nENDFOR",
+    );
+    assert_eq!((names, said), (strings(&["p1", "p1", "p2"]), vec![]));
+}
+
+fn strings(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
+}
+
+#[test]
+fn an_element_that_only_the_program_knows_may_be_any() {
+    let (names, said) =
+        both("VAR robtarget q{3};\nq{1}:=p1;\nq{k}:=p2;\nMoveL q{1},v5,z5,t;\nMoveL q{j},v5,z5,t;");
+    assert_eq!(
+        (names[..2].to_vec(), said),
+        (strings(&["p1", "p2"]), vec![])
+    );
+    assert!(names[2..].contains(&"p1".into()) && names[2..].contains(&"p2".into()));
+    let (names, said) = both("VAR robtarget q{3};\nq{k}:=p2;\nMoveL q{2},v5,z5,t;");
+    assert_eq!(
+        (names, said),
+        (strings(&["p2", "?"]), vec!["computed-target"]),
+        "nothing may have written it"
+    );
+    let (names, said) = both(
+        "VAR robtarget q{3};\nFOR i FROM 1 TO 3 DO\nq{i}:=p1;\nENDFOR\nq{k}:=p2;\nMoveL \
+         q{j},v5,z5,t;",
+    );
+    assert_eq!((names, said), (strings(&["p1", "p2"]), vec![]));
+    let (names, said) = both("VAR robtarget q{3};\nMoveL q{j},v5,z5,t;\nq{j}:=p1;");
+    assert_eq!(
+        (names, said),
+        (strings(&["?"]), vec!["computed-target"]),
+        "nothing has written it"
+    );
+}
+
+#[test]
+fn an_element_of_an_array_that_is_given_leaves_the_others() {
+    let (names, said) = both(
+        "CONST robtarget all{2}:=[p1,p3];\ngo all;\nENDPROC\nPROC go(robtarget \
+         a{*})\na{2}:=p2;\nMoveL a{1},v5,z5,t;",
+    );
+    assert_eq!((names, said), (strings(&["p1", "p2", "p3"]), vec![]));
+}
+
+#[test]
+fn what_a_routine_writes_into_an_element_by_reference_is_written() {
+    for call in ["set a{k};", "ok:=ask(a{k});"] {
+        let program = path(&format!(
+            "{call}\nMoveL a{{2}},v5,z5,t;\nENDPROC\nPROC set(INOUT robtarget r)\nr:=p1;\nENDPROC\n\
+             FUNC bool ask(INOUT robtarget r)\nr:=p1;\nRETURN TRUE;\nENDFUNC\nPROC more()\n{ARRAY}"
+        ));
+        assert_eq!(to(&program), ["p1", "a{2}", "?"], "{call}");
+        assert_eq!(ids(&program), ["target-assigned-at-run-time"], "{call}");
+        assert_eq!(blocked(&program), ["a{2}"], "{call}");
+    }
+    for call in ["set a{2};", "ok:=ask(a{2});", "ok:=ask(a{ 2 });"] {
+        let program = path(&format!(
+            "{call}\nMoveL a{{2}},v5,z5,t;\nMoveL a{{1}},v5,z5,t;\nENDPROC\nPROC set(INOUT \
+             robtarget r)\nr.trans.z:=5;\nENDPROC\nFUNC bool ask(INOUT robtarget \
+             r)\nr.trans.z:=5;\nRETURN TRUE;\nENDFUNC\nPROC more()\n{ARRAY}"
+        ));
+        assert_eq!(to(&program), ["?", "a{1}"], "{call}");
+        assert_eq!(ids(&program), ["target-assigned-at-run-time"], "{call}");
+    }
+}
+
+#[test]
+fn what_a_routine_writes_into_a_part_by_reference_is_written() {
+    let program =
+        path("lift p3.trans.z;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC lift(INOUT num x)\nx:=x+1;");
+    assert_eq!(to(&program), ["?"]);
+    assert_eq!(ids(&program), ["target-assigned-at-run-time"]);
+    let program = path(
+        "look p3.trans.z;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC look(INOUT num x)\nTPWrite \
+         \"x\"\\Num:=x;",
+    );
+    assert_eq!((to(&program), ids(&program)), (vec!["p3"], vec![]));
+}

@@ -1,0 +1,191 @@
+//! Routines: what they are given, give back and write, and when they run.
+
+use super::*;
+
+#[test]
+fn parameters_are_what_each_call_gives() {
+    let rm = "ENDPROC\nPROC rm(robtarget p\\switch fast|num slow\\robtarget via, PERS tooldata g)\n\
+              MoveL p,v5,z5,g;\nIF Present(via) MoveL via,v5,z5,g;";
+    let program = path(&format!(
+        "rm p1,t;\nrm Offs(p2,0,0,5),t\\via:=p3;\nrm \\fast,p1,t2;\n{rm}"
+    ));
+    assert_eq!(to(&program), ["p1", "p2", "p1", "?", "p3", "?"]);
+    assert_eq!(ids(&program), ["computed-target"], "the way without via");
+    let tools: Vec<_> = program
+        .moves
+        .iter()
+        .map(|m| program.tools[m.tool].name.as_str())
+        .collect();
+    assert_eq!(tools, ["t", "t", "t2", "t", "t", "t2"]);
+    let program = path("rm;\nENDPROC\nPROC rm(\\robtarget p)\nMoveL p,v5,z5,t;");
+    assert_eq!(ids(&program), ["computed-target"]);
+}
+
+#[test]
+fn parameters_by_reference_are_written_back() {
+    let program = path(
+        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(INOUT robtarget r)\nsub r;\nENDPROC\n\
+         PROC sub(INOUT robtarget s)\ns:=p1;",
+    );
+    assert_eq!((to(&program), ids(&program)), (vec!["p1"], vec![]));
+    let program = path(
+        "set p3;\nMoveL p3,v5,z5,t;\nENDPROC\nPROC set(robtarget r)\nr:=p1;\nMoveL r,v5,z5,t;",
+    );
+    assert_eq!(to(&program), ["p3", "p1"], "a copy");
+}
+
+#[test]
+fn functions_give_positions_and_move() {
+    let program = path(
+        "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC \
+         f(p1),f(p2),v5,z5,t;\nok:=g(1)+1;\n\
+         ENDPROC\nFUNC robtarget f(robtarget a)\nRETURN Offs(a,1,2,3);\nENDFUNC\n\
+         FUNC num g(num x)\nMoveL p3,v5,z5,t;\nRETURN 1;\nENDFUNC\nPROC last()",
+    );
+    assert_eq!(to(&program), ["p1", "p2", "p1", "p2", "p3"]);
+    assert_eq!(ids(&program), [""; 0]);
+    assert!(
+        program.moves[..4]
+            .iter()
+            .all(|m| m.displacement != Displacement::None)
+    );
+}
+
+#[test]
+fn routines_that_are_not_in_the_files_may_do_anything_with_targets() {
+    for call in [
+        "Pick p1;",
+        "b:=fPlace(p1);",
+        "IF fReady(1,p1) Stop;",
+        "%\"Pick\"% p1;",
+        "%name%p1;",
+    ] {
+        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
+        assert_eq!(ids(&program), ["target-passed-to-routine"], "{call}");
+        assert_eq!(blocked(&program), ["p1"], "{call}");
+    }
+    for call in [
+        "d:=Distance(p1.trans,p2.trans);",
+        "TPWrite \"x\"\\Pos:=p1.trans;",
+        "Pick 1;",
+    ] {
+        let program = path(&format!("{call}\nMoveL p1,v5,z5,t;"));
+        assert_eq!(ids(&program), [""; 0], "{call}");
+    }
+}
+
+#[test]
+fn late_bound_calls_find_their_routines() {
+    let rest = "ENDPROC\nPROC Pick1()\nMoveL p2,v5,z5,t;\nENDPROC\nPROC Pick2()\nMoveL p3,v5,z5,t;";
+    for call in ["%\"m:Pick1\"%;", "%\"pick1\"%;"] {
+        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
+        let configured: Vec<_> = program.moves.iter().map(|m| m.configured).collect();
+        assert_eq!(configured, [false, true], "{call}");
+    }
+    for call in [
+        "%\"Pick\"+ValToStr(i)%;",
+        "CallByVar \"Pick\",i;",
+        "%name%;",
+    ] {
+        let program = path(&format!("ConfL\\Off;\n{call}\n{rest}"));
+        assert!(program.moves.iter().all(|m| !m.configured), "{call}");
+    }
+}
+
+#[test]
+fn handlers_may_run_between_any_statements() {
+    let program = path(
+        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL \
+         p3,v5,z5,t;\nRETRY;\n\
+         ENDIF\nRAISE;",
+    );
+    let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
+    for name in ["p1", "p2", "p3"] {
+        let mut configured = all
+            .iter()
+            .filter(|(to, _)| *to == name)
+            .map(|(_, m)| m.configured);
+        assert!(configured.clone().any(|c| c) && configured.any(|c| !c));
+    }
+    assert!(
+        all.iter().all(|(_, m)| program.before(m).len() > 1),
+        "the handler goes on anywhere"
+    );
+    let program = path("MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;\nERROR\nWaitTime 1;\nRETRY;");
+    assert_eq!(
+        program.before(&program.moves[1]),
+        [crate::program::Before::One(0)]
+    );
+}
+
+#[test]
+fn traps_may_run_at_any_place() {
+    let program = path("MoveL p3,v5,z5,t;\nENDPROC\nTRAP tr\np3:=CRobT();\nENDTRAP\nPROC last()");
+    assert_eq!(
+        (to(&program), ids(&program)),
+        (vec!["p3", "?"], vec!["run-time-position"])
+    );
+}
+
+#[test]
+fn a_routine_hides_the_instruction_or_function_of_its_name() {
+    for name in ["Load", "Open", "Stop", "Reset", "Clear", "PDispOff", "sub"] {
+        let program = path(&format!(
+            "{name} p1,t2;\nENDPROC\nLOCAL PROC {name}(robtarget p,PERS tooldata g)\nMoveL \
+             p,v5,z5,g;"
+        ));
+        assert_eq!(to(&program), ["p1"], "{name}");
+        assert_eq!(program.tools[program.moves[0].tool].name, "t2", "{name}");
+        assert_eq!(ids(&program), [""; 0], "{name}");
+    }
+    for name in ["Load", "Add"] {
+        let program = path(&format!(
+            "{name};\nMoveL p3,v5,z5,t;\nENDPROC\nPROC {name}()\np3:=p1;"
+        ));
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["p1"], vec![]),
+            "{name}"
+        );
+    }
+    for name in ["Distance", "CRobT", "f"] {
+        let program = path(&format!(
+            "MoveL {name}(p1),v5,z5,t;\nENDPROC\nFUNC robtarget {name}(robtarget a)\nRETURN \
+             a;\nENDFUNC\nPROC last()"
+        ));
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["p1"], vec![]),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_local_routine_hides_an_instruction_in_its_own_module_only() {
+    let program = read_files(&[
+        "MODULE a\nPROC main()\nPDispOn p,tool0;\nMoveL [[1,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n\
+         ENDPROC\nENDMODULE",
+        "MODULE b\nLOCAL PROC PDispOn(robtarget p,PERS tooldata g)\nENDPROC\nENDMODULE",
+    ])
+    .expect("two modules");
+    assert_eq!(ids(&program), ["displacement-active"]);
+}
+
+#[test]
+fn options_that_are_handed_on_are_left_out_where_nothing_is_given() {
+    let program = path(
+        "go p1,t;\ngo p2,t\\w2:=w;\nENDPROC\nPROC go(robtarget p,PERS tooldata g\\PERS wobjdata \
+         w2)\nMoveL p,v5\\V?speed,z5,g\\WObj?w2;",
+    );
+    let all = program.moves.iter();
+    let with: Vec<_> = all
+        .map(|m| {
+            let (tool, frame) = (&program.tools[m.tool], &program.frames[m.frame]);
+            (tool.name.as_str(), frame.name.as_str())
+        })
+        .collect();
+    assert_eq!(to(&program), ["p1", "p2"]);
+    assert_eq!(with, [("t", "wobj0"), ("t", "w")]);
+    assert_eq!(ids(&program), [""; 0]);
+}

@@ -1,0 +1,158 @@
+//! Text: what is recognised, what is broken, where the marker stands.
+
+use super::*;
+
+#[test]
+fn missing_semicolons_short_ifs_and_headers_do_not_hide_moves() {
+    let program = read(
+        "%%%\n VERSION:1\n LANGUAGE:ENGLISH\n%%%\n\nMODULE m(SYSMODULE, NOSTEPIN)\nPROC a()\n \
+         SetDO d, 1\n SetDO d, 0\n\
+         IF di1=1 MoveL [[1,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n TEST n\n CASE 1,2:\n\
+         MoveL [[4,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n DEFAULT:\n Stop;\n ENDTEST\n FOR i FROM 1 TO \
+             3 DO\n\
+         MoveL [[5,2,3],[1,0,0,0],CONF,v5,z5,tool0;\n ENDFOR\nERROR\n RETRY;\nENDPROC\nENDMODULE",
+    );
+    assert_eq!((program.targets.len(), program.moves.len()), (3, 3));
+    assert_eq!(program.findings, []);
+}
+
+#[test]
+fn broken_text_is_an_error_with_its_place() {
+    for (text, place, word) in [
+        ("MODULE m\nPROC a()\nENDPROC\n", (1, 1), "module"),
+        ("MODULE m\nPROC a()\n", (2, 1), "routine"),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0];\nENDMODULE",
+            (2, 20),
+            "bracket",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,2,3,4],[1,0,0,0],CONF;\nENDMODULE",
+            (2, 27),
+            "]",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0,0,0],CONF];\nENDMODULE",
+            (2, 75),
+            "semicolon",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1e400,2,3],[1,0,0,0],CONF;\nENDMODULE",
+            (2, 22),
+            "number",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[NaN,2,3],[1,0,0,0],CONF;\nENDMODULE",
+            (2, 22),
+            "number",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1.#QNAN,2,3],[1,0,0,0],CONF;\nENDMODULE",
+            (2, 22),
+            "number",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,9E9,3],[1,0,0,0],CONF;\nENDMODULE",
+            (2, 24),
+            "coordinate",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,2,3],[0,0,0,0],CONF;\nENDMODULE",
+            (2, 30),
+            "quaternion",
+        ),
+        (
+            "MODULE m\nCONST robtarget p:=[[1,2,3],[1,0.2,0,0],CONF;\nENDMODULE",
+            (2, 30),
+            "quaternion",
+        ),
+        (
+            "MODULE m\nPROC a()\nTPWrite \"open;\nENDPROC\nENDMODULE",
+            (3, 9),
+            "string",
+        ),
+    ] {
+        let error = read_files(&[text]).expect_err(text);
+        let (_, line, column) = error.place();
+        assert_eq!((line, column), place, "{error}");
+        assert!(error.to_string().contains(word), "{error}");
+    }
+    assert!(matches!(
+        read_files(&["hello resolved"]),
+        Err(ReadError::NotThisLanguage { .. })
+    ));
+    assert!(matches!(
+        read_files(&["MODULE\0"]),
+        Err(ReadError::Binary { .. })
+    ));
+}
+
+#[test]
+fn the_marker_stands_behind_the_module_line() {
+    let marker = Marker {
+        version: "1".into(),
+        profile_sha256: "a".into(),
+        source_sha256: "b".into(),
+        decided: Vec::new(),
+    };
+    for (text, before) in [
+        (
+            "%%%\r\n  VERSION:1\r\n%%%\r\nMODULE m(SYSMODULE) ! x\r\nENDMODULE\r\n",
+            "ENDMODULE",
+        ),
+        ("CONST robtarget p:=[[1,2,3],[1,0,0,0],CONF;\n", "CONST"),
+        ("MODULE m ENDMODULE", "MODULE"),
+    ] {
+        let source = Source::new("a", text.replace("CONF", CONF).into_bytes());
+        let (at, lines) = Rapid.mark(&source, &marker);
+        assert!(source.bytes[at..].starts_with(before.as_bytes()), "{text}");
+        assert!(lines.ends_with(source.line_end()) && lines.starts_with(b"  ! "));
+        let mut marked = source.bytes.clone();
+        marked.splice(at..at, lines);
+        let marked = [Source::new("a", marked)];
+        assert!(motion::read(&Rapid, &marked, &Settings::default()).is_ok());
+    }
+}
+
+#[test]
+fn rapid_is_distinguished_from_other_text() {
+    for text in [
+        "%%%\nVERSION:1\n%%%\nMODULE m\nENDMODULE",
+        "! c\nMODULE x(NOSTEPIN)\nEND",
+        "CONST robtarget p:=[[1",
+        "MoveL p10, v100, z10, tool0;",
+        "MoveJ [[1,2,3],[1,0,0,0]",
+    ] {
+        assert!(Rapid.recognises(&Source::new("a", text.into())), "{text}");
+    }
+    for text in [
+        "1 MOV P1\n2 MVS P2",
+        "PROCEDURE x\n SET TALK OFF\nRETURN",
+        "module foo\n implicit none\nend module",
+        "module foo(a, b);\n input a;\nendmodule",
+        "/PROG A\n/MN\n",
+        "DEF x()\nPTP HOME\nEND",
+        "",
+    ] {
+        assert!(!Rapid.recognises(&Source::new("a", text.into())), "{text}");
+    }
+}
+
+#[test]
+fn nothing_before_a_move_swallows_it() {
+    for before in [
+        "<SMT>",
+        "sub\n",
+        "Set do1\n",
+        "x:=y",
+        "x:=1\n",
+        "label:",
+        "<SMT>;",
+        "Stop",
+        "IF a=1",
+        "IF a THEN\n",
+    ] {
+        let program = path(&format!("{before} MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;"));
+        assert_eq!(to(&program), ["p1", "p2"], "{before}");
+    }
+}
