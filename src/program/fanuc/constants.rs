@@ -41,6 +41,11 @@ impl Constants {
         Some(pose_of_angles(values))
     }
 
+    /// Nothing is known any more.
+    pub(super) fn clear(&mut self) {
+        self.written.clear();
+    }
+
     /// What is known behind an instruction that is no move.
     pub(super) fn follow(&mut self, text: &[u8]) {
         let (name, rest) = text.split_at(word_length(text));
@@ -51,14 +56,14 @@ impl Constants {
             (b"PR", Some((index, _))) if !concerns_group_1(index) => {}
             (b"PR", Some((index, value))) => self.write(index, value),
             _ if PLAIN.contains(&name) => {}
-            _ => self.written.clear(),
+            _ => self.clear(),
         }
     }
 
     fn write(&mut self, index: &[u8], value: &[u8]) {
         let of = register(index);
         let Some(number) = of.number else {
-            return self.written.clear();
+            return self.clear();
         };
         if !of.is_element {
             self.written.remove(&number);

@@ -61,10 +61,23 @@ fn declared(bytes: &[u8], target: &Target) -> Option<(Range<usize>, Range<usize>
     (bytes.get(close) == Some(&b';')).then_some((start..close + 1, name))
 }
 
-/// Whether a target has other axes than the six of the arm.
+/// Whether a target, its name aside, has other axes than the six of the arm.
 fn has_more_axes(text: &[u8]) -> bool {
     let finds = |needle: &[u8]| memchr::memmem::find(text, needle).is_some();
     finds(b"GP2") || (1..=9).any(|axis| finds(format!("E{axis}").as_bytes()))
+}
+
+/// A number in the field of another: where blanks stand in front of that, its last column is that
+/// of the field.
+fn in_field(old: &[u8], new: &[u8]) -> Vec<u8> {
+    let digits = new.trim_ascii_start();
+    let blanks = match old.first() {
+        Some(b' ') => old.len().saturating_sub(digits.len()).max(1),
+        _ => 0,
+    };
+    let mut text = vec![b' '; blanks];
+    text.extend_from_slice(digits);
+    text
 }
 
 impl Copied {
@@ -86,7 +99,7 @@ impl Copied {
             return None;
         }
         let (held, name) = declared(bytes, target)?;
-        if has_more_axes(&bytes[held.clone()]) {
+        if has_more_axes(&bytes[name.end..held.end]) {
             return None;
         }
         // the column of the instruction stays
@@ -125,7 +138,11 @@ impl NewPoints<'_> {
         numbers: &[Vec<u8>],
     ) -> Option<Vec<u8>> {
         let body = copied.name.end..copied.target.end;
-        let body = with_numbers(self.bytes, &body, program.numbers_of(target), numbers)?;
+        let own = program.numbers_of(target);
+        let fields = own.iter().zip(numbers);
+        let fields = fields.map(|(old, new)| in_field(old.text(self.bytes), new));
+        let fields: Vec<Vec<u8>> = fields.collect();
+        let body = with_numbers(self.bytes, &body, own, &fields)?;
         if self.next > MOST_POINTS {
             return None;
         }
@@ -226,4 +243,37 @@ fn repeat(
         changes.push((at..at, text));
     }
     Some(changes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Fanuc;
+    use super::*;
+    use crate::program::Settings;
+
+    #[test]
+    fn new_points_have_the_fields_of_the_old_one_whatever_its_name() {
+        let text = "/PROG  T\n/MN\n1:L P[3] 9mm/sec FINE ;\n/POS\nP[3:\"TABLE1\"]{\n   GP1:\n\tUF \
+            : 0, UT : 1,\n\tX =  1922.978  mm,\tY =  -163.122  mm,\tZ =   -54.328  mm,\n\tW =  \
+            -179.532 deg,\tP =      .193 deg,\tR =     -.287 deg\n};\n/END\n";
+        let source = Source::new("t.ls", text.as_bytes().to_vec());
+        let sources = std::slice::from_ref(&source);
+        let program = crate::motion::read(&Fanuc, sources, &Settings::default()).expect("read");
+        let numbers = ["1600.161", "-99.500", "400.000", "180.000", ".250", "0.000"];
+        let insertion = Insertion {
+            motion: 0,
+            between: vec![Between {
+                via: None,
+                end: numbers.map(|number| number.as_bytes().to_vec()).to_vec(),
+            }],
+            own: None,
+        };
+        let inserted = insert(&source, &program, 0, &[insertion]);
+        assert!(inserted.moves[0].is_some());
+        assert_eq!(
+            Source::text(&inserted.rest[0].1),
+            "P[4]{\n   GP1:\n\tUF : 0, UT : 1,\n\tX =  1600.161  mm,\tY =   -99.500  mm,\tZ =   \
+             400.000  mm,\n\tW =   180.000 deg,\tP =      .250 deg,\tR =     0.000 deg\n};\n"
+        );
+    }
 }

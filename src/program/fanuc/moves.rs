@@ -122,6 +122,10 @@ impl Reader<'_> {
             );
         }
         self.row(is_row, listed);
+        // what else it does may write registers
+        if !words.is_plain {
+            self.state.constants.clear();
+        }
         for part in words.then {
             self.then(&text[part]);
         }

@@ -32,7 +32,7 @@ pub(super) struct State {
     labels: BTreeSet<u64>,
     /// A register says which label the program goes to.
     goes_anywhere: bool,
-    constants: Constants,
+    pub constants: Constants,
 }
 
 impl Reader<'_> {
@@ -51,6 +51,8 @@ impl Reader<'_> {
             self.builder.end_choice();
         }
         if is_case || is_else {
+            // what the branch before wrote is not there in this one
+            self.state.constants.clear();
             self.builder.next_branch(is_else);
             self.behind_comma(text, 0);
         } else if let Some((letter, at)) = motion(text) {

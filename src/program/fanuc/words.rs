@@ -142,16 +142,36 @@ pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|&b| !is_word(b)).filter(|word| !word.is_empty())
 }
 
+/// Where a text stands that is read byte by byte.
+#[derive(Default)]
+struct Inside {
+    /// Indices that are open.
+    indices: u32,
+    /// A string is open.
+    string: bool,
+}
+
+impl Inside {
+    /// The next byte. In an index an apostrophe is a letter of a name: `DI[1:FIN D'USINAGE]`.
+    fn follow(&mut self, byte: u8) {
+        match byte {
+            b'[' if !self.string => self.indices += 1,
+            b']' if !self.string => self.indices = self.indices.saturating_sub(1),
+            b'\'' if self.indices == 0 => self.string = !self.string,
+            _ => {}
+        }
+    }
+}
+
 /// Hands over the positions of a text that stand outside strings.
 pub(super) fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
-    let (mut counted, mut quotes) = (0, 0_usize);
-    for open in memchr::memchr2_iter(b'P', b'p', text) {
-        quotes += memchr::memchr_iter(b'\'', &text[counted..open]).count();
-        counted = open;
-        let alone = open == 0 || !is_word(text[open - 1]);
+    let mut inside = Inside::default();
+    for (at, &byte) in text.iter().enumerate() {
+        inside.follow(byte);
+        let alone = at == 0 || !is_word(text[at - 1]);
         if alone
-            && quotes.is_multiple_of(2)
-            && let Some((named, _)) = position(&text[open..])
+            && !inside.string
+            && let Some((named, _)) = position(&text[at..])
         {
             take(named);
         }
@@ -160,14 +180,14 @@ pub(super) fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
 
 /// The first comma that stands outside brackets and strings.
 pub(super) fn comma(text: &[u8]) -> Option<usize> {
-    let (mut depth, mut quoted) = (0_i32, false);
+    let (mut inside, mut open) = (Inside::default(), 0_u32);
     text.iter().position(|&b| {
+        inside.follow(b);
         match b {
-            b'\'' => quoted = !quoted,
-            _ if quoted => {}
-            b'[' | b'(' => depth += 1,
-            b']' | b')' => depth -= 1,
-            _ => return depth <= 0 && b == b',',
+            _ if inside.string || inside.indices > 0 => {}
+            b'(' => open += 1,
+            b')' => open = open.saturating_sub(1),
+            _ => return open == 0 && b == b',',
         }
         false
     })
@@ -230,5 +250,24 @@ mod tests {
     fn parts_stand_outside_brackets_and_strings() {
         let all: Vec<_> = parts(b"1, R[2,3] ,'a,b',(4,5)").collect();
         assert_eq!(all, [&b"1"[..], b"R[2,3]", b"'a,b'", b"(4,5)"]);
+        let all: Vec<_> = parts(b"DI[1:l'a (b,c]=ON,JMP LBL[2:d']").collect();
+        assert_eq!(all, [&b"DI[1:l'a (b,c]=ON"[..], b"JMP LBL[2:d']"]);
+    }
+
+    #[test]
+    fn positions_stand_outside_strings_and_behind_names_with_apostrophes() {
+        let of = |text: &[u8]| {
+            let mut all = Vec::new();
+            each_position(text, |named| all.push(named));
+            all
+        };
+        let register = |number| {
+            Named::Register(Register {
+                number: Some(number),
+                is_element: false,
+            })
+        };
+        assert_eq!(of(b"PR[1:l'axe]+PR[2]"), [register(1), register(2)]);
+        assert_eq!(of(b"LOG('P[1]',P[2])"), [Named::Point(2)]);
     }
 }

@@ -114,10 +114,7 @@ pub(super) struct Reader<'a> {
 /// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with
 /// a group `ST1`.
 fn is_relative(job: &[u8]) -> bool {
-    let head = || {
-        job.split(|b| *b == b'\n')
-            .filter_map(|line| line.strip_prefix(b"///"))
-    };
+    let head = || Lines::from(job, 0).filter_map(|line| line.text.strip_prefix(b"///"));
     let has = |line: &[u8], is: &dyn Fn(&[u8]) -> bool| {
         let mut words = line.split(|b| b.is_ascii_whitespace() || *b == b',');
         words.any(is)

@@ -78,6 +78,11 @@ fn the_active_tool_is_the_one_that_the_program_selects() {
             "UTOOL_NUM=4 ;\nFOR R[1]=1 TO 3 ;\nJ P[1] 100% FINE ;\nUTOOL_NUM=5 ;\nENDFOR ;",
             vec!["4", "5"],
         ),
+        (
+            "UTOOL_NUM=4 ;\nIF DI[1:FIN D'USINAGE]=ON,JMP LBL[2] ;\nUTOOL_NUM=5 ;\nLBL[2] ;\nJ \
+             P[1] 100% FINE ;",
+            vec!["4", "5"],
+        ),
         // the controller keeps the number
         ("J P[1] 100% FINE ;\nUTOOL_NUM=4 ;", vec!["4", "F"]),
         ("UTOOL_NUM=4 ;\nEND ;\nJ P[1] 1% FINE ;", vec!["F"]),

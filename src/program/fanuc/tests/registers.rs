@@ -183,12 +183,15 @@ fn a_frame_is_what_the_program_has_just_written() {
     let pose = known.expect("the tool");
     assert!((pose.translation[0] + 0.03).abs() < 1e-12 && found.is_empty());
     assert!((pose.rotation.angle() - 60_f64.to_radians()).abs() < 1e-12);
-    // behind a label, a call, a condition; another register, one from elsewhere, one that is not
-    // whole
+    // behind a label, a call, a condition, a move that does more; another register, one from
+    // elsewhere, one that is not whole
     for line in [
         "LBL[1] ;",
         "CALL OTHER ;",
         "IF R[1]=1,PR[3,1]=R[5] ;",
+        "L P[1] 9mm/sec CNT50 TB .10sec,CALL OTHER ;",
+        "L P[1] 9mm/sec FINE Skip,LBL[1],PR[3]=LPOS ;",
+        "ELSE ;\nPR[3,1]=5 ;",
         "PR[R[1]]=PR[4] ;",
         "PR[3,1]=R[5] ;",
         "PR[3,1]=PR[3,1]+1 ;",

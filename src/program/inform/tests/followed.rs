@@ -260,6 +260,19 @@ fn jobs_begin_where_their_callers_stand() {
 }
 
 #[test]
+fn jobs_relative_to_a_station_are_recognised_in_every_line_end() {
+    let text = job(&format!("{USER}{}", points(1)), "MOVL C00000");
+    let relative = text
+        .replace("SC,RW\n", "SC,RW,RJ\n")
+        .replace("RB1\n", "RB1\n///GROUP2 ST1\n");
+    for end in ["\n", "\r\n", "\r"] {
+        let program = read(&relative.replace('\n', end));
+        assert_eq!(errors(&program), ["moving-frame"], "{end:?}");
+        assert_eq!(errors(&read(&text.replace('\n', end))), [""; 0], "{end:?}");
+    }
+}
+
+#[test]
 fn rconf_tells_the_wrist_where_a_job_begins_with_a_pose() {
     let begins = |fields: usize| {
         let rconf = format!("///RCONF 1{}\n", ",0".repeat(fields - 1));
