@@ -143,7 +143,7 @@ pub const TABLE: &[Kind] = &[
     row("library-at-run-time", Warning, "a library is loaded while the program runs: its data are taken to be those of the files", "give the project that is loaded too, or keep its points out of the path", &["compensate", "check"], &["val3"]),
     row("little-variety", Warning, "the rows are of too few configurations to fit base and tool", "validate on more configurations", &["validate"], &[]),
     row("load-beyond-payload", Error, "the load of a tool is more than robot.payload_kg of the profile; a warning of `check`", "masses are in kg; correct the load, or robot.payload_kg", &["compensate", "check"], &[]),
-    row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers, or choose an entry of LOAD_DATA", &["compensate", "check"], &["krl"]),
+    row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers; in KRL choose an entry of LOAD_DATA", &["compensate", "check"], &["krl", "urscript"]),
     row("long-line", Warning, "new numbers may make the line longer than the controller takes", "break the line before compensating, or use fewer decimals", &["compensate", "check"], &["krl"]),
     row("mesh-unit", Error, "a mesh in a format without units is a hundred times smaller than another body or the arm, if its unit is a millimetre", "write `scale: 1000` next to `mesh` if the file is in metres, `scale: 1` if it is in millimetres", &["check"], &[]),
     row("motion-without-target", Note, "moves by speed or force: they have no target", "they stay as they are", &["compensate", "check"], &["urscript"]),

@@ -85,12 +85,12 @@ pub(super) fn choose(
         .iter()
         .filter_map(|&branch| on_branch(arm, wanted, branch, &near, configuration))
         .collect();
+    let distance = |posture: &Posture| {
+        (0..6)
+            .map(|i| (posture.q[i] - near[i]).abs())
+            .fold(0.0, f64::max)
+    };
     let nearest = |accept: &dyn Fn(&Posture) -> bool| {
-        let distance = |posture: &Posture| {
-            (0..6)
-                .map(|i| (posture.q[i] - near[i]).abs())
-                .fold(0.0, f64::max)
-        };
         let accepted = postures.iter().filter(|posture| accept(posture)).copied();
         accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
@@ -100,24 +100,32 @@ pub(super) fn choose(
     if !honoured && start.is_some() {
         return nearest(&|_| true);
     }
-    if let Some(posture) =
-        nearest(&|posture| posture.configured).or_else(|| nearest(&|posture| posture.in_ranges))
-    {
+    let by_ranges = || {
+        let suffice = configuration.ranges_suffice || !honoured;
+        nearest(&|posture| posture.in_ranges && suffice)
+    };
+    if let Some(posture) = nearest(&|posture| posture.configured).or_else(by_ranges) {
         let is_other = |other: &Posture| other.configured && other.branch != posture.branch;
         if start.is_none() && postures.iter().any(is_other) {
             findings.push(assumed(ground, *target, &posture));
         }
         return Some(posture);
     }
+    let in_ranges = postures.iter().filter(|posture| posture.in_ranges).copied();
+    let agreeing = in_ranges.min_by(|a, b| {
+        let [off_a, off_b] = [a, b].map(|posture| sides_off(configuration, posture.branch));
+        let farther = || distance(a).total_cmp(&distance(b));
+        off_a.cmp(&off_b).then_with(farther)
+    });
+    let (taken, which) = match agreeing {
+        Some(agreeing) => (agreeing, "the one that agrees with it most"),
+        None => (nearest(&|_| true)?, "the one nearest to the target before"),
+    };
     let name = ground.name_of(*target);
-    let shown = nearest(&|_| true)?
-        .q
-        .map(|q| format!("{:.1}", q / DEG))
-        .join(", ");
+    let shown = taken.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
     if start.is_some() {
         let message = format!(
-            "no solution at {name} has the configuration that the file gives; the one nearest to \
-             the target before is taken \
+            "no solution at {name} has the configuration that the file gives; {which} is taken \
              (joints {shown} deg)"
         );
         let hint =
@@ -129,7 +137,7 @@ pub(super) fn choose(
             message,
             hint,
         ));
-        return nearest(&|_| true);
+        return Some(taken);
     }
     let message = format!(
         "no solution at {name} has the configuration that the file gives, and no target before \
@@ -254,6 +262,19 @@ pub(super) fn holds(configuration: &Configuration, branch: Branch, q: &[f64; 6])
         && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
         && agrees(configuration.joint_5_negative, branch.joint_5_negative)
         && (0..6).all(inside)
+}
+
+/// On how many sides a branch is not where configuration data ask for; and whether joint 5 is one
+/// of them.
+fn sides_off(configuration: &Configuration, branch: Branch) -> (usize, bool) {
+    let is_off = |flag: Option<bool>, is: bool| flag.is_some_and(|flag| flag != is);
+    let joint_5 = is_off(configuration.joint_5_negative, branch.joint_5_negative);
+    let all = [
+        is_off(configuration.behind_axis_1, branch.behind_axis_1),
+        is_off(configuration.behind_lower_arm, branch.behind_lower_arm),
+        joint_5,
+    ];
+    (all.into_iter().filter(|off| *off).count(), joint_5)
 }
 
 /// The solution on one branch with the turns that the configuration data and the limits ask for;

@@ -177,6 +177,8 @@ pub struct Configuration {
     /// Which of the three sides above, in their order, are those of the posture before where they
     /// are not stated.
     pub kept: [bool; 3],
+    /// Many files leave the sides at zero: where no solution has them, the ranges count alone.
+    pub ranges_suffice: bool,
 }
 
 /// What configuration data are computed from.

@@ -44,6 +44,7 @@ pub(super) fn configuration([cf1, cf4, cf6, cfx]: [f64; 4]) -> Configuration {
         behind_lower_arm: bit(1),
         behind_axis_1: bit(2),
         joints,
+        ranges_suffice: true,
         ..Configuration::default()
     }
 }

@@ -2,11 +2,11 @@
 
 use super::expressions::MOST_LOOKED_INTO;
 use super::reader::{Read, Reader};
-use super::syntax::{Called, Event, Expr, ExprId, OTHER, Step, Symbol};
+use super::syntax::{Called, Cog, Event, Expr, ExprId, OTHER, Payload, Step, Symbol};
 use super::tokens::{Kind, Token};
-use super::verbs::{self, Verb};
+use super::verbs::{self, LoadParts, Verb};
 use crate::program::script::short;
-use crate::program::{Load, Motion, SpeedZone, number};
+use crate::program::{Motion, SpeedZone, number};
 
 /// Calls of moves and poses inside each other that a program may have.
 const MOST_CALLS: u32 = 16;
@@ -159,10 +159,10 @@ impl<'a> Reader<'a> {
                 let pose = argument(&arguments, 0, &[b"pose"]);
                 self.event(Event::Tool(pose.unwrap_or(OTHER), offset));
             }
-            Verb::Load => {
+            Verb::Load(parts) => {
                 let arguments = self.arguments()?;
-                let load = self.load(&arguments);
-                self.event(Event::Load(load, offset));
+                let payload = self.payload(&arguments, parts);
+                self.event(Event::Load(payload, offset));
             }
             Verb::Move(motion, places) => {
                 let arguments = self.arguments()?;
@@ -274,33 +274,56 @@ impl<'a> Reader<'a> {
         self.event(Event::Step(step));
     }
 
-    /// `set_payload(mass, [x, y, z])` with numbers.
-    fn load(&self, arguments: &[Argument]) -> Option<Load> {
-        let (mass, cog) = (arguments.first()?, arguments.get(1)?);
-        let mass_kg = mass.number().filter(|mass| *mass > 0.0)?;
-        let Expr::Literal(id) = self.parsed.expression(cog.value) else {
-            return None;
+    /// What a call says of the load; what the robot reports of it stays as it is. Without a centre
+    /// of gravity the tool's origin is it.
+    ///
+    /// # Source
+    /// Universal Robots, "The `URScript` Programming Language", `set_payload`, `set_payload_mass`,
+    /// `set_payload_cog`, `set_target_payload`.
+    fn payload(&mut self, arguments: &[Argument], parts: LoadParts) -> Payload {
+        let mass = match given(arguments, 0, &[b"m", b"mass"]) {
+            _ if parts == LoadParts::Cog => None,
+            None => Some(OTHER),
+            Some(mass) if self.is_call_of(b"get_target_payload", mass.value) => None,
+            Some(mass) => Some(match mass.number() {
+                Some(number) => self.parsed.add(Expr::Number(number)),
+                None => mass.value,
+            }),
         };
-        let literal = self.parsed.literal(id);
-        let start = literal.offset as usize + 1;
-        let rest = &self.scanner.bytes[start..];
-        let inside = &rest[..memchr::memchr(b']', &rest[..rest.len().min(400)])?];
-        let mut values = inside
-            .split(|b| *b == b',')
-            .map(<[u8]>::trim_ascii)
-            .map(number::parse);
-        let cog_m = [values.next()??, values.next()??, values.next()??];
-        (literal.elements == 3 && !literal.pose).then_some(Load { mass_kg, cog_m })
+        let position = usize::from(parts == LoadParts::Both);
+        let cog = match argument(arguments, position, &[b"cog", b"CoG"]) {
+            _ if parts == LoadParts::Mass => Cog::Stays,
+            None if parts == LoadParts::Both => Cog::Tool,
+            Some(cog) if self.is_call_of(b"get_target_payload_cog", cog) => Cog::Stays,
+            cog => Cog::At(cog.unwrap_or(OTHER)),
+        };
+        Payload { mass, cog }
+    }
+
+    fn is_call_of(&self, name: &[u8], value: ExprId) -> bool {
+        let Expr::Call(call) = self.parsed.expression(value) else {
+            return false;
+        };
+        self.parsed.bytes(self.parsed.calls[call as usize].name) == name
     }
 }
 
 /// The argument at a position, or by one of its names.
-fn argument(arguments: &[Argument], position: usize, names: &[&[u8]]) -> Option<ExprId> {
+fn given<'g, 'a>(
+    arguments: &'g [Argument<'a>],
+    position: usize,
+    names: &[&[u8]],
+) -> Option<&'g Argument<'a>> {
     let named = arguments
         .iter()
         .find(|argument| argument.name.is_some_and(|name| names.contains(&name)));
     let placed = arguments
         .get(position)
         .filter(|argument| argument.name.is_none());
-    named.or(placed).map(|argument| argument.value)
+    named.or(placed)
+}
+
+/// Its value.
+fn argument(arguments: &[Argument], position: usize, names: &[&[u8]]) -> Option<ExprId> {
+    given(arguments, position, names).map(|argument| argument.value)
 }

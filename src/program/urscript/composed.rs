@@ -1,18 +1,20 @@
 //! Poses with expressions in them: `p[x, y, z + 0.1, 0, 0, 0]`, `p[a[0], a[1], a[2] + 0.1, a[3],
 //! a[4], a[5]]`.
 //!
-//! Their moves stay as they are. Where numbers of a rewritten target flow into one, it takes the
-//! correction along: it is that target, displaced by what the text tells or by something.
+//! Their moves stay as they are, and so do those to what functions of the language make of poses:
+//! `pose_sub(a, b)`, `interpolate_pose(a, b, 0.5)`. Where numbers of a rewritten target flow into
+//! one, it takes the correction along: it is that target, displaced by what the text tells or by
+//! something.
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted, Symbol};
+use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted};
 use super::tokens::{Kind, Scanner, Token};
 use super::variables::{VarId, Variables};
 use super::verbs;
 use crate::geometry::Pose;
 use crate::program::number;
-use crate::program::script::{self, short};
+use crate::program::script::{self, RemarkId, short};
 use foldhash::{HashMap, HashSet, HashSetExt};
 
 /// Variables between a pose and the targets that it is computed from, that are looked into.
@@ -108,12 +110,8 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// The positions that moves go to whose numbers may flow into a pose with these names.
-    fn positions_behind(&self, names: &[Symbol], function: FunctionId) -> Vec<VarId> {
-        let meanings = names
-            .iter()
-            .filter_map(|name| self.meaning(*name, function));
-        let mut open: Vec<VarId> = meanings.collect();
+    /// The positions that moves go to whose numbers may flow into what is computed from variables.
+    fn positions_behind(&self, mut open: Vec<VarId>) -> Vec<VarId> {
         let mut seen = HashSet::new();
         let mut found = Vec::new();
         while let Some(variable) = open.pop() {
@@ -158,7 +156,7 @@ impl Variables<'_, '_> {
                     let given = parsed.arguments_of(&parsed.calls[call as usize]);
                     values.extend(given.iter().map(|(_, value)| *value));
                 }
-                Expr::Actual | Expr::Other => {}
+                Expr::Actual | Expr::Number(_) | Expr::Other => {}
             }
         }
     }
@@ -183,11 +181,31 @@ impl Goals<'_, '_, '_> {
             let by = Pose::from_translation(x, y, z);
             return self.shifted_in_base(goal, Some(by));
         }
+        let names = parsed.names_in(id).iter();
+        let named = names.filter_map(|name| self.variables.meaning(*name, function));
+        let unknown = self.common.expressions;
+        self.made_of(named.collect(), unknown, steps)
+    }
+
+    /// Where the value of a function of the language is, as far as positions are given to it.
+    pub(super) fn made_of_arguments(
+        &mut self,
+        value: ExprId,
+        function: FunctionId,
+        steps: u32,
+    ) -> Goal {
+        let mut named = Vec::new();
+        self.variables.add_behind(value, function, &mut named);
+        self.made_of(named, self.common.computed, steps)
+    }
+
+    /// Where a pose is that is computed from variables: next to the targets that flow into it.
+    fn made_of(&mut self, named: Vec<VarId>, unknown: RemarkId, steps: u32) -> Goal {
+        let positions = self.variables.positions_behind(named);
+        // however these are made of each other, not many are looked into
+        let steps = steps.div_ceil(short(positions.len()).max(1));
         let mut goals = Vec::new();
-        for variable in self
-            .variables
-            .positions_behind(parsed.names_in(id), function)
-        {
+        for variable in positions {
             let goal = match self.variables.fixed(variable) {
                 Some(source) => self.goal_within(source.value, source.function, steps),
                 None => self.variable(variable),
@@ -197,7 +215,7 @@ impl Goals<'_, '_, '_> {
             }
         }
         if goals.len() < 2 {
-            let unknown = Goal::to(script::Expr::Unknown(self.common.expressions));
+            let unknown = Goal::to(script::Expr::Unknown(unknown));
             return goals.pop().unwrap_or(unknown);
         }
         let is_plain = |goal: &Goal| matches!(goal.feature, Feature::Base) && goal.tool.is_none();

@@ -218,6 +218,12 @@ impl Goals<'_, '_, '_> {
             Expr::Element(name, at) => self.element(name, at, function, steps),
             Expr::Call(call) => match self.variables.result(call) {
                 Some(variable) => self.variable(variable),
+                None if self
+                    .variables
+                    .is_of_language(&self.parsed.calls[call as usize]) =>
+                {
+                    self.made_of_arguments(value, function, steps)
+                }
                 None => self.unknown(),
             },
             Expr::Actual => Goal::to(script::Expr::Value(self.common.actual)),
@@ -262,7 +268,7 @@ impl Goals<'_, '_, '_> {
                 let by = self.variables.constant(b, function).ok();
                 self.shifted_in_base(goal, by)
             }
-            Expr::Inverse(_) | Expr::Other => self.unknown(),
+            Expr::Inverse(_) | Expr::Number(_) | Expr::Other => self.unknown(),
         }
     }
 

@@ -376,8 +376,11 @@ impl<'a> Reader<'a> {
 
     /// `= …` behind a name or an element of it.
     fn assign(&mut self, name: Token, reach: Reach, part: bool) -> Read<()> {
-        let is_number = self.is_number();
-        let value = self.value(name.start)?;
+        let alone = self.number_alone();
+        let mut value = self.value(name.start)?;
+        if let Some(known) = alone.and_then(number::parse) {
+            value = self.parsed.add(Expr::Number(known));
+        }
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let dot = memchr::memchr(b'.', text);
@@ -389,22 +392,24 @@ impl<'a> Reader<'a> {
             value,
             offset: short(name.start),
             part: part || dot.is_some(),
-            is_number,
+            is_number: alone.is_some(),
         });
         let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));
         Ok(())
     }
 
-    /// Whether nothing but a number stands up to the end of the statement.
-    fn is_number(&self) -> bool {
+    /// The number that stands alone up to the end of the statement.
+    fn number_alone(&self) -> Option<&'a [u8]> {
         let mut ahead = self.scanner;
-        let mut next = || ahead.next().map_or(Kind::End, |token| token.kind);
-        let first = match next() {
-            Kind::Sign(b'-' | b'+') => next(),
-            other => other,
+        let first = ahead.next().ok()?;
+        let number = match first.kind {
+            Kind::Sign(b'-' | b'+') => ahead.next().ok()?,
+            _ => first,
         };
-        first == Kind::Number && matches!(next(), Kind::Line | Kind::End)
+        let ends = matches!(ahead.peek().kind, Kind::Line | Kind::End);
+        let is_alone = number.kind == Kind::Number && ends;
+        is_alone.then(|| &self.scanner.bytes[first.start..number.end])
     }
 
     /// Everything to the end of the line.

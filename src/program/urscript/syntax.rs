@@ -1,7 +1,7 @@
 //! What is noted of one file before names mean anything.
 
 use crate::program::script::short;
-use crate::program::{Load, Motion, Number, SpeedZone};
+use crate::program::{Motion, Number, SpeedZone};
 use foldhash::HashMap;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -47,6 +47,8 @@ pub(super) enum Expr {
     Call(u32),
     /// Where the robot is.
     Actual,
+    /// A number that is a load's mass, or all that a variable is assigned.
+    Number(f64),
     /// Anything else.
     Other,
 }
@@ -142,6 +144,25 @@ pub(super) struct Step {
     pub repeatable: bool,
 }
 
+/// What a call says of the load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Payload {
+    /// `None` where it stays as it is.
+    pub mass: Option<ExprId>,
+    pub cog: Cog,
+}
+
+/// The centre of gravity of a load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Cog {
+    /// As it is.
+    Stays,
+    /// The tool's origin, of tools that are set later too.
+    Tool,
+    /// Three numbers.
+    At(ExprId),
+}
+
 /// A call of a function that is none of the language.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Called {
@@ -159,8 +180,8 @@ pub(super) enum Event {
     Assign(u32),
     /// `set_tcp(…)`, at a byte.
     Tool(ExprId, u32),
-    /// `set_payload(…)`; `None` where it is not written out.
-    Load(Option<Load>, u32),
+    /// `set_payload(…)`, at a byte.
+    Load(Payload, u32),
     /// Moves go along a frame that moves from here on, or no longer.
     Tracking(bool, u32),
     /// Index in [`Parsed::calls`].
@@ -188,6 +209,21 @@ pub(super) enum Event {
     Halt,
     /// Index in [`Parsed::steps`].
     Step(u32),
+}
+
+impl Event {
+    /// Whether the program comes to what follows from elsewhere too.
+    pub(super) fn is_crossing(&self) -> bool {
+        matches!(
+            self,
+            Self::Never
+                | Self::Switch
+                | Self::Branch { .. }
+                | Self::EndIf
+                | Self::Loop
+                | Self::EndLoop { .. }
+        )
+    }
 }
 
 /// A function, a thread, or the text outside them.

@@ -1,15 +1,15 @@
 //! The statements of one file.
 
 use super::goals::{Common, Facets, Goals};
-use super::syntax::{Called, Content, Event, Expr, ExprId, FunctionId, Parsed, Step};
+use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
-use super::verbs;
 use crate::finding::Severity;
+use crate::geometry::{Pose, Vector};
 use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
     Variable, VariableId, Write, Written, short,
 };
-use crate::program::{Layout, Load, Shape, Source, Target, TargetId};
+use crate::program::{Layout, Load, Shape, Source, Target, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Adds the statements of a file.
@@ -32,18 +32,34 @@ pub(super) fn translate(
     builder.script.numbers.append(&mut parsed.numbers);
 }
 
+/// What is set where the text is read from top to bottom: behind branches, loops and calls nothing
+/// is known of it.
+#[derive(Default)]
+struct Present {
+    tool: Option<Pose>,
+    load: Option<Load>,
+    /// The load goes along with the tool.
+    in_tool: Option<bool>,
+}
+
 struct Translator<'m, 'n, 'a> {
     goals: Goals<'m, 'n, 'a>,
     source: &'m Source,
     file: u32,
     tcp: VariableId,
     load: VariableId,
+    /// What is to be said of the load.
+    load_remark: VariableId,
+    unknown_load: script::Expr,
     /// Whether moves go along a frame that moves.
     tracking: VariableId,
-    /// Sets of guards: while tracking, as a stream, and both.
-    guards: [u32; 3],
+    /// Sets of guards: for moves, and for streams.
+    guards: [u32; 2],
     first_routine: RoutineId,
-    loads: HashMap<Option<[u64; 4]>, script::ValueId>,
+    loads: HashMap<[u64; 4], script::ValueId>,
+    present: Present,
+    /// Loads may go along with the tool.
+    loads_in_tool: bool,
     said: HashSet<(TargetId, &'static str)>,
 }
 
@@ -87,11 +103,22 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             "servoing to poses is not compensated",
             "use movel or movej, or servoj with joints",
         )));
-        let declared = script::Expr::Value(script.value(streamed));
+        let declared = script.held(streamed);
         let stream = script.variable(Variable::new("stream", place, declared));
-        let guards = [vec![tracking], vec![stream], vec![tracking, stream]].map(|of| {
+        let load_remark = script.variable(Variable::new("load", place, script::Expr::Absent));
+        let guards = [
+            vec![tracking, load_remark],
+            vec![tracking, load_remark, stream],
+        ]
+        .map(|of| {
             script.guards.push(of.into());
             short(script.guards.len() - 1)
+        });
+        let unknown_load = script.unknown(unknown_load());
+        let mut events = parsed.functions.iter().flat_map(|of| &of.events);
+        let loads_in_tool = events.any(|event| match event {
+            Event::Load(payload, _) => payload.cog == Cog::Tool,
+            _ => false,
         });
         Self {
             goals: Goals {
@@ -109,10 +136,14 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             file,
             tcp,
             load,
+            load_remark,
+            unknown_load,
             tracking,
             guards,
             first_routine,
             loads: HashMap::new(),
+            present: Present::default(),
+            loads_in_tool,
             said: HashSet::new(),
         }
     }
@@ -286,6 +317,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let parsed = self.goals.parsed;
         let routine = self.first_routine + function;
         self.goals.builder.open(routine);
+        self.present = Present::default();
         // blocks around that never run, from the outermost such `if` on
         let mut dead = 0_u32;
         for event in &parsed.functions[function as usize].events {
@@ -305,17 +337,25 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 _ if dead > 0 => continue,
                 _ => {}
             }
+            if event.is_crossing() {
+                self.present = Present::default();
+            }
             let builder = &mut *self.goals.builder;
             match *event {
                 Event::Assign(number) => self.assign(number),
                 Event::Tool(value, offset) => {
                     let tool = self.goals.tool(value, function);
                     self.write(Some(self.tcp), How::Whole(tool), offset);
+                    self.present.tool = self.goals.variables.constant(value, function).ok();
+                    if self.present.in_tool.unwrap_or(self.loads_in_tool) {
+                        let again = Payload {
+                            mass: None,
+                            cog: Cog::Tool,
+                        };
+                        self.load(again, function, offset);
+                    }
                 }
-                Event::Load(load, offset) => {
-                    let load = self.load(load);
-                    self.write(Some(self.load), How::Whole(load), offset);
-                }
+                Event::Load(payload, offset) => self.load(payload, function, offset),
                 Event::Tracking(on, offset) => {
                     let held = if on {
                         Held::Remark(builder.script.remark(Remark::error("moving-frame", "moves \
@@ -433,25 +473,75 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
     }
 
-    fn load(&mut self, load: Option<Load>) -> script::Expr {
-        let key = load.map(|load| {
-            let [x, y, z] = load.cog_m;
-            [load.mass_kg, x, y, z].map(f64::to_bits)
-        });
+    /// The load becomes another.
+    fn load(&mut self, payload: Payload, function: FunctionId, offset: u32) {
+        let load = self.load_of(payload, function);
+        self.present.load = load;
+        self.present.in_tool = match payload.cog {
+            Cog::Stays => self.present.in_tool,
+            cog => Some(cog == Cog::Tool),
+        };
+        let (load, remark) = match load {
+            Some(load) => (self.load_value(load), script::Expr::Absent),
+            None => (self.unknown_load, self.unknown_load),
+        };
+        self.write(Some(self.load), How::Whole(load), offset);
+        self.write(Some(self.load_remark), How::Whole(remark), offset);
+    }
+
+    /// The load behind a call, where the text says it.
+    fn load_of(&self, payload: Payload, function: FunctionId) -> Option<Load> {
+        let Present { tool, load, .. } = &self.present;
+        let mass_kg = match payload.mass {
+            None => load.as_ref()?.mass_kg,
+            Some(mass) => match self.goals.variables.follow(mass, function).0 {
+                Expr::Number(mass_kg) => mass_kg,
+                _ => return None,
+            },
+        };
+        let cog_m = match payload.cog {
+            Cog::Stays => load.as_ref()?.cog_m,
+            Cog::Tool => tool.as_ref()?.translation,
+            Cog::At(cog) => self.three_numbers(cog, function)?,
+        };
+        (mass_kg >= 0.0).then_some(Load { mass_kg, cog_m })
+    }
+
+    /// `[0, 0, 0.05]`
+    fn three_numbers(&self, value: ExprId, function: FunctionId) -> Option<Vector> {
+        let (Expr::Literal(id), _) = self.goals.variables.follow(value, function) else {
+            return None;
+        };
+        let literal = self.goals.parsed.literal(id);
+        if literal.elements != 3 || literal.pose {
+            return None;
+        }
+        let (start, end) = (literal.offset as usize + 1, literal.end as usize - 1);
+        let inside = self.source.bytes.get(start..end)?;
+        let mut values = inside
+            .split(|b| *b == b',')
+            .map(|text| number::parse(text.trim_ascii()));
+        Some([values.next()??, values.next()??, values.next()??])
+    }
+
+    fn load_value(&mut self, load: Load) -> script::Expr {
+        let [x, y, z] = load.cog_m;
+        let key = [load.mass_kg, x, y, z].map(f64::to_bits);
         let script = &mut self.goals.builder.script;
         let value = *self
             .loads
             .entry(key)
-            .or_insert_with(|| script.value(Held::Load(load)));
+            .or_insert_with(|| script.value(Held::Load(Some(load))));
         script::Expr::Value(value)
     }
 
     fn call(&mut self, call: &Called) {
         let parsed = self.goals.parsed;
-        let callees = self.goals.variables.callees(call).to_vec();
-        if callees.is_empty() && verbs::is_of_language(parsed.bytes(call.name)) {
+        if self.goals.variables.is_of_language(call) {
             return;
         }
+        self.present = Present::default();
+        let callees = self.goals.variables.callees(call).to_vec();
         let mut arguments = Vec::new();
         if callees.is_empty() {
             for &(_, value) in parsed.arguments_of(call) {
@@ -534,7 +624,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 modal.tool = tool;
             }
             if is_stream {
-                modal.guards = self.guards[2];
+                modal.guards = self.guards[1];
             }
             if step.repeatable && !step.streamed {
                 instruction.target_span = goal.span;
@@ -593,5 +683,18 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let hint = "look where the new value is used";
             self.say(offset, "target-copied", Severity::Warning, message, hint);
         }
+    }
+}
+
+/// A load that the text does not say.
+fn unknown_load() -> Remark {
+    Remark {
+        id: "load-chosen-at-run-time",
+        severity: Severity::Warning,
+        text:
+            "only the running program knows the load that is set here; moves are taken with that \
+               of the tool"
+                .into(),
+        hint: "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
     }
 }

@@ -4,6 +4,7 @@
 //! function; what a function and one around it assign is taken for one variable.
 
 use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Parsed, Reach, Symbol};
+use super::verbs;
 use crate::geometry::Pose;
 use crate::program::script::short;
 use foldhash::{HashMap, HashMapExt, HashSet};
@@ -282,6 +283,11 @@ impl<'n, 'a> Variables<'n, 'a> {
         self.functions.get(&call.name).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether a call is of a function of the language that moves nothing.
+    pub(super) fn is_of_language(&self, call: &Called) -> bool {
+        self.callees(call).is_empty() && verbs::is_of_language(self.parsed.bytes(call.name))
+    }
+
     /// A parameter of a function, and what a call gives it with the function where that is meant.
     pub(super) fn given(
         &self,
@@ -365,9 +371,12 @@ impl<'n, 'a> Variables<'n, 'a> {
     /// Whether a value says the same at any time if the variables that it names do.
     fn is_plain(&self, value: ExprId, function: FunctionId, named: &mut Vec<VarId>) -> bool {
         match self.parsed.expression(value) {
-            Expr::Literal(_) | Expr::List(_) | Expr::Element(..) | Expr::Actual | Expr::Other => {
-                true
-            }
+            Expr::Literal(_)
+            | Expr::List(_)
+            | Expr::Element(..)
+            | Expr::Actual
+            | Expr::Number(_)
+            | Expr::Other => true,
             Expr::Name(name, _) => {
                 named.extend(self.meaning(name, function));
                 true

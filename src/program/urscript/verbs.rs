@@ -24,11 +24,19 @@ pub(super) enum Verb {
     /// `set_tcp`
     Tool,
     /// `set_payload`
-    Load,
+    Load(LoadParts),
     /// Of the language, and of no matter here.
     Known,
     /// A function of the file, or one that is not known.
     Other,
+}
+
+/// What a call that sets the load is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LoadParts {
+    Both,
+    Mass,
+    Cog,
 }
 
 /// Places of speed, blend radius and time among the arguments of a move.
@@ -90,9 +98,9 @@ pub(super) fn verb(name: &[u8]) -> Verb {
         b"mc_add_circular" => Verb::Arc(Places::NONE),
         b"servoj" | b"servoc" | b"servop" | b"servol" | b"moves" => Verb::Stream,
         b"set_tcp" => Verb::Tool,
-        b"set_payload" | b"set_target_payload" | b"set_payload_mass" | b"set_payload_cog" => {
-            Verb::Load
-        }
+        b"set_payload" | b"set_target_payload" => Verb::Load(LoadParts::Both),
+        b"set_payload_mass" => Verb::Load(LoadParts::Mass),
+        b"set_payload_cog" => Verb::Load(LoadParts::Cog),
         b"force_mode" => Verb::Force,
         b"speedj"
         | b"speedl"

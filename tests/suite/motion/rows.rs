@@ -321,19 +321,64 @@ fn read(files: &[(&str, &str)]) -> program::Program {
     poseshift::motion::read(language, &sources, &settings).expect("read")
 }
 
-#[test]
-fn whole_rotations_of_a_joint_move_are_those_of_config() {
-    // row e: behind J6 = -290 the rotation nearest to the joints before is another than CONFIG
-    // gives
+/// Where the flange is with these joints, degrees, as FANUC writes it.
+fn fanuc_pose(joints: [f64; 6]) -> String {
     let profile = super::profile(&[PLAIN]);
     let controller = profile.controller_model(&poseshift::model::profile::Mounted::flange());
-    let q = [0.0, -10.0, 20.0, 10.0, 50.0, 179.95_f64].map(f64::to_radians);
+    let q = joints.map(f64::to_radians);
     let pose = controller.forward(&q, &poseshift::model::Conditions::default());
     let m = &pose.rotation.0;
     let r = m[1][0].atan2(m[0][0]).to_degrees();
     let p = (-m[2][0]).atan2(m[2][1].hypot(m[2][2])).to_degrees();
     let w = m[2][1].atan2(m[2][2]).to_degrees();
     let [x, y, z] = pose.translation.map(|v| 1e3 * v);
+    format!(
+        "X = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n    W = {w:.3} deg, P = {p:.3} deg, R = \
+         {r:.3} deg"
+    )
+}
+
+#[test]
+fn a_configuration_that_no_solution_has_is_said() {
+    let pose = fanuc_pose([0.0, -10.0, 20.0, 60.0, 50.0, 30.0]);
+    let done = |first: &str, config: &str| {
+        let program = format!(
+            "/PROG T\n/MN\n{first}   2:J P[2] 10% FINE ;\n/POS\n\
+             P[1]{{\n   GP1:\n    UF : 0, UT : 0,\n    J1 = 0.000 deg, J2 = -10.000 deg, J3 = \
+                 20.000 deg,\n    \
+             J4 = 60.000 deg, J5 = 50.000 deg, J6 = 30.000 deg\n}};\n\
+             P[2]{{\n   GP1:\n    UF : 0, UT : 0, CONFIG : '{config}, 0, 0, 0',\n    {pose}\n}};\n/END\n"
+        );
+        done(&[PLAIN], &[("t.ls", &program)])
+    };
+    let after = "   1:J P[1] 10% FINE ;\n";
+    for flip in ['N', 'F'] {
+        let side = |config: &str, is_said: bool| {
+            let done = done(after, &format!("{flip} {config}"));
+            assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+            let said = done
+                .findings
+                .iter()
+                .any(|f| f.id == "configuration-mismatch");
+            assert_eq!(said, is_said, "{flip} {config}: {:?}", done.findings);
+            done.targets[1].q.expect("solved")[4].signum()
+        };
+        // joint 1 does not go so far round that the wrist is behind it
+        assert_eq!(side("U T", false), side("U B", true), "{flip}");
+        let alone = done("", &format!("{flip} U B"));
+        assert!(
+            errors(&alone).contains(&"configuration-unknown"),
+            "{flip}: {:?}",
+            alone.findings
+        );
+    }
+}
+
+#[test]
+fn whole_rotations_of_a_joint_move_are_those_of_config() {
+    // row e: behind J6 = -290 the rotation nearest to the joints before is another than CONFIG
+    // gives
+    let pose = fanuc_pose([0.0, -10.0, 20.0, 10.0, 50.0, 179.95]);
     let program = |flip: char, turn: i32| {
         format!(
             "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n/POS\n\
@@ -341,8 +386,7 @@ fn whole_rotations_of_a_joint_move_are_those_of_config() {
                  20.000 deg,\n    \
              J4 = 10.000 deg, J5 = 50.000 deg, J6 = -290.000 deg\n}};\n\
              P[2]{{\n   GP1:\n    UF : 0, UT : 0, CONFIG : '{flip} U T, 0, 0, {turn}',\n    \
-             X = {x:.3} mm, Y = {y:.3} mm, Z = {z:.3} mm,\n    W = {w:.3} deg, P = {p:.3} deg, R = \
-                 {r:.3} deg\n}};\n/END\n"
+             {pose}\n}};\n/END\n"
         )
     };
     let joint_6 = |turn: i32| -> Vec<f64> {

@@ -138,6 +138,10 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         "w=[x[0],x[1]]\nmovel(p[w[0],0,0,0,0,0])",
         "def f(a):\nb=a[2]\nmovel(p[0,0,b,0,0,0])\nend\nf(x)",
         "y=p[x[0],0,h,0,0,0]\nz=p[y[0],0,0,0,0,0]\nmovel(z)",
+        // functions of the language
+        "movel(pose_sub(x,p[0,0,-0.1,0,0,0]))",
+        "y=interpolate_pose(x,p[0,0,-0.1,0,0,0],0.5)\nmovel(y)",
+        "y=pose_add(x,p[0,0,0.1,0,0,0])\nmovel(pose_sub(y,p[0,0,-0.1,0,0,0]))",
     ] {
         let (to, by, _) = displaced(&format!("{x}{lines}"));
         assert_eq!(
@@ -150,6 +154,108 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         "{x}w=p[.2,.2,.3,0,0,1]\nmovel(w)\nmovel(p[x[0],w[1],0,0,0,0])"
     ));
     assert_eq!(to(&two)[2..], ["x", "w"]);
+    let two = path(&format!(
+        "{x}w=p[.2,.2,.3,0,0,1]\nmovel(w)\nmovel(interpolate_pose(x,w,0.5))"
+    ));
+    assert_eq!(to(&two)[2..], ["x", "w"]);
+    // nothing goes to x itself
+    let alone = path("x=p[.1,.2,.3,0,0,1]\nmovel(pose_sub(x,p[0,0,-0.1,0,0,0]))");
+    assert_eq!(
+        (to(&alone), ids(&alone)),
+        (vec!["?".to_owned()], vec!["computed-target"])
+    );
+}
+
+/// The loads of the last move, by mass, behind a tool of 0.2 m; and what is found.
+fn loads(
+    lines: &str,
+) -> (
+    Vec<Option<(f64, [f64; 3])>>,
+    Vec<(&'static str, Severity, usize)>,
+) {
+    let program = path(&format!(
+        "set_tcp(p[0,0,0.2,0,0,0])\n{lines}\nmovel(p[.1,.2,.3,0,0,1])"
+    ));
+    let tools = program.moves.iter().map(|m| &program.tools[m.tool]);
+    let mut loads: Vec<_> = tools
+        .map(|tool| tool.load.map(|load| (load.mass_kg, load.cog_m)))
+        .collect();
+    loads.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+    let findings = program.findings.iter();
+    let findings = findings.map(|f| (f.id, f.severity, f.line)).collect();
+    (loads, findings)
+}
+
+#[test]
+fn a_load_is_what_the_calls_before_say() {
+    for (lines, mass_kg, z_m) in [
+        ("set_payload(5,[0,0,0.1])", 5.0, 0.1),
+        ("set_payload(cog=[0,0,0.1], m=5)", 5.0, 0.1),
+        ("set_target_payload(5, [0,0,0.1], [0,0,0,0,0,0])", 5.0, 0.1),
+        ("m=5\nc=[0,0,0.1]\nset_payload(m,c)", 5.0, 0.1),
+        ("set_payload(1,[0,0,0.1])\nset_payload_mass(5)", 5.0, 0.1),
+        (
+            "set_payload(5,[0,0,0.3])\nset_payload_cog([0,0,0.1])",
+            5.0,
+            0.1,
+        ),
+        (
+            "set_payload(1,[0,0,0.1])\nsync()\nset_payload(5,get_target_payload_cog())",
+            5.0,
+            0.1,
+        ),
+        ("set_payload(0,[0,0,0.1])", 0.0, 0.1),
+        // the tool's origin, of a later tool too
+        ("set_payload(5)", 5.0, 0.2),
+        ("set_payload(5)\nset_tcp(p[0,0,0.1,0,0,0])", 5.0, 0.1),
+        (
+            "set_payload(5,[0,0,0.3])\nset_tcp(p[0,0,0.1,0,0,0])",
+            5.0,
+            0.3,
+        ),
+        // what nobody knows is replaced
+        (
+            "set_payload(m,[0,0,0.1])\nset_payload(5,[0,0,0.1])",
+            5.0,
+            0.1,
+        ),
+    ] {
+        let known = (mass_kg, [0.0, 0.0, z_m]);
+        assert_eq!(loads(lines), (vec![Some(known)], vec![]), "{lines}");
+    }
+    assert_eq!(loads(""), (vec![None], vec![]));
+}
+
+#[test]
+fn a_load_that_the_text_does_not_say_is_reported_where_it_is_set() {
+    let reported = |line| vec![("load-chosen-at-run-time", Severity::Warning, line)];
+    for (lines, line) in [
+        ("set_payload(m,[0,0,0.1])", 3),
+        ("m=5\nm=m+1\nset_payload(m,[0,0,0.1])", 5),
+        ("set_payload(5,[0,0,100/1000])", 3),
+        ("set_payload(-5,[0,0,0.1])", 3),
+        ("set_payload()", 3),
+        // of the installation
+        ("set_payload_mass(5)", 3),
+        ("set_payload_cog([0,0,0.1])", 3),
+        ("set_tcp(tools[i])\nset_payload(5)", 4),
+    ] {
+        let (loads, findings) = loads(lines);
+        let findings: Vec<_> = findings
+            .into_iter()
+            .filter(|found| found.0 == "load-chosen-at-run-time")
+            .collect();
+        assert_eq!((loads, findings), (vec![None], reported(line)), "{lines}");
+    }
+    // in one branch of two
+    let one = "if a:\nset_payload(1,[0,0,0.1])\nelse:\nset_payload(2,[0,0,0.1])\nend\n";
+    let two = Some((1.0, [0.0, 0.0, 0.1]));
+    let (both, findings) = loads(one);
+    assert_eq!((both.len(), both[0], findings), (2, two, vec![]));
+    assert_eq!(
+        loads(&format!("{one}set_payload_mass(5)")),
+        (vec![None], reported(8))
+    );
 }
 
 #[test]
