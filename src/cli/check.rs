@@ -191,13 +191,7 @@ impl Check {
             ("--tolerance", Some(self.tolerance), 0.0),
         ];
         for (name, value, least) in numbers {
-            if let Some(value) = value
-                && !(value >= least && value.is_finite())
-            {
-                let message =
-                    format!("{name} is {value}; it must be a finite number, not negative");
-                return Err(Failure::new(message));
-            }
+            value.map_or(Ok(()), |value| values::check_size(name, value, least))?;
         }
         Ok(())
     }

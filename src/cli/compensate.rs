@@ -256,6 +256,7 @@ impl Compensate {
 
     /// `each`: each target is reported on.
     fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
+        values::check_size("--max-derived-error", self.max_derived_error, 0.0)?;
         let mut given = Given::default();
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
