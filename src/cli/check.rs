@@ -197,7 +197,10 @@ impl Check {
     }
 
     fn options(&self, profile: &Profile) -> Result<Options, Failure> {
-        let mut given = Given::default();
+        let mut given = Given {
+            is_needed: true,
+            ..Given::default()
+        };
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
             given.tools.insert(name, tool);

@@ -257,7 +257,10 @@ impl Compensate {
     /// `each`: each target is reported on.
     fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
         values::check_size("--max-derived-error", self.max_derived_error, 0.0)?;
-        let mut given = Given::default();
+        let mut given = Given {
+            is_needed: true,
+            ..Given::default()
+        };
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
             given.tools.insert(name, tool);

@@ -172,7 +172,8 @@ fn digest(bytes: &[u8], at: usize, name: &[u8]) -> Option<String> {
     let count = digits.iter().take_while(|b| b.is_ascii_hexdigit()).count();
     let (digits, rest) = digits.split_at(count);
     // short lines have the version behind
-    let ends = (rest.first()).is_none_or(|b| !b.is_ascii_alphanumeric() || matches!(b, b'v' | b'V'));
+    let ends =
+        (rest.first()).is_none_or(|b| !b.is_ascii_alphanumeric() || matches!(b, b'v' | b'V'));
     let is_hash = ends && (LEAST_DIGITS..=64).contains(&digits.len());
     is_hash.then(|| String::from_utf8_lossy(digits).to_ascii_lowercase())
 }
