@@ -49,7 +49,10 @@ fn with_context(files: &Files, context: &Files) -> Vec<Source> {
 type Named<'py> = Vec<(Option<String>, Bound<'py, PyAny>)>;
 
 fn given(profile: &Profile, tools: Named<'_>, frames: Named<'_>) -> PyResult<Given> {
-    let mut given = Given::default();
+    let mut given = Given {
+        is_needed: true,
+        ..Given::default()
+    };
     for (name, value) in tools {
         let tool = if let Ok(known) = value.extract::<String>() {
             let tool = profile.file.tool(Some(&known));

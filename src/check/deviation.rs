@@ -8,6 +8,7 @@
 //! The pose's difference has twelve components: three of the position, and nine of the rotation
 //! matrices, whose Frobenius norm is `2√2 sin(φ/2)` at an angle φ.
 
+use super::larger;
 use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
 use crate::model::{Conditions, Model};
 use crate::motion::course::{Leg, Piece};
@@ -108,7 +109,8 @@ struct Open<'a> {
 }
 
 fn angle(turned: f64) -> f64 {
-    2.0 * (turned / (2.0 * std::f64::consts::SQRT_2)).min(1.0).asin()
+    let sine = turned / (2.0 * std::f64::consts::SQRT_2);
+    2.0 * if sine > 1.0 { 1.0 } else { sine }.asin()
 }
 
 /// The error of the real tool's path against the wanted one.
@@ -143,7 +145,10 @@ pub(crate) fn path_error(
         if sample.distance_m > low.0 {
             found.at = sample.s;
         }
-        *low = (low.0.max(sample.distance_m), low.1.max(sample.turned));
+        *low = (
+            larger(low.0, sample.distance_m),
+            larger(low.1, sample.turned),
+        );
     };
     let mut open = Vec::new();
     let mut all_certain = true;
@@ -167,6 +172,10 @@ pub(crate) fn path_error(
             depth: if piece.is_bounded() { DEEPEST } else { SAMPLED },
         });
         last = Some((end, &piece.conditions));
+    }
+    if low.0.is_nan() || low.1.is_nan() {
+        // halving ends nowhere
+        open.clear();
     }
     let mut high = (0.0_f64, 0.0_f64);
     while let Some(Open {
@@ -228,8 +237,8 @@ pub(crate) fn path_error(
         angle_rad: angle(low.1),
     };
     found.bound = Separation {
-        distance_m: high.0.max(low.0),
-        angle_rad: angle(high.1.max(low.1)),
+        distance_m: larger(high.0, low.0),
+        angle_rad: angle(larger(high.1, low.1)),
     };
     found
 }

@@ -357,10 +357,15 @@ fn soften(findings: &mut [Finding], of_original: &[Finding]) {
     }
 }
 
+/// The larger of two numbers; what is no number is larger than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
 fn sum_up(program: &Program, moves: &[MoveReport], unknown: usize, no_bodies: bool) -> Summary {
     let worse = |a: Separation, b: Separation| Separation {
-        distance_m: a.distance_m.max(b.distance_m),
-        angle_rad: a.angle_rad.max(b.angle_rad),
+        distance_m: larger(a.distance_m, b.distance_m),
+        angle_rad: larger(a.angle_rad, b.angle_rad),
     };
     let mut summary = Summary {
         moves: moves.len(),

@@ -191,19 +191,16 @@ impl Check {
             ("--tolerance", Some(self.tolerance), 0.0),
         ];
         for (name, value, least) in numbers {
-            if let Some(value) = value
-                && !(value >= least && value.is_finite())
-            {
-                let message =
-                    format!("{name} is {value}; it must be a finite number, not negative");
-                return Err(Failure::new(message));
-            }
+            value.map_or(Ok(()), |value| values::check_size(name, value, least))?;
         }
         Ok(())
     }
 
     fn options(&self, profile: &Profile) -> Result<Options, Failure> {
-        let mut given = Given::default();
+        let mut given = Given {
+            is_needed: true,
+            ..Given::default()
+        };
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
             given.tools.insert(name, tool);

@@ -256,7 +256,11 @@ impl Compensate {
 
     /// `each`: each target is reported on.
     fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
-        let mut given = Given::default();
+        values::check_size("--max-derived-error", self.max_derived_error, 0.0)?;
+        let mut given = Given {
+            is_needed: true,
+            ..Given::default()
+        };
         for text in &self.tools {
             let (name, tool) = values::tool(text, profile)?;
             given.tools.insert(name, tool);

@@ -31,6 +31,16 @@ pub(super) fn max_shift(text: &str) -> Result<Separation, Failure> {
     })
 }
 
+/// A number of an option is finite and not below `least`, which is not negative.
+pub(super) fn check_size(option: &str, value: f64, least: f64) -> Result<(), Failure> {
+    if value >= least && value.is_finite() {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "{option} is {value}; it must be a finite number, not negative"
+    )))
+}
+
 /// No tool or frame that is given has an angle that can only be in another unit.
 fn check_angles(option: &str, text: &str, value: &str) -> Result<(), Failure> {
     let angles = list::<6>(value).map(|[_, _, _, angles @ ..]| angles);

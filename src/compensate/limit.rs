@@ -9,6 +9,7 @@ use crate::model::Conditions;
 use crate::motion::arms::Equipped;
 use crate::motion::ground::Ground;
 use crate::motion::placed::bases;
+use crate::motion::plausibility;
 use std::sync::OnceLock;
 
 /// Postures at which the effects are looked at, and which of them in order of size counts: 95 in
@@ -186,48 +187,8 @@ pub(super) fn not_finite_finding(job: &Job, approach: &Approach, what: &str) -> 
         Severity::Error,
         target,
         message,
-        "look for a number out of all bounds in the effects, masses and frames of the profile and \
-         in the tool",
+        plausibility::OUT_OF_BOUNDS,
     )
-}
-
-/// Tools with which the arm's models give no finite pose, each at the first move that has it.
-pub(super) fn check_models(ground: &Ground, findings: &mut Vec<Finding>) {
-    let mut reported = vec![false; ground.arms.len()];
-    for motion in &ground.program.moves {
-        let Some(equipped) = ground.equipped(motion.tool) else {
-            continue;
-        };
-        if std::mem::replace(&mut reported[motion.tool], true) {
-            continue;
-        }
-        let q = std::array::from_fn(|i| {
-            let joint = &ground.profile.mechanism.joints[i];
-            0.4 * joint.min_rad + 0.6 * joint.max_rad
-        });
-        let conditions = &equipped.inverse.conditions;
-        let models = [
-            ("real arm", equipped.inverse.real.forward(&q, conditions)),
-            (
-                "controller",
-                equipped.controller.forward(&q, &Conditions::default()),
-            ),
-        ];
-        for (name, _) in models.iter().filter(|(_, pose)| !pose.is_finite()) {
-            let tool = &ground.program.tools[motion.tool].name;
-            findings.push(ground.at_move(
-                "not-finite",
-                Severity::Error,
-                motion,
-                format!(
-                    "the model of the {name} with tool `{tool}` gives a pose that is not \
-                    finite"
-                ),
-                "look for a number out of all bounds in the effects, masses and frames of the \
-                 profile and in the tool",
-            ));
-        }
-    }
 }
 
 #[cfg(test)]

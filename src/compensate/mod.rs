@@ -130,7 +130,7 @@ impl Options {
             .max_derived_error_m
             .filter(|limit| *limit > LIMIT_DERIVED_M)
         {
-            decided.push(format!("max-derived-error {}", mm_from_m(limit_m)));
+            decided.push(format!("max-derived-error {}", tidy(mm_from_m(limit_m))));
         }
         match self.at_singularity {
             AtSingularity::Refuse => {}
@@ -303,7 +303,7 @@ fn with(
         ground.move_part(offset);
     }
     plausibility::units(&ground, Severity::Error, &mut findings);
-    limit::check_models(&ground, &mut findings);
+    plausibility::models(&ground, &mut findings);
     let limits = Limits::new(&ground, options.max_shift);
     let job = Job {
         ground,
@@ -378,9 +378,13 @@ fn with(
     Ok(compensation)
 }
 
+/// Without the rounding of a unit.
+fn tidy(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}
+
 /// The limit of shifts as the marker has it.
 fn raised(max_shift: &Separation) -> String {
-    let tidy = |number: f64| (number * 1e6).round() / 1e6;
     format!(
         "max-shift {}mm,{}deg",
         tidy(mm_from_m(max_shift.distance_m)),

@@ -12,7 +12,7 @@ use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::base::{BasePolicy, is_same_place};
 use crate::identify::calibration::{Options as CalibrationOptions, calibrate, fit_frames};
-use crate::identify::input_checks::{Remark, screening};
+use crate::identify::input_checks::{Remark, finite, screening};
 use crate::identify::measurements::{Measurements, Purpose};
 use crate::identify::parameters::{Level, Selection, Subject};
 use crate::identify::pick::Pick;
@@ -167,6 +167,7 @@ pub fn session(
     if fit.rows.is_empty() {
         return Err(IdentifyError::NothingToFit);
     }
+    finite::check(profile, measurements)?;
     let mut remarks = screening::look(profile, &fit)?;
     let guess = start::find(profile, &fit);
     if let Some(guess) = &guess {

@@ -161,7 +161,7 @@ pub const TABLE: &[Kind] = &[
     row("not-as-calibrated", Error, "the arm errs by more than it did when it was calibrated (--as-calibrated)", "measure as for a calibration, and let `diagnose` say what has changed", &["validate"], &[]),
     row("not-checked", Warning, "whether the arm touches itself on its path is not looked at", "drive it by hand the first time", &["plan"], &[]),
     row("not-converged", Error, "the search for the fake target did not come to an end", "report the program: this should not happen where the arm reaches the pose", &["compensate"], &[]).never_accepted(),
-    row("not-finite", Error, "a pose, joint or number is not finite: nothing is written for the target", "look for a number out of all bounds in the profile and in the tool", &["compensate"], &[]).never_accepted(),
+    row("not-finite", Error, "a pose, joint or number is not finite: nothing is written for the target, nothing is known of the move", "look for a number out of all bounds in the profile and in the tool", &["compensate", "check"], &[]).never_accepted(),
     row("not-measured", Note, "poses of --joints have no row in --points: they are left out", "see that both files name their rows alike", &["calibrate", "validate", "diagnose"], &[]),
     row("number-inserted", Note, "a target leaves out numbers that are zero, and the correction needs them: they are put in, in the order of the format", "nothing: the text of each is in the message", &["compensate"], &[]),
     row("other-group", Note, "moves to points that have no group 1", "they stay as they are", &["compensate", "check"], &["fanuc"]),

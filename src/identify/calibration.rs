@@ -6,7 +6,7 @@ use super::degrees;
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
-use super::input_checks::{Remark, plausibility, screening};
+use super::input_checks::{Remark, finite, plausibility, screening};
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Parameter, Selection, Subject};
@@ -326,6 +326,7 @@ pub(super) fn identify(
     if fit.rows.is_empty() {
         return Err(IdentifyError::NothingToFit);
     }
+    finite::check(profile, measurements)?;
     let mut remarks = screening::look(profile, &fit)?;
     let found = start::find(profile, &fit);
     if let Some(found) = &found {

@@ -111,6 +111,12 @@ pub enum IdentifyError {
         /// How far half of the points are at most, mm.
         half_mm: f64,
     },
+    /// The model of the arm gives no finite numbers.
+    #[error("{line}: the model of the arm gives no finite pose or torques there")]
+    NotFinite {
+        /// The first such row.
+        line: Line,
+    },
     /// The place of the base does not follow from the measurements.
     #[error("where the base stands does not follow from the measurements: {reason}")]
     NoStart {
@@ -176,6 +182,9 @@ impl IdentifyError {
             Self::Suspicious { hint, .. } => hint.clone(),
             Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? \
                 correct it or leave it out"
+                .into(),
+            Self::NotFinite { .. } => "look for a number out of all bounds in the effects, masses \
+                and frames of the profile and in the tool"
                 .into(),
             Self::NoStart { .. } => {
                 "measure at least 5 configurations in which every joint moves; \

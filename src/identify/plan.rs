@@ -179,6 +179,17 @@ pub(super) fn select(
         * (derivatives.count().div_ceil(every) as f64 / planned).sqrt();
     let normal = derivatives.normal(every, DEFAULT_SIGMA_M / request.sigma_m, &sought);
     let known = identifiable(&normal, &sought, Some(noise));
+    if known.kept.is_empty() {
+        return Err(IdentifyError::Suspicious {
+            message: format!(
+                "none of {} parameters shows in these configurations",
+                sought.len()
+            ),
+            hint: "look for a number out of all bounds in the masses and effects of the profile \
+                   and in the tool"
+                .into(),
+        });
+    }
     let parameters: Vec<Parameter> = known.kept.iter().map(|i| sought[*i].clone()).collect();
     let per_row = derivatives.height;
     if (request.count + given) * per_row < parameters.len() || request.count > pool {

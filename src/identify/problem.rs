@@ -150,7 +150,7 @@ pub struct Problem {
     pub gravity_by_base: bool,
 }
 
-fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
+pub(super) fn tool_of(profile: &Profile, row: &Measurement) -> Result<Mounted, IdentifyError> {
     let known = || profile.tools.keys().cloned().collect::<Vec<_>>();
     match &row.tool {
         Some(name) => profile

@@ -1,10 +1,15 @@
 //! Units that cannot be meant: tools of tenths of a millimetre, masses that no robot of this kind
-//! carries.
+//! carries; models that give no finite pose.
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
+use crate::model::Conditions;
 use crate::model::profile::is_tiny;
+
+/// The way out where a number is not finite.
+pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in the effects, masses \
+    and frames of the profile and in the tool";
 
 /// Checks the units of the tools that moves have, each at the first move that has it.
 pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Finding>) {
@@ -56,6 +61,44 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
                     {payload} kg"
                 ),
                 "masses are in kg; correct the load, or robot.payload_kg",
+            ));
+        }
+    }
+}
+
+/// Tools with which the arm's models give no finite pose, each at the first move that has it.
+pub(crate) fn models(ground: &Ground, findings: &mut Vec<Finding>) {
+    let mut reported = vec![false; ground.arms.len()];
+    for motion in &ground.program.moves {
+        let Some(equipped) = ground.equipped(motion.tool) else {
+            continue;
+        };
+        if std::mem::replace(&mut reported[motion.tool], true) {
+            continue;
+        }
+        let q = std::array::from_fn(|i| {
+            let joint = &ground.profile.mechanism.joints[i];
+            0.4 * joint.min_rad + 0.6 * joint.max_rad
+        });
+        let conditions = &equipped.inverse.conditions;
+        let models = [
+            ("real arm", equipped.inverse.real.forward(&q, conditions)),
+            (
+                "controller",
+                equipped.controller.forward(&q, &Conditions::default()),
+            ),
+        ];
+        for (name, _) in models.iter().filter(|(_, pose)| !pose.is_finite()) {
+            let tool = &ground.program.tools[motion.tool].name;
+            findings.push(ground.at_move(
+                "not-finite",
+                Severity::Error,
+                motion,
+                format!(
+                    "the model of the {name} with tool `{tool}` gives a pose that is not \
+                    finite"
+                ),
+                OUT_OF_BOUNDS,
             ));
         }
     }

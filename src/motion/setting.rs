@@ -23,6 +23,8 @@ pub struct Given {
     /// `world_from_frame` of work frames as they were measured, by name; the program must not say
     /// otherwise.
     pub measured_frames: BTreeMap<String, Pose>,
+    /// A value under `None` that nothing needs is an error: who gave it meant something by it.
+    pub is_needed: bool,
 }
 
 /// A measured work frame that cannot be meant.
@@ -88,7 +90,7 @@ pub(crate) fn check_measured(program: &Program, given: &Given) -> Result<(), Mea
     Ok(())
 }
 
-/// A tool or work frame that the user gives by name, and that does not count.
+/// A tool or work frame that the user gives, and that does not count.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GivenError {
     /// No move has it.
@@ -116,6 +118,17 @@ pub enum GivenError {
         /// The name.
         name: String,
     },
+    /// The files tell all of them.
+    #[error(
+        "{option} without a name: the files define every {what} that they use themselves, and the \
+         controller computes with that"
+    )]
+    Needless {
+        /// The option.
+        option: &'static str,
+        /// `tool` or `work frame`.
+        what: &'static str,
+    },
 }
 
 impl GivenError {
@@ -124,13 +137,15 @@ impl GivenError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Unused { .. } => "names are as the program writes them; leave the option out",
-            Self::Defined { .. } => "leave the option out, or correct the value in the file",
+            Self::Defined { .. } | Self::Needless { .. } => {
+                "leave the option out, or correct the value in the file"
+            }
         }
     }
 }
 
-/// Tools and work frames that are given by name must be used, and not be known already. The
-/// programs are those of one run.
+/// Tools and work frames that are given by name must be used, and not be known already; those that
+/// are given for any name must be needed. The programs are those of one run.
 pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), GivenError> {
     let tools = programs.iter().flat_map(|program| &program.tools);
     let tools: Vec<(&str, bool)> = tools
@@ -168,7 +183,31 @@ pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), Gi
             return Err(GivenError::Defined { option, what, name });
         }
     }
+    let unnamed = [
+        ("--tool", "tool", given.tools.contains_key(&None), &tools),
+        (
+            "--frame",
+            "work frame",
+            given.frames.contains_key(&None),
+            &frames,
+        ),
+    ];
+    for (option, what, is_given, known) in unnamed {
+        let all_defined = !known.is_empty() && known.iter().all(|(_, is_defined)| *is_defined);
+        if given.is_needed && is_given && all_defined && !programs.iter().any(|p| has_unused(p)) {
+            return Err(GivenError::Needless { option, what });
+        }
+    }
     Ok(())
+}
+
+/// Whether there are targets that no move uses: their tool and frame are those given for any name.
+fn has_unused(program: &Program) -> bool {
+    let mut used = vec![false; program.targets.len()];
+    for target in program.moves.iter().filter_map(|motion| motion.target) {
+        used[target] = true;
+    }
+    used.contains(&false)
 }
 
 /// The same frame but for the digits of the files: 1 µm and 1e-5 degrees.

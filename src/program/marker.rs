@@ -55,7 +55,7 @@ impl Marker {
         let source = format!("source {:.16} v{}", self.source_sha256, self.version);
         // a finding with a long name is named alone
         let short = |text: &String| match text.split_once(' ') {
-            Some((_, last)) if text.len() > WIDEST_COMMENT => last.to_owned(),
+            Some(("accepted", id)) if text.len() > WIDEST_COMMENT => id.to_owned(),
             _ => text.clone(),
         };
         let mut lines = vec![WORD.to_owned(), profile, source];
@@ -169,11 +169,12 @@ fn digest(bytes: &[u8], at: usize, name: &[u8]) -> Option<String> {
     let behind = word(bytes, at, name)?;
     let between = gap(&bytes[behind..]);
     let digits = &bytes[behind + between..];
-    let count = digits.iter().take_while(|b| b.is_ascii_alphanumeric());
-    let digits = &digits[..count.count()];
-    let is_hash = between > 0
-        && (LEAST_DIGITS..=64).contains(&digits.len())
-        && digits.iter().all(u8::is_ascii_hexdigit);
+    let count = digits.iter().take_while(|b| b.is_ascii_hexdigit()).count();
+    let (digits, rest) = digits.split_at(count);
+    // short lines have the version behind
+    let ends =
+        (rest.first()).is_none_or(|b| !b.is_ascii_alphanumeric() || matches!(b, b'v' | b'V'));
+    let is_hash = ends && (LEAST_DIGITS..=64).contains(&digits.len());
     is_hash.then(|| String::from_utf8_lossy(digits).to_ascii_lowercase())
 }
 
@@ -193,18 +194,23 @@ fn decided(text: &[u8]) -> bool {
         .iter()
         .take_while(|b| b.is_ascii_alphanumeric() || **b == b'-');
     let first = &text[..first.count()];
-    if !first.eq_ignore_ascii_case(b"accepted") && !first.contains(&b'-') {
+    if word(first, 0, b"accepted").is_none() && !first.contains(&b'-') {
         return false;
     }
     let text = String::from_utf8_lossy(text).to_ascii_lowercase();
-    let mut words = text.split(|c: char| c.is_ascii_whitespace() || c == ';');
-    let mut words = words.by_ref().filter(|word| !word.is_empty());
-    match (words.next(), words.next(), words.next()) {
-        (Some("accepted"), Some(id), None) => kind(id).is_some(),
+    let text = text.replace(|c: char| c.is_ascii_whitespace() || c == ';', "");
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
+    if let Some(id) = text.strip_prefix("accepted") {
+        kind(id).is_some()
+    } else if let Some(limit) = text.strip_prefix("max-shift") {
+        limit.split_once("mm,").is_some_and(|(mm, _)| is_number(mm))
+    } else if let Some(limit) = text.strip_prefix("max-derived-error") {
+        is_number(limit)
+    } else if let Some(side) = text.strip_prefix("at-singularity") {
+        matches!(side, "flip" | "nearest")
+    } else {
         // named alone where both are too long for a line
-        (Some(id), None, None) => id.contains('-') && kind(id).is_some(),
-        (Some("max-shift"), Some(limit), None) => limit.contains("mm,") && limit.ends_with("deg"),
-        _ => false,
+        text.contains('-') && kind(&text).is_some()
     }
 }
 
@@ -258,7 +264,16 @@ mod tests {
             "poseshiftCOMPENSATEDthisfile",
             "  # accepted target-shared",
             "; MAX-SHIFT 30mm,3deg",
+            "// max-shift 19mm, 1.9deg",
+            "' max-shift19mm,1.9deg",
+            "; at-singularity flip",
+            "! AT-SINGULARITY  NEAREST ;",
+            "# max-derived-error 1",
+            "  7:  !max-derived-error0.3 ;",
+            "! acceptedtarget-shared",
             profile.as_str(),
+            &profile.replace(' ', ""),
+            &remark.replace(' ', ""),
             remark.as_str(),
         ] {
             let inside = format!("MODULE m\r\n{text}\r\nENDMODULE\r\n");
@@ -271,6 +286,10 @@ mod tests {
             "! accepted rounding errors",
             "PROFILE := 1234;",
             "! poseshift did not compensate this file",
+            "! max-derived-error is 1",
+            "! at-singularity of the wrist",
+            "! max-shift is 30mm,3deg",
+            "sourcecode0123456789abcdef",
         ] {
             assert_eq!(Marker::find(text.as_bytes()), None, "{text}");
         }
@@ -291,10 +310,13 @@ mod tests {
                 "accepted target-shared".into(),
                 format!("accepted {longest}"),
                 "max-shift 123.456mm,12.5deg".into(),
+                "max-shift 1123.456789mm,112.543211deg".into(),
+                "max-derived-error 123456.123456".into(),
+                "at-singularity nearest".into(),
             ],
         };
         let lines = marker.short_lines();
-        assert_eq!(lines.len(), 6);
+        assert_eq!(lines.len(), 9);
         for line in lines {
             assert!(line.len() <= WIDEST_COMMENT, "{line}");
             for text in [

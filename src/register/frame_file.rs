@@ -16,7 +16,7 @@
 use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::profile::{Number, PoseFile, ProfileError, file};
+use crate::model::profile::{Number, PoseFile, ProfileError, check_angles, file};
 use crate::printable::quoted;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -152,6 +152,7 @@ impl Frame {
                 ),
             });
         }
+        check_angles(&file.pose)?;
         let sigma = file.sigma.map(|s| Sigma {
             position_m: [s.x_mm, s.y_mm, s.z_mm].map(|n| n.0 * 1e-3),
             rotation_rad: [s.rx_deg, s.ry_deg, s.rz_deg].map(|n| n.0 * DEG),
@@ -232,6 +233,10 @@ mod tests {
         );
         let other = text.replace("frame/1", "profile/1");
         assert!(Frame::from_yaml(&other).expect_err("strict").line == 1);
+        let endless = "poseshift: frame/1\npose: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 1800, ry_deg: 0, \
+            rz_deg: 0}\n";
+        let error = Frame::from_yaml(endless).expect_err("five turns");
+        assert!(error.line == 2 && error.message.contains("720"), "{error}");
         let nan = text.replace("x_mm: 100", "x_mm: .nan");
         assert!(Frame::from_yaml(&nan).is_err());
     }

@@ -10,7 +10,7 @@ use crate::identify::measurements::{
     DIRECTION_COLUMNS, DISTANCE_COLUMNS, EXTERNAL_DIRECTION_COLUMNS, FORCE_COLUMNS, Measurement,
     Measurements, Observed, POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
-use crate::identify::simulate::{Command, Session, simulate as measure};
+use crate::identify::simulate::{Command, Device, Session, simulate as measure};
 use crate::model::Conditions;
 use crate::model::external::{Listed, Stand};
 use crate::model::profile::{Mounted, Profile};
@@ -177,9 +177,12 @@ fn sigma_rad(row: &Measurement) -> Option<f64> {
 
 /// Rows that the model puts nowhere: a value of the profile is beyond any arm.
 fn refuse_no_place(rows: &[Measurement]) -> Result<(), Failure> {
-    let is_somewhere = |row: &Measurement| {
-        let place = row.observed.point_m();
-        place.is_none_or(|p| p.iter().all(|x| x.is_finite()))
+    let is_finite = |p: [f64; 3]| p.iter().all(|x| x.is_finite());
+    let is_somewhere = |row: &Measurement| match row.observed {
+        Observed::Position(p) => is_finite(p),
+        Observed::Pose(pose) => pose.is_finite(),
+        Observed::Distance { distance_m, from_m } => distance_m.is_finite() && is_finite(from_m),
+        Observed::Contact(_) => true,
     };
     match rows.iter().position(|row| !is_somewhere(row)) {
         Some(row) => Err(Failure::with_hint(
@@ -192,19 +195,33 @@ fn refuse_no_place(rows: &[Measurement]) -> Result<(), Failure> {
 
 /// The largest error that is simulated, mm.
 const MOST_MM: f64 = 1e6;
+/// Coordinates that `calibrate` reads, mm.
+const FARTHEST_MM: f64 = 1e8;
+/// Seconds from row to row, and degrees Celsius, that somebody may mean.
+const MOST_S: f64 = 1e6;
+const COLDEST_C: f64 = -273.15;
+const HOTTEST_C: f64 = 1000.0;
 
-/// Noise and outliers within what they can be.
+/// What the device does within what it can be.
 fn refuse_nonsense(session: &Session) -> Result<(), Failure> {
-    let sizes = [
-        ("--noise-mm", mm_from_m(session.noise_m), MOST_MM),
-        ("--noise-deg", session.noise_rad / DEG, 180.0),
-        ("--outliers", session.outliers, 1.0),
-        ("--outlier-mm", mm_from_m(session.outlier_m), MOST_MM),
+    let mut sizes = vec![
+        ("--noise-mm", mm_from_m(session.noise_m), 0.0, MOST_MM),
+        ("--noise-deg", session.noise_rad / DEG, 0.0, 180.0),
+        ("--outliers", session.outliers, 0.0, 1.0),
+        ("--outlier-mm", mm_from_m(session.outlier_m), 0.0, MOST_MM),
     ];
-    for (option, value, most) in sizes {
-        if !(0.0..=most).contains(&value) {
+    let interval = session.interval_s;
+    sizes.extend(interval.map(|s| ("--interval-s", s, 0.0, MOST_S)));
+    let temperatures = session.temperature_c.into_iter().flatten();
+    sizes.extend(temperatures.map(|c| ("--temperature-c", c, COLDEST_C, HOTTEST_C)));
+    if let Device::Distance(from) = &session.device {
+        let from = from.iter().flatten().map(|x| mm_from_m(*x));
+        sizes.extend(from.map(|x| ("--from", x, -FARTHEST_MM, FARTHEST_MM)));
+    }
+    for (option, value, least, most) in sizes {
+        if !(least..=most).contains(&value) {
             return Err(Failure::new(format!(
-                "{option} is {value}; it must be from 0 to {most}"
+                "{option} is {value}; it must be from {least} to {most}"
             )));
         }
     }

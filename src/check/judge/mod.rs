@@ -8,8 +8,9 @@ use super::walk::{Arms, Walk};
 use super::{MoveReport, Options, Subject, limits, nominal};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{norm, scale, sub};
+use crate::geometry::{Pose, Separation, norm, scale, sub};
 use crate::motion::course::{Leg, Piece};
+use crate::motion::plausibility::OUT_OF_BOUNDS;
 use crate::program::Motion;
 use crate::program::script::short;
 
@@ -82,6 +83,7 @@ impl Job<'_> {
             );
         }
         self.judge_path(index, &report, &mut findings);
+        findings.extend(self.not_finite(index, &landed, &report));
         (Some(report), findings)
     }
 
@@ -111,6 +113,27 @@ impl Job<'_> {
             own: true,
         };
         deviation::path_error(leg, pieces, &wanted, &arms.plain, &arms.jets)
+    }
+
+    /// What is no finite number is neither near nor far.
+    fn not_finite(&self, index: usize, landed: &Pose, report: &MoveReport) -> Option<Finding> {
+        let is_finite = |gap: &Separation| gap.distance_m.is_finite() && gap.angle_rad.is_finite();
+        let what = if !landed.is_finite() || !is_finite(&report.target_error) {
+            "where the real tool arrives"
+        } else if report.path.is_some_and(|path| !is_finite(&path.bound)) {
+            "the error of the real tool's path"
+        } else if (report.clearance.as_ref()).is_some_and(|near| near.clearance_m.is_nan()) {
+            "the clearance of the real arm"
+        } else {
+            return None;
+        };
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            "not-finite",
+            Severity::Error,
+            format!("{what} is not a finite number"),
+            OUT_OF_BOUNDS,
+        ))
     }
 
     fn judge_path(&self, index: usize, report: &MoveReport, findings: &mut Vec<Finding>) {

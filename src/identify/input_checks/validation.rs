@@ -1,7 +1,7 @@
 //! Checks of a validation: measurements that are not of this robot, or not as the file says.
 
 use super::screening::{check_start, duplicates, look, refuse_far_off};
-use super::{Remark, WHOLE_FILE, remark, sigma};
+use super::{Remark, WHOLE_FILE, finite, remark, sigma};
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
 use crate::identify::start;
@@ -20,12 +20,14 @@ const HOPELESS_MM: f64 = 20.0;
 /// What can be seen before any model is judged, as `calibrate` sees it.
 ///
 /// # Errors
-/// Another reading of the file fits much better; a point far from all others.
+/// Another reading of the file fits much better; a point far from all others; a model that is not
+/// finite.
 pub(crate) fn before(
     profile: &Profile,
     measurements: &Measurements,
     refit: Refit,
 ) -> Result<Vec<Remark>, IdentifyError> {
+    finite::check(profile, measurements)?;
     refuse_far_off(measurements)?;
     let mut remarks = match look(profile, measurements) {
         Ok(remarks) => remarks,

@@ -24,7 +24,7 @@ pub use error::{Fault, ProfileError};
 pub use external::is_of_profile;
 pub use file::{ControllerModel, FORMAT, ProfileFile, Tables, Theirs};
 pub use makers::{MAKERS, Maker};
-pub(crate) use reading::pose;
+pub(crate) use reading::{check_angles, pose};
 pub use rewrite::{with_controller, with_external};
 pub use shipped::SHIPPED;
 pub(crate) use text::flow_pose;

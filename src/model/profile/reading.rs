@@ -293,7 +293,7 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
 }
 
 /// No frame is rotated by so much.
-pub(super) fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
+pub(crate) fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
     let angles = [
         ("rx_deg", file.value.rx_deg),
         ("ry_deg", file.value.ry_deg),

@@ -186,6 +186,10 @@ fn listing(
         add(script, &mut listing, &point, names);
     }
     script.numbers = points.numbers;
+    if !sections.is_closed {
+        let what = "the program (its last line is /END)";
+        return Err(Fault::unclosed(sections.name.start, what));
+    }
     Ok(listing)
 }
 

@@ -14,6 +14,8 @@ pub(super) struct Sections {
     pub lines: Range<usize>,
     /// Behind the `/POS` line to the end.
     pub points: Range<usize>,
+    /// `/END` closes it.
+    pub is_closed: bool,
 }
 
 impl Sections {
@@ -27,6 +29,7 @@ impl Sections {
             head: first_line..bytes.len(),
             lines: 0..0,
             points: bytes.len()..bytes.len(),
+            is_closed: false,
         };
         let mut at = first_line;
         // the byte before is a line end
@@ -37,13 +40,15 @@ impl Sections {
                     sections.lines = line_end(bytes, behind)..bytes.len();
                 }
             } else if sections.lines.start != 0 {
-                if let Some(behind) = keyword(bytes, ahead, b"/POS") {
+                let has_points = sections.points.start < bytes.len();
+                if let Some(behind) = keyword(bytes, ahead, b"/POS").filter(|_| !has_points) {
                     sections.lines.end = ahead;
                     sections.points = line_end(bytes, behind)..bytes.len();
-                    break;
-                }
-                if keyword(bytes, ahead, b"/END").is_some() {
-                    sections.lines.end = ahead;
+                } else if keyword(bytes, ahead, b"/END").is_some() {
+                    if !has_points {
+                        sections.lines.end = ahead;
+                    }
+                    sections.is_closed = true;
                     break;
                 }
             }

@@ -309,6 +309,12 @@ fn points_that_are_none_of_a_six_axis_arm_are_errors() {
 #[test]
 fn broken_text_is_an_error_with_its_place() {
     let good = listing("J P[1] 100% FINE ;", &usual("1"));
+    let cut = good.trim_end().trim_end_matches("/END");
+    for end in ["", "/E", "/END_"] {
+        let error = read_files(&[("a.ls", &format!("{cut}{end}"))]).expect_err("cut");
+        let wanted = "a.ls:1:8: the program (its last line is /END) is not closed";
+        assert_eq!(error.to_string(), wanted);
+    }
     for (from, to, wanted) in [
         (
             "};",

@@ -138,7 +138,7 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
     }
     let bytes = &source.bytes;
     let mut found = Sections::default();
-    let mut open = Open::Nothing;
+    let (mut open, mut opened_at) = (Open::Nothing, 0);
     let mut buffer = Vec::new();
     for line in lines(bytes, content_start(bytes)..bytes.len()) {
         let text = line.text;
@@ -148,12 +148,13 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
             found
                 .programs
                 .push(header(line.words(bytes, &mut buffer), line));
-            (open, found.is_one) = (Open::Program, true);
+            (open, opened_at, found.is_one) = (Open::Program, line.start, true);
         } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
-            (open, found.is_one) = (Open::Entries, true);
+            (open, opened_at, found.is_one) = (Open::Entries, line.start, true);
         } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
             let is_system = opens(text, b".SYSDATA");
             open = if is_system { Open::System } else { Open::Other };
+            opened_at = line.start;
             found.is_one |= is_system;
         } else if matches!(open, Open::System) {
             let is_frame = text.starts_with(b"TOOL ") || text.starts_with(b"BASE ");
@@ -169,7 +170,14 @@ pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
             program.lines.end = line.start + text.len();
         }
     }
-    Ok(found)
+    match open {
+        // others may be a line alone
+        Open::Nothing | Open::Other => Ok(found),
+        Open::Entries | Open::System | Open::Program => Err(Fault::unclosed(
+            opened_at,
+            "the section (its last line is .END)",
+        )),
+    }
 }
 
 /// `.PROGRAM name(a,b) #553; comment`

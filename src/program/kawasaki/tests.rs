@@ -278,6 +278,18 @@ fn other_sections_are_passed_over() {
     }
     let error = read_files(&[".TRANS\np1 1 2 x\n.END\n"]).expect_err("no number");
     assert!(error.to_string().contains("0.as:2:8"), "{error}");
+    // what a transfer has cut
+    for (text, place) in [
+        (".TRANS\np1 1 2 3 4 5 6\n", "0.as:1:1"),
+        (".TRANS\n.END\n.PROGRAM a()\nLMOVE p1\n.EN", "0.as:3:1"),
+        (".SYSDATA\nTOOL 0 0 1 0 0 0\n", "0.as:1:1"),
+    ] {
+        let error = read_files(&[text]).expect_err("cut").to_string();
+        assert!(
+            error.contains(place) && error.contains("is not closed"),
+            "{error}"
+        );
+    }
 }
 
 #[test]

@@ -63,6 +63,18 @@ impl Parts<'_> {
         self.value(at) == PartValue::Flag(truth)
     }
 
+    /// What is wrong with a number.
+    fn bad_value(&self, at: usize, meaning: &'static str, limit: &'static str) -> ReadError {
+        let Part { place, length, .. } = self.parts[at];
+        let fault = Fault::BadValue {
+            start: place.offset,
+            end: place.offset + u32::from(length),
+            meaning,
+            limit,
+        };
+        fault.in_source(&self.sources[place.file as usize])
+    }
+
     /// The pose whose seven parts start at `first`; `None` where one is missing.
     fn pose(&self, first: usize) -> Result<Result<Option<Pose>, Remark>, ReadError> {
         let mut values = [0.0; 7];
@@ -85,14 +97,7 @@ impl Parts<'_> {
             None => None,
         };
         if let Some((at, meaning, limit)) = wrong {
-            let Part { place, length, .. } = self.parts[first + at];
-            let fault = Fault::BadValue {
-                start: place.offset,
-                end: place.offset + u32::from(length),
-                meaning,
-                limit,
-            };
-            return Err(fault.in_source(&self.sources[place.file as usize]));
+            return Err(self.bad_value(first + at, meaning, limit));
         }
         let translation = [x, y, z].map(m_from_mm);
         let rotation = Quaternion(quaternion).normalized();
@@ -148,7 +153,7 @@ impl Parts<'_> {
     /// The load whose parts start at `first`, where it has a mass.
     fn load(&self, first: usize) -> Option<Load> {
         let number = |at: usize| self.number(first + at);
-        let mass_kg = number(0).filter(|&mass| mass > 0.0 && mass < LARGEST)?;
+        let mass_kg = number(0).filter(|&mass| mass > 0.0)?;
         let cog_m = [number(1)?, number(2)?, number(3)?].map(m_from_mm);
         Some(Load { mass_kg, cog_m })
     }
@@ -205,6 +210,9 @@ fn tool(name: &str, parts: &Parts) -> Found {
         .any(|at| parts.value(at) == PartValue::Computed)
     {
         return Ok(Err(assigned()));
+    }
+    if parts.number(TOOL_LOAD).is_some_and(|mass_kg| mass_kg < 0.0) {
+        return Err(parts.bad_value(TOOL_LOAD, "mass", "a tool weighs 0 kg or more"));
     }
     let or_tool0 = |pose: Option<Pose>| {
         pose.or_else(|| name.eq_ignore_ascii_case("tool0").then(Pose::identity))

@@ -211,7 +211,7 @@ fn what_is_no_finite_number_is_never_an_answer() {
     text("robot.csv", &(rows.join("\n") + "\n"));
     let board = repository("docs/measuring/board.csv");
     let board = board.to_str().expect("a name");
-    let cases: [(&[&str], i32, &str); 8] = [
+    let cases: [(&[&str], i32, &str); 12] = [
         (
             &["simulate", "--profile", "truth.yaml", "--joints", "far.csv"],
             2,
@@ -259,6 +259,56 @@ fn what_is_no_finite_number_is_never_an_answer() {
             "must be from 0 to 1000000",
         ),
         (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--interval-s=inf",
+            ],
+            2,
+            "--interval-s is inf; it must be from 0 to 1000000",
+        ),
+        (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--interval-s=-1",
+            ],
+            2,
+            "--interval-s is -1;",
+        ),
+        (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--temperature-c=1e308,20",
+            ],
+            2,
+            "it must be from -273.15 to 1000",
+        ),
+        (
+            &[
+                "simulate",
+                "--profile",
+                "truth.yaml",
+                "--joints",
+                "q.csv",
+                "--kind",
+                "distance",
+                "--from=1e200,0,0",
+            ],
+            2,
+            "it must be from -100000000 to 100000000",
+        ),
+        (
             &["profile", "show", "wild.yaml"],
             0,
             "at no finite distance",
@@ -286,4 +336,75 @@ fn what_is_no_finite_number_is_never_an_answer() {
         let mut pieces = all.split([' ', ',', '(', ')', ':']);
         assert!(!pieces.any(is_none), "{arguments:?}: {all}");
     }
+}
+
+#[test]
+fn an_arm_that_is_nowhere_judges_neither_measurements_nor_programs() {
+    let (folder, _) = measured();
+    let at = folder.path();
+    let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
+    let body = "{link: 2, mass_kg: 4.2,";
+    assert!(truth.contains(body));
+    let heavy = truth.replacen(body, "{link: 2, mass_kg: 1e300,", 1);
+    std::fs::write(at.join("heavy.yaml"), heavy).expect("scratch");
+    std::fs::write(at.join("truth.yaml"), truth).expect("scratch");
+    let sample = std::fs::read_to_string(repository("programs/rapid/olp/in/Deburr.mod"));
+    let sample = sample.expect("a program");
+    let load = "[1.4,[0,0,60]";
+    assert!(sample.contains(load));
+    let far = sample.replacen(load, "[1.4,[0,0,1e308]", 1);
+    std::fs::write(at.join("a.mod"), sample).expect("scratch");
+    std::fs::write(at.join("far.mod"), far).expect("scratch");
+    let cases: [(&[&str], i32, &str); 6] = [
+        (
+            &["validate", "--measurements", "m.csv"],
+            2,
+            "m.csv: line 2: the model",
+        ),
+        (
+            &["calibrate", "--measurements", "m.csv", "-o", "c.yaml"],
+            2,
+            "m.csv: line 2: the model",
+        ),
+        (
+            &["diagnose", "--measurements", "m.csv"],
+            2,
+            "m.csv: line 2: the model",
+        ),
+        (
+            &["plan", "--count", "20", "--level", "3"],
+            2,
+            "parameters shows",
+        ),
+        (
+            &["check", "a.mod", "--max-path-error", "0.1"],
+            1,
+            "not-finite",
+        ),
+        (&["check", "a.mod", "--json"], 1, "not-finite"),
+    ];
+    for (arguments, status, said) in cases {
+        let profile = ["--profile", "heavy.yaml"];
+        refused(at, &[arguments, &profile].concat(), status, said);
+        assert!(!at.join("c.yaml").exists());
+    }
+    let check = ["check", "far.mod", "--profile", "truth.yaml", "--json"];
+    let report = refused(at, &check, 1, "not-finite");
+    let report: Value = serde_json::from_str(&report).expect("a report");
+    assert_eq!(report["summary"]["max_target_error_mm"], Value::Null);
+}
+
+/// Asserts that a command ends so and says this; its standard output.
+fn refused(folder: &Path, arguments: &[&str], status: i32, said: &str) -> String {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let out = String::from_utf8_lossy(&output.stdout).into_owned();
+    let all = out.clone() + &String::from_utf8_lossy(&output.stderr);
+    let all = all.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {all}");
+    assert!(all.contains(said), "{arguments:?}: {all}");
+    out
 }

@@ -197,11 +197,13 @@ fn other_units_are_questioned() {
             "{said}"
         );
     }
-    let options: [(&[&str], &str); 4] = [
+    let options: [(&[&str], &str); 6] = [
         (&["--tool", "nope=0,0,50,0,0,0"], "`nope`"),
         (&["--frame", "nope=0,0,50,0,0,0"], "`nope`"),
         (&["--tool", "rdkTool=0,0,50,0,0,0"], "themselves"),
         (&["--tool", "0,0,50,0,1000,0"], "720 deg"),
+        (&["--tool", "0,0,100,0,0,0"], "--tool without a name"),
+        (&["--frame", "1,2,3,0,0,0"], "--frame without a name"),
     ];
     for (more, word) in options {
         let (status, said, _) = compensated("a.mod", &text(DEBURR), &thesis, more);
@@ -222,6 +224,22 @@ fn loads_beyond_the_payload_are_errors() {
         "{said}"
     );
     assert!(said.contains("2.8 kg") && said.contains("2.7 kg"), "{said}");
+    // however heavy, with a limit or without
+    let heaviest = changed(DEBURR, "[1.4,[0,0,60]", "[1e7,[0,0,60]");
+    let (status, said, _) = compensated("a.mod", &heaviest, &limited, &[]);
+    assert!(
+        status == 1 && said.contains("load-beyond-payload"),
+        "{said}"
+    );
+    let (status, said, _) = compensated("a.mod", &heaviest, &text(THESIS), &[]);
+    assert_eq!(status, 1, "{said}");
+    let floating = changed(DEBURR, "[1.4,[0,0,60]", "[-1.4,[0,0,60]");
+    let (status, said, _) = compensated("a.mod", &floating, &limited, &[]);
+    assert!(status == 2 && said.contains("a.mod:8:"), "{said}");
+    assert!(
+        said.contains("-1.4") && said.contains("0 kg or more"),
+        "{said}"
+    );
     let light = changed(THESIS, robot, "robot: {payload_kg: 2.5, manufacturer");
     let (status, said, _) = compensated("a.mod", &text(DEBURR), &light, &[]);
     assert!(status == 2 && said.contains("`artifact` is 2.6"), "{said}");
