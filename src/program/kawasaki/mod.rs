@@ -21,6 +21,7 @@
 //! Whether BASE NULL lies at the foot or at axis 2 is not known: `kinematics.base` of the profile
 //! says. Sensors, conveyors and weaving are not seen.
 
+mod calls;
 mod insert;
 mod moves;
 mod reader;

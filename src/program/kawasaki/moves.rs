@@ -140,6 +140,8 @@ impl<'a> Reader<'a> {
             Verb::Elsewhere => self.relative(part, None, Motion::Joint),
             Verb::Step(motion) => {
                 let at = step_target(part).expect("it was found");
+                // its joints say the configuration themselves
+                self.switch(Held::Flag(false));
                 let target = part.behind(at);
                 let is_tool =
                     |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");

@@ -1,13 +1,14 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
+use super::calls::Handed;
 use super::moves::Verb;
 use super::remarks::Cause;
 use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
 use crate::geometry::Pose;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable,
-    VariableId, Write, Written, short,
+    Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
+    Write, Written, short,
 };
 use crate::program::words::{Kind, Words};
 use crate::program::{Number, Source, SpeedZone};
@@ -29,6 +30,8 @@ pub(super) struct Here {
     pub next: Option<SpeedZone>,
     /// Points of the present arc.
     pub arc: usize,
+    /// Signals that are watched, and the labels that they go to.
+    watched: Vec<(Vec<u8>, u64)>,
 }
 
 pub(super) struct Reader<'a> {
@@ -39,9 +42,16 @@ pub(super) struct Reader<'a> {
     pub locals: HashMap<RoutineId, HashMap<Vec<u8>, Elements>>,
     /// Names that a statement writes.
     pub assigned: HashSet<Vec<u8>>,
-    programs: HashMap<Vec<u8>, Vec<RoutineId>>,
+    /// Likewise, with the program that it stands in.
+    pub written: HashSet<(RoutineId, Vec<u8>)>,
+    /// Programs by name in small letters.
+    pub programs: HashMap<Vec<u8>, Vec<RoutineId>>,
     /// Parameters of each program.
-    parameters: Vec<Vec<Vec<u8>>>,
+    pub parameters: Vec<Vec<Vec<u8>>>,
+    /// Programs that another calls by name.
+    pub called: HashSet<RoutineId>,
+    /// Some program is called whose name only the running program knows.
+    pub calls_any: bool,
     pub tool: VariableId,
     pub base: VariableId,
     /// Hold a reason while tool and base are as they were when the controller was saved.
@@ -93,8 +103,11 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         names: HashMap::new(),
         locals: HashMap::new(),
         assigned: HashSet::new(),
+        written: HashSet::new(),
         programs: HashMap::new(),
         parameters: Vec::new(),
+        called: HashSet::new(),
+        calls_any: false,
         switched,
         honoured,
         here: Here::default(),
@@ -104,12 +117,12 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         state(&mut reader.builder, name, before)
     });
     (reader.tool, reader.base) = (tool, base);
+    let mut handed = Vec::new();
     for (file, of) in sections.iter().enumerate() {
         for entry in &of.entries {
             reader.declare(entry, short(file));
         }
         for program in &of.programs {
-            reader.note_assigned(&sources[file], program);
             let place = Place {
                 file: short(file),
                 offset: program.at,
@@ -118,11 +131,11 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             let routine = reader.builder.declare(name, place, Start::Called);
             let name = program.name.to_ascii_lowercase();
             reader.programs.entry(name).or_default().push(routine);
-            let parameters = program.parameters.iter();
-            let parameters = parameters.map(|name| name.to_ascii_lowercase());
-            reader.parameters.push(parameters.collect());
+            reader.parameters.push(program.parameters.clone());
+            reader.note_assigned(&sources[file], program, routine, &mut handed);
         }
     }
+    reader.note_handed(handed);
     let mut routine = 0;
     for (file, of) in sections.iter().enumerate() {
         for program in &of.programs {
@@ -130,6 +143,7 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             routine += 1;
         }
     }
+    reader.start_uncalled();
     let mut script = reader.builder.finish();
     let all = vec![true; script.targets.len()];
     script.keep(&all);
@@ -164,8 +178,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Notes the names that a program writes, whenever it runs.
-    fn note_assigned(&mut self, source: &Source, program: &Program) {
+    /// Notes the names that a program writes, whenever it runs, and those that it hands to others.
+    fn note_assigned(
+        &mut self,
+        source: &Source,
+        program: &Program,
+        routine: RoutineId,
+        handed: &mut Vec<Handed>,
+    ) {
         let mut found = Vec::new();
         for line in lines(&source.bytes, program.lines.clone()) {
             // most lines write no name
@@ -175,9 +195,11 @@ impl<'a> Reader<'a> {
             let (_, part) = behind_label(line.words(&source.bytes, &mut found));
             if part.is_word(0, b"POINT") || part.is_word(0, b"HERE") {
                 let name = if part.is(1, b'/') { 3 } else { 1 };
-                if let Some((name, _)) = Name::of(part.behind(name)) {
-                    self.assigned.insert(name.stem);
+                if let Some((name, _)) = Name::defined(before_equals(part.behind(name))) {
+                    self.written.insert((routine, name.stem));
                 }
+            } else if let Some(at) = part.find(b"CALL") {
+                Handed::note(part.behind(at + 1), routine, handed);
             }
         }
     }
@@ -210,10 +232,13 @@ impl<'a> Reader<'a> {
         }
         self.here.at = part.span().start;
         if let Some(verb) = Verb::of(part) {
-            return self.moves(part, verb);
-        }
-        if !self.flow(part) {
+            self.moves(part, verb);
+        } else if !self.flow(part) && !self.calls(part) {
             self.statement(part);
+        }
+        // a signal may come at any time
+        for (_, label) in &self.here.watched {
+            self.builder.may_go_to(*label);
         }
     }
 
@@ -239,7 +264,7 @@ impl<'a> Reader<'a> {
             self.builder.begin_choice();
         } else if is(b"VALUE") || is(b"SVALUE") {
             self.builder.next_branch(false);
-        } else if is(b"ANY") && part.is(1, b':') {
+        } else if is(b"ANY") && (part.len() == 1 || part.is(1, b':')) {
             self.builder.next_branch(true);
         } else if is(b"WHILE") || is(b"FOR") {
             self.builder.begin_loop(true);
@@ -281,6 +306,8 @@ impl<'a> Reader<'a> {
             };
             self.write(Written::One(variable), How::Whole(value));
             self.write(Written::One(saved), How::Whole(off));
+            // of where the robot stands the text tells no target with the new one
+            self.here.last = None;
         } else if is(b"SPEED") {
             self.speed(rest);
         } else if is(b"ACCURACY") {
@@ -289,22 +316,36 @@ impl<'a> Reader<'a> {
         } else if is(b"POINT") {
             self.point(rest);
         } else if is(b"HERE") {
-            let here = self.builder.script.held(Held::Actual);
-            if let Some((name, _)) = Name::of(rest) {
+            if let Some((name, is_sum)) = Name::defined(rest) {
+                let here = if is_sum {
+                    self.unknown(Cause::Computed.remark())
+                } else {
+                    self.builder.script.held(Held::Actual)
+                };
                 self.write_name(&name, How::Whole(here));
             }
-        } else if is(b"CALL") {
-            self.call(rest, false);
-            self.here.last = None;
         } else if is(b"ON") || is(b"ONI") || is(b"PCEXECUTE") {
             let colon = (0..part.len()).find(|at| part.is(*at, b':'));
             if let Some(at) = part.find(b"CALL").or(colon) {
                 self.call(part.behind(at + 1), true);
+            } else if let Some(at) = part.find(b"GOTO") {
+                self.watch(part.part(1..at), part.text(at + 1));
             }
+        } else if is(b"IGNORE") {
+            let signal = rest.whole();
+            self.here.watched.retain(|(known, _)| known != signal);
         } else if SWITCHES.iter().any(|word| is(word)) {
             let remark = self.builder.script.remark(Cause::Switched.remark());
             self.switch(Held::Remark(remark));
         }
+    }
+
+    /// Until `IGNORE` the program goes to a label when a signal comes.
+    fn watch(&mut self, signal: Words<'a, '_>, label: &[u8]) {
+        let mode = if signal.is(0, b'/') { 2 } else { 0 };
+        let signal = signal.behind(mode).whole();
+        self.here.watched.retain(|(known, _)| known != signal);
+        self.here.watched.push((signal.to_vec(), key(label)));
     }
 
     /// The arm's configuration is switched, or known again.
@@ -336,17 +377,22 @@ impl<'a> Reader<'a> {
     fn point(&mut self, part: Words<'a, '_>) {
         let is_partial = part.is(0, b'/');
         let part = part.behind(if is_partial { 2 } else { 0 });
-        let Some((name, words)) = Name::of(part) else {
+        let defined = before_equals(part);
+        let Some((name, is_sum)) = Name::defined(defined) else {
             return;
         };
-        let value = part.behind(words + 1);
+        let value = part.behind(defined.len() + 1);
         if is_partial {
             let remark = self.builder.script.remark(Cause::Computed.remark());
             let how = match value.value() {
-                Some(_) => How::PartNumber(remark),
-                None => How::PartSomehow(remark),
+                Some(_) if !is_sum => How::PartNumber(remark),
+                _ => How::PartSomehow(remark),
             };
             return self.write_name(&name, how);
+        }
+        if is_sum {
+            let value = self.unknown(Cause::Computed.remark());
+            return self.write_name(&name, How::Whole(value));
         }
         let position = self.position(value);
         let value = self.expr(position);
@@ -384,93 +430,9 @@ impl<'a> Reader<'a> {
         let speed_m_s = value.zip(m_s).map(|(value, unit)| value * unit);
         self.modal(part, |of| of.speed_m_s = speed_m_s);
     }
-
-    // ---- calls
-
-    /// `name(a,b)`
-    fn call(&mut self, part: Words<'a, '_>, concurrent: bool) {
-        if part.is_empty() {
-            return;
-        }
-        let known = self.programs.get(&part.text(0).to_ascii_lowercase());
-        let callees: Box<[RoutineId]> = known.map_or_else(Box::default, |all| all[..].into());
-        let mut arguments = Vec::new();
-        if part.is(1, b'(') {
-            let given = part.inside(1).0.list();
-            for (number, given) in given.into_iter().enumerate() {
-                self.argument(given, number, &callees, &mut arguments);
-            }
-        }
-        let call = Call {
-            place: self.place(self.here.at),
-            foreign: callees.is_empty(),
-            callees,
-            name: Source::text(part.text(0)).into(),
-            arguments: self.builder.script.give(arguments),
-        };
-        if concurrent {
-            self.builder.start(call);
-        } else {
-            self.builder.call(call);
-        }
-    }
-
-    fn argument(
-        &mut self,
-        given: Words<'a, '_>,
-        number: usize,
-        callees: &[RoutineId],
-        arguments: &mut Vec<Argument>,
-    ) {
-        let name = Name::of(given);
-        let name = name.filter(|(_, words)| *words == given.len());
-        let position = name.filter(|(name, _)| self.is_known(name));
-        let value = match &position {
-            Some(_) => {
-                let position = self.position(given);
-                self.expr(position)
-            }
-            None if callees.is_empty() => return,
-            None => self.unknown(Cause::Computed.remark()),
-        };
-        let back = match value {
-            Expr::Variable(variable) => Some(variable),
-            _ => None,
-        };
-        if callees.is_empty() {
-            arguments.push(Argument {
-                parameter: None,
-                value,
-                back: None,
-            });
-        }
-        for &callee in callees {
-            let Some(name) = self.parameters[callee as usize].get(number).cloned() else {
-                continue;
-            };
-            // a parameter that is joints has its sign in the program that uses it
-            let stems = [name.clone(), [b"#", &name[..]].concat()];
-            for stem in stems {
-                let caller = std::mem::replace(&mut self.here.routine, callee);
-                let own = self.parameters[callee as usize].clone();
-                let before = std::mem::replace(&mut self.here.parameters, own);
-                let parameter = self.variable(&Name {
-                    stem,
-                    key: Some(Vec::new()),
-                });
-                self.here.routine = caller;
-                self.here.parameters = before;
-                arguments.push(Argument {
-                    parameter: Some(parameter),
-                    value,
-                    back,
-                });
-            }
-        }
-    }
 }
 
-/// Whether a line may be one that writes a name.
+/// Whether a line may be one that writes a name, or hands one to a program.
 fn may_write(line: &[u8]) -> bool {
     let has = |first: u8, other: u8, word: &[u8]| {
         let mut places = memchr::memchr2_iter(first, other, line);
@@ -479,11 +441,17 @@ fn may_write(line: &[u8]) -> bool {
             here.is_some_and(|here| here.eq_ignore_ascii_case(word))
         })
     };
-    has(b'P', b'p', b"POINT") || has(b'H', b'h', b"HERE")
+    has(b'P', b'p', b"POINT") || has(b'H', b'h', b"HERE") || has(b'C', b'c', b"CALL")
+}
+
+/// What stands before `=`; all where there is none.
+fn before_equals<'a, 'w>(part: Words<'a, 'w>) -> Words<'a, 'w> {
+    let equals = (0..part.len()).find(|at| part.is(*at, b'='));
+    part.part(0..equals.unwrap_or(part.len()))
 }
 
 /// The number or name that a line begins with to be jumped to, and what is behind it.
-fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>) {
+pub(super) fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>) {
     let has_colon = line.is(1, b':') && !line.is_word(0, b"ANY");
     if line.kind(0) == Some(Kind::Number) || has_colon {
         let words = if line.is(1, b':') { 2 } else { 1 };

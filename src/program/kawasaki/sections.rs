@@ -24,7 +24,8 @@ pub(super) struct Entry<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Program<'a> {
     pub name: &'a [u8],
-    pub parameters: Vec<&'a [u8]>,
+    /// In small letters.
+    pub parameters: Vec<Vec<u8>>,
     pub at: u32,
     /// Its lines without the first and `.END`.
     pub lines: Range<usize>,
@@ -81,7 +82,7 @@ pub(super) fn lines(bytes: &[u8], range: Range<usize>) -> impl Iterator<Item = L
 }
 
 /// Whether a line is this keyword in the first column.
-fn opens(line: &[u8], keyword: &[u8]) -> bool {
+pub(super) fn opens(line: &[u8], keyword: &[u8]) -> bool {
     let behind = line.strip_prefix(keyword).and_then(|rest| rest.first());
     line == keyword || behind.is_some_and(|b| b.is_ascii_whitespace() || *b == b';')
 }
@@ -186,8 +187,7 @@ fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
     if words.is(2, b'(') {
         let list = words.inside(2).0.list().into_iter();
         let named = list.filter(|part| !part.is_empty());
-        // the last word is the name: `.#p` is joints
-        parameters.extend(named.map(|part| part.text(part.len() - 1)));
+        parameters.extend(named.map(parameter));
     }
     let end = line.start + line.text.len();
     Program {
@@ -195,6 +195,15 @@ fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
         parameters,
         at: short(line.start),
         lines: end..end,
+    }
+}
+
+/// The name of a parameter: `.p`, also of joints `.#p` and of a pose `.&p`.
+fn parameter(part: Words) -> Vec<u8> {
+    let last = part.text(part.len() - 1).to_ascii_lowercase();
+    match part.len() {
+        1 => last,
+        _ => [b".", &last[..]].concat(),
     }
 }
 

@@ -33,16 +33,11 @@ impl Name {
 
     /// The name that words begin with, and how many it has.
     pub(super) fn of(part: Words) -> Option<(Self, usize)> {
-        let mut at = 0;
-        let mut stem = Vec::new();
-        if part.is(0, b'#') {
-            stem.push(b'#');
-            at = 1;
-        } else if part.is_word(0, b".") && part.is(1, b'#') {
-            // joints of the program's own
-            stem.extend(b"#.");
-            at = 2;
-        }
+        // a name of the program's own has its dot before the sign: `.#p` is joints, `.&p` a pose
+        let dot = usize::from(part.is_word(0, b"."));
+        let is_joints = part.is(dot, b'#');
+        let mut at = dot + usize::from(is_joints || part.is(dot, b'&'));
+        let mut stem = [&b"#"[..usize::from(is_joints)], &b"."[..dot]].concat();
         if !part.is_name(at) {
             return None;
         }
@@ -61,7 +56,16 @@ impl Name {
         Some((Self { stem, key }, at))
     }
 
-    fn is_joints(&self) -> bool {
+    /// The name that `HERE` or the left of `POINT` defines: the last of those that are added up,
+    /// and whether others stand before it.
+    pub(super) fn defined(part: Words) -> Option<(Self, bool)> {
+        let terms = part.terms();
+        let (_, last) = terms.last()?;
+        let (name, _) = Self::of(*last)?;
+        Some((name, terms.len() > 1))
+    }
+
+    pub(super) fn is_joints(&self) -> bool {
         self.stem.first() == Some(&b'#')
     }
 
@@ -339,6 +343,15 @@ impl<'a> Reader<'a> {
         self.unknown(cause.remark())
     }
 
+    /// What poses that are added up are, where the text tells it.
+    fn known_sum(&self, part: Words<'a, '_>) -> Option<Pose> {
+        let add = |sum: Pose, (sign, term): (u8, Words<'a, '_>)| {
+            let by = self.known_pose(term)?;
+            Some(sum * if sign == b'-' { by.inverse() } else { by })
+        };
+        part.terms().into_iter().try_fold(Pose::identity(), add)
+    }
+
     /// What is added to a position, where the text tells it.
     fn known_pose(&self, part: Words<'a, '_>) -> Option<Pose> {
         if part.is(1, b'(') {
@@ -391,15 +404,12 @@ impl<'a> Reader<'a> {
 
     // ---- tools and bases
 
-    /// What `TOOL` or `BASE` is set to.
+    /// What `TOOL` or `BASE` is set to; behind a comma stands the number of the tool's shape.
     pub(super) fn frame(&mut self, part: Words<'a, '_>) -> Expr {
+        let first = part.list().first().copied();
+        let part = first.filter(|first| !first.is_empty()).unwrap_or(part);
         if part.is_empty() || part.is_word(0, b"NULL") && part.len() == 1 {
             return self.frame_value("NULL", Some(Pose::identity()));
-        }
-        if part.is_word(0, b"TRANS")
-            && let Some(pose) = self.known_pose(part)
-        {
-            return self.frame_value(&Source::text(part.whole()), Some(pose));
         }
         match Name::of(part) {
             Some((name, words)) if words == part.len() && name.key.is_some() => {
@@ -409,7 +419,10 @@ impl<'a> Reader<'a> {
                     self.frame_value(&name.text(), None)
                 }
             }
-            _ => self.unknown(Cause::Assigned.remark()),
+            _ => match self.known_sum(part) {
+                Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),
+                None => self.unknown(Cause::Assigned.remark()),
+            },
         }
     }
 

@@ -5,7 +5,9 @@ use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::program::{Displacement, Motion, Move, Shape};
 
+mod inserted;
 mod robust;
+mod runs;
 
 const POINTS: &str = ".TRANS\np1 100.000000 900.000000 200.000000 10.000000 180.000000 \
     0.000000\np[1] 1 2 3 4 5 6\np[2] 1 2 3 4 5 7\n\
@@ -234,7 +236,8 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("XMOVE p1 TILL 3", "search-move"),
         ("HERE .#q\nJMOVE .#q", "run-time-position"),
         ("LDEPART 5", "relative-move"),
-        ("TOOL grip+off\nLMOVE p1", "frame-assigned-at-run-time"),
+        ("LMOVE p1\nTOOL grip\nLDEPART 5", "relative-move"),
+        ("TOOL grip+q\nLMOVE p1", "frame-assigned-at-run-time"),
         ("CALL elsewhere(p1)", "target-passed-to-routine"),
     ] {
         let program = read(&format!("TOOL NULL\nBASE NULL\n{code}"));
@@ -247,6 +250,9 @@ fn what_is_not_sure_is_refused_or_reported() {
     // joints tell the configuration again
     let program = read("TOOL NULL\nBASE NULL\nRIGHTY\nJMOVE #home\nLMOVE p1");
     assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    let program =
+        read("TOOL NULL\nBASE NULL\nRIGHTY\nJOINT SPEED9 ACCU1 TOOL1 #[1,2,3,4,5,6]\nLMOVE p1");
+    assert!(!ids(&program).contains(&"configuration-not-understood"));
     // the same name with other values in two files
     let again = POINTS.replace("100.000000", "101.000000");
     let code = format!(".PROGRAM a()\nTOOL NULL\nBASE NULL\nLMOVE p1\n.END\n{POINTS}");

@@ -3,6 +3,7 @@
 //! A statement is a line; one with a bracket open goes on.
 
 use crate::program::words::{Kind, Spelling, Word, Words, in_names};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Since s7, code stands as it is.
@@ -122,6 +123,16 @@ impl<'a> Reference<'a> {
     pub(super) fn whole(words: Words<'a, '_>) -> Option<Self> {
         Self::of(words).filter(|name| name.words == words.len() && !name.has_field)
     }
+}
+
+/// A key without the blanks between its numbers: `0, 1` is `0,1`.
+pub(super) fn plain_key(key: &[u8]) -> Cow<'_, [u8]> {
+    let is_blank = u8::is_ascii_whitespace;
+    let is_part = |b: &u8| b.is_ascii_digit() || *b == b',' || is_blank(b);
+    if key.iter().any(is_blank) && key.iter().all(is_part) {
+        return key.iter().copied().filter(|b| !is_blank(b)).collect();
+    }
+    Cow::Borrowed(key)
 }
 
 /// A text without its quotes.

@@ -5,6 +5,7 @@
 //! whose father has a tag of its own. Numbers that are left out are zero; sides of the arm that are
 //! left out stay as they are.
 
+use super::code::plain_key;
 use super::xml::{Attribute, Node, Nodes, Tag};
 use crate::geometry::units::MM;
 use crate::program::kit::Fault;
@@ -235,6 +236,7 @@ pub(super) struct Datum<'a> {
 impl Datum<'_> {
     /// The value of a key.
     pub(super) fn element(&self, key: &[u8]) -> Option<usize> {
+        let key = &*plain_key(key);
         // keys mostly count up from 0
         let guess = std::str::from_utf8(key)
             .ok()

@@ -2,7 +2,9 @@
 //! libraries.
 
 use super::data::{self, Datum, Kind};
+use super::remarks::{declared_again, finding, not_in_project};
 use super::xml::{Node, Nodes};
+use crate::finding::Finding;
 use crate::program::kit::Fault;
 use crate::program::script::short;
 use crate::program::{ReadError, Source};
@@ -41,6 +43,8 @@ pub(super) struct Program<'a> {
 pub(super) struct Project<'a> {
     /// Folder and name of the .pjx; the folder alone where there is none.
     path: String,
+    /// The .pjx names files of these kinds, and some are there: others do not belong to it.
+    names: [bool; 2],
     /// Indices in [`World::data`].
     pub data: HashMap<&'a [u8], u32>,
     /// Indices in [`World::programs`].
@@ -55,6 +59,8 @@ pub(super) struct World<'a> {
     pub projects: Vec<Project<'a>>,
     pub data: Vec<Datum<'a>>,
     pub programs: Vec<Program<'a>>,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
 }
 
 /// What a file is by its first tag.
@@ -110,6 +116,19 @@ fn below(folder: &str, name: &[u8]) -> String {
     }
 }
 
+/// The lists of a .pjx: data and programs.
+const DATA: usize = 0;
+const PROGRAMS: usize = 1;
+
+/// The list of a .pjx that a file belongs in.
+fn list_of(source: &Source) -> Option<usize> {
+    match kind_of(&source.bytes)? {
+        FileKind::Project => None,
+        FileKind::Data => Some(DATA),
+        FileKind::Programs => Some(PROGRAMS),
+    }
+}
+
 /// Files of a project, by path in small letters.
 type Claims = HashMap<String, u32>;
 
@@ -123,12 +142,22 @@ pub(super) fn read(sources: &[Source]) -> Result<World<'_>, ReadError> {
             read.map_err(|fault| fault.in_source(source))?;
         }
     }
+    for source in sources {
+        let named = claims.get(&clean(&source.name).to_lowercase()).copied();
+        if let (Some(project), Some(list)) = (named, list_of(source)) {
+            world.projects[project as usize].names[list] = true;
+        }
+    }
     for (file, source) in sources.iter().enumerate() {
-        let file = short(file);
-        let read = match kind_of(&source.bytes) {
-            Some(FileKind::Data) => world.data(source, file, &mut claims),
-            Some(FileKind::Programs) => world.programs(source, file, &mut claims),
-            _ => Ok(()),
+        let Some(list) = list_of(source) else {
+            continue;
+        };
+        let Some(project) = world.project_of(source, list, &mut claims) else {
+            continue;
+        };
+        let read = match list {
+            DATA => world.data(source, short(file), project),
+            _ => world.programs(source, short(file), project),
         };
         read.map_err(|fault| fault.in_source(source))?;
     }
@@ -185,44 +214,53 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// The project of a file: the one that names it, else that of its folder.
-    fn project_of(&mut self, source: &Source, claims: &mut Claims) -> u32 {
+    /// The project of a file: the one that names it, else that of its folder; `None` where that
+    /// names others of its list.
+    fn project_of(&mut self, source: &Source, list: usize, claims: &mut Claims) -> Option<u32> {
         let path = clean(&source.name);
         let folder = folder_of(&path).to_owned();
-        let known = claims
-            .get(&path.to_lowercase())
-            .or_else(|| claims.get(&folder.to_lowercase()));
-        known.copied().unwrap_or_else(|| {
+        if let Some(&project) = claims.get(&path.to_lowercase()) {
+            return Some(project);
+        }
+        let Some(&project) = claims.get(&folder.to_lowercase()) else {
             let made = short(self.projects.len());
             claims.insert(folder.to_lowercase(), made);
             self.projects.push(Project {
                 path: folder,
                 ..Project::default()
             });
-            made
-        })
+            return Some(made);
+        };
+        let of = &self.projects[project as usize];
+        if of.names[list] {
+            let remark = not_in_project(&of.path);
+            self.findings.push(finding(remark, source, 0));
+            return None;
+        }
+        Some(project)
     }
 
-    fn data(&mut self, source: &'a Source, file: u32, claims: &mut Claims) -> Result<(), Fault> {
-        let project = self.project_of(source, claims);
+    fn data(&mut self, source: &'a Source, file: u32, project: u32) -> Result<(), Fault> {
         for datum in data::read(&source.bytes, project, file)?.data {
             let own = &mut self.projects[project as usize].data;
-            own.insert(datum.name, short(self.data.len()));
+            let known = own.insert(datum.name, short(self.data.len()));
+            if known.is_some() && datum.kind != Kind::Other {
+                let remark = declared_again(&Source::text(datum.name));
+                self.findings.push(finding(remark, source, datum.at));
+            }
             self.data.push(datum);
         }
         Ok(())
     }
 
-    fn programs(
-        &mut self,
-        source: &'a Source,
-        file: u32,
-        claims: &mut Claims,
-    ) -> Result<(), Fault> {
-        let project = self.project_of(source, claims);
+    fn programs(&mut self, source: &'a Source, file: u32, project: u32) -> Result<(), Fault> {
         for program in programs(&source.bytes, project, file)? {
             let own = &mut self.projects[project as usize].programs;
-            own.insert(program.name, short(self.programs.len()));
+            let known = own.insert(program.name, short(self.programs.len()));
+            if known.is_some() {
+                let remark = declared_again(&Source::text(program.name));
+                self.findings.push(finding(remark, source, program.at));
+            }
             self.programs.push(program);
         }
         Ok(())
@@ -255,27 +293,47 @@ impl<'a> World<'a> {
         self.at_path(project, path)
     }
 
-    /// The project at a path, from the folder of another: `./Prog1`, `Disk://Prog1/Prog1.pjx`.
+    /// The project at a path, from the folder of another: `./Prog1`, `Disk://Prog1/Prog1.pjx`. Where
+    /// none is exactly there, the only one whose path ends so in the nearest folder around.
     pub(super) fn at_path(&self, project: u32, path: &[u8]) -> Option<u32> {
         let text = String::from_utf8_lossy(path);
         let text = text.split("://").last().unwrap_or_default();
-        let wanted = clean(text).to_lowercase();
-        let wanted = wanted.trim_start_matches("../");
-        let stem = wanted.strip_suffix(".pjx").unwrap_or(wanted);
-        let name = stem.rsplit('/').next().filter(|name| !name.is_empty())?;
-        // `Prog1` stands for `Prog1/Prog1.pjx`
-        let ends = [format!("{stem}.pjx"), format!("{stem}/{name}.pjx")];
-        let is_at = |(_, other): &(usize, &Project)| {
-            let other = other.path.to_lowercase();
-            ends.iter()
-                .any(|end| other == *end || other.ends_with(&format!("/{end}")))
-        };
         let own = folder_of(&self.projects[project as usize].path).to_lowercase();
-        let near = |(_, other): &(usize, &Project)| other.path.to_lowercase().starts_with(&own);
-        let all = || self.projects.iter().enumerate().filter(is_at);
-        let found = all().find(near).or_else(|| all().next());
-        found.map(|(at, _)| short(at))
+        let wanted = clean(text).to_lowercase();
+        let exact = paths_of(&below(&own, wanted.as_bytes()))?;
+        let ends = paths_of(wanted.trim_start_matches("../"))?;
+        let all = || {
+            let paths = self.projects.iter().map(|other| other.path.to_lowercase());
+            (0..).zip(paths)
+        };
+        if let Some((at, _)) = all().find(|(_, path)| exact.contains(path)) {
+            return Some(at);
+        }
+        let is_at = |path: &str| ends.iter().any(|end| is_below(path, end));
+        let mut around = &own[..];
+        loop {
+            let is_near = |path: &str| around.is_empty() || path.starts_with(&format!("{around}/"));
+            let mut found = all().filter(|(_, path)| is_near(path) && is_at(path));
+            match (found.next(), found.next()) {
+                (Some((at, _)), None) => return Some(at),
+                (None, _) if !around.is_empty() => around = folder_of(around),
+                _ => return None,
+            }
+        }
     }
+}
+
+/// The project files that a path may mean: `Prog1` stands for `Prog1/Prog1.pjx`.
+fn paths_of(path: &str) -> Option<[String; 2]> {
+    let stem = path.strip_suffix(".pjx").unwrap_or(path);
+    let name = stem.rsplit('/').next().filter(|name| !name.is_empty())?;
+    Some([format!("{stem}.pjx"), format!("{stem}/{name}.pjx")])
+}
+
+/// Whether a path is another one, or that below some folder.
+fn is_below(path: &str, end: &str) -> bool {
+    let folder = path.strip_suffix(end);
+    folder.is_some_and(|folder| folder.is_empty() || folder.ends_with('/'))
 }
 
 /// The programs of a file.

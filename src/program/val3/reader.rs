@@ -4,7 +4,7 @@ use super::code::{Code, Reference, unquoted};
 use super::data::Kind;
 use super::moves::Verb;
 use super::project::{Program, World};
-use super::remarks::{computed, frame_assigned, library};
+use super::remarks::{computed, finding, frame_assigned, library};
 use super::targets::{Of, Variables};
 use crate::program::Source;
 use crate::program::script::{
@@ -56,13 +56,14 @@ pub(super) struct Reader<'a> {
 }
 
 /// The statements of all programs.
-pub(super) fn script<'a>(sources: &'a [Source], world: World<'a>) -> Script {
+pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script {
     let code = |program: &Program| {
         let bytes = &sources[program.file as usize].bytes;
         Code::of(bytes, program.code.clone(), program.is_escaped)
     };
     let codes: Vec<Code<'a>> = world.programs.iter().map(code).collect();
     let mut builder = Builder::default();
+    builder.script.findings.append(&mut world.findings);
     let variables = Variables::of(&mut builder, &world);
     let mut reader = Reader {
         sources,
@@ -228,11 +229,8 @@ impl<'a> Reader<'a> {
             ),
             None => format!("library {}", Source::text(alias)),
         };
-        let remark = library(&name);
         let source = &self.sources[place.file as usize];
-        let (offset, id) = (place.offset as usize, remark.id);
-        let text = remark.text.into_string();
-        let finding = source.finding(offset, id, remark.severity, text, remark.hint);
+        let finding = finding(library(&name), source, place.offset);
         self.builder.script.findings.push(finding);
     }
 

@@ -1,6 +1,14 @@
 //! What is wrong with targets, frames and moves, in words.
 
+use crate::finding::{Finding, Severity};
+use crate::program::Source;
 use crate::program::script::Remark;
+
+/// A remark on a byte of a file.
+pub(super) fn finding(remark: Remark, source: &Source, offset: u32) -> Finding {
+    let (id, severity, text) = (remark.id, remark.severity, remark.text.into_string());
+    source.finding(offset as usize, id, severity, text, remark.hint)
+}
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
@@ -28,6 +36,39 @@ pub(super) fn not_taught(name: &str) -> Remark {
         format!("{name} has no numbers in the .dtx: it was never taught"),
         "teach the point, or leave the move out",
     )
+}
+
+/// Points without numbers among others that only the running program chooses from.
+pub(super) fn some_not_taught(name: &str, untaught: &str) -> Remark {
+    Remark::warning(
+        "target-uninitialised",
+        format!(
+            "only the running program knows to which {name} a move goes, and {untaught} was never \
+             taught: it is taken to go to the others"
+        ),
+        "teach the point, or see that no move goes to it",
+    )
+}
+
+/// A name that files of one project declare more than once.
+pub(super) fn declared_again(name: &str) -> Remark {
+    Remark::error(
+        "target-name-ambiguous",
+        format!("the files of this project declare {name} more than once"),
+        "name in the .pjx only the files that the robot loads, with each name once",
+    )
+}
+
+/// A file that the project file of its folder does not name.
+pub(super) fn not_in_project(project: &str) -> Remark {
+    Remark {
+        severity: Severity::Note,
+        ..Remark::warning(
+            "file-not-in-project",
+            format!("{project} does not name this file: it is left out"),
+            "name the file in the .pjx if the robot loads it",
+        )
+    }
 }
 
 /// A point of an arm with other axes.

@@ -1,10 +1,12 @@
 //! Points, joints, tools: what a name in the code is, and what it holds.
 
-use super::code::Reference;
+use super::code::{Reference, plain_key};
 use super::data::{Datum, Element, Father, Kind};
 use super::project::{Declared, World};
 use super::reader::Reader;
-use super::remarks::{altered, computed, frame_chosen, not_in_files, not_taught, other_arm};
+use super::remarks::{
+    altered, computed, finding, frame_chosen, not_in_files, not_taught, other_arm, some_not_taught,
+};
 use crate::geometry::Pose;
 use crate::program::script::{
     Builder, Expr, Held, Place, Remark, RoutineId, TableId, ValueId, Variable, VariableId, Written,
@@ -13,6 +15,7 @@ use crate::program::script::{
 use crate::program::words::{Words, six};
 use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::{HashMap, HashSet};
+use std::borrow::Cow;
 
 /// What a name is: its values are the entries of a table.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +55,7 @@ pub(super) struct Variables<'a> {
     pub father_of: Vec<u32>,
     locals: HashMap<(RoutineId, &'a [u8]), Known>,
     /// Of names that no datum has a value for, by table and key.
-    others: HashMap<(TableId, &'a [u8]), VariableId>,
+    others: HashMap<(TableId, Cow<'a, [u8]>), VariableId>,
     /// Tables that have all their values.
     filled: HashSet<TableId>,
     /// Any value of a table.
@@ -220,7 +223,10 @@ impl<'a> Reader<'a> {
         };
         let made = match value {
             Some((datum, at)) => self.variables.values[datum][at].variable,
-            None => self.variables.others.get(&(known.table, key)).copied(),
+            None => {
+                let key = (known.table, plain_key(key));
+                self.variables.others.get(&key).copied()
+            }
         };
         if let Some(made) = made {
             return made;
@@ -247,7 +253,10 @@ impl<'a> Reader<'a> {
         script.enter(known.table, made);
         match value {
             Some((datum, at)) => self.variables.values[datum][at].variable = Some(made),
-            None => drop(self.variables.others.insert((known.table, key), made)),
+            None => {
+                let key = (known.table, plain_key(key));
+                self.variables.others.insert(key, made);
+            }
         }
         made
     }
@@ -325,8 +334,9 @@ impl<'a> Reader<'a> {
 
     /// What a name holds.
     pub(super) fn named(&mut self, name: &Reference<'a>) -> Expr {
+        let meaning = self.meaning(name);
         let is_own = |known: &Known| matches!(known.of, Of::Program(_));
-        if let Some(own) = self.meaning(name).filter(is_own)
+        if let Some(own) = meaning.filter(is_own)
             && name.key.is_none()
         {
             return self.unknown(unknown_value(own.kind));
@@ -336,12 +346,43 @@ impl<'a> Reader<'a> {
             Ok(Written::AnyOf(table)) => table,
             Err(remark) => return self.unknown(remark),
         };
-        let script = &mut self.builder.script;
-        *self.variables.any.entry(table).or_insert_with(|| {
-            let all = script.tables[table as usize].entries.values();
-            let all: Vec<Expr> = all.map(|one| Expr::Variable(*one)).collect();
-            script.any(all)
-        })
+        if let Some(known) = self.variables.any.get(&table) {
+            return *known;
+        }
+        let all = self.any_of(table, meaning);
+        let any = self.builder.script.any(all.into_iter().map(Expr::Variable));
+        self.variables.any.insert(table, any);
+        any
+    }
+
+    /// The values of a table that a move may go to by an index that only the running program knows:
+    /// spare points without numbers are left out where nothing writes them.
+    fn any_of(&mut self, table: TableId, meaning: Option<Known>) -> Vec<VariableId> {
+        let script = &self.builder.script;
+        let entries = &script.tables[table as usize].entries;
+        let all: Vec<VariableId> = entries.values().copied().collect();
+        let datum = match meaning.filter(|known| known.kind.is_place()) {
+            Some(Known {
+                of: Of::Project(datum),
+                ..
+            }) if !self.assigned.contains(&datum) => datum,
+            _ => return all,
+        };
+        let is_taught = |one: &VariableId| {
+            let declared = script.variables[*one as usize].declared;
+            matches!(declared, Expr::Target(_))
+        };
+        let (taught, spare): (Vec<_>, Vec<_>) = all.iter().partition(|one| is_taught(one));
+        let Some(first) = spare.first().filter(|_| !taught.is_empty()) else {
+            return all;
+        };
+        let of = &self.world.data[datum as usize];
+        let first = &script.variables[*first as usize].name;
+        let remark = some_not_taught(&Source::text(of.name), first);
+        let source = &self.sources[of.file as usize];
+        let finding = finding(remark, source, of.at);
+        self.builder.script.findings.push(finding);
+        taught
     }
 
     // ---- positions

@@ -6,6 +6,7 @@ use crate::geometry::Convention;
 use crate::geometry::units::DEG;
 use crate::program::{Displacement, Motion, Move, Value};
 
+mod projects;
 mod robust;
 
 /// A data file of these declarations.

@@ -3,7 +3,7 @@
 use super::*;
 
 /// What mutations cut, and put in its place.
-const MUTATIONS: [(usize, &str); 20] = [
+const MUTATIONS: [(usize, &str); 25] = [
     (1, ""),
     (40, ""),
     (0, "\n"),
@@ -24,6 +24,11 @@ const MUTATIONS: [(usize, &str); 20] = [
     (0, " SHIFT("),
     (0, "\nEND\n"),
     (0, "\nHERE p1\n"),
+    (0, "&"),
+    (0, "="),
+    (0, "\nSCALL $n\n"),
+    (0, "\nJUMP a\n"),
+    (0, "\nONI 1 GOTO 2\n"),
 ];
 
 const SAMPLE: &str = ".PROGRAM a(.p)\nTOOL grip\nBASE NULL\nJMOVE #home\nIF x THEN\nLMOVE \

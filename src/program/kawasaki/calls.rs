@@ -1,0 +1,240 @@
+//! Calls: what runs, and what it is handed.
+
+use super::reader::Reader;
+use super::targets::Name;
+use crate::program::Source;
+use crate::program::script::{Argument, Call, Expr, RoutineId, Start, VariableId};
+use crate::program::words::{Kind, Words};
+
+/// A name that a program hands to another, which may write it.
+pub(super) struct Handed {
+    name: Name,
+    by: RoutineId,
+    /// The other program's name in small letters.
+    to: Vec<u8>,
+    /// The number of the parameter.
+    number: usize,
+}
+
+impl Handed {
+    /// Adds the names of a call `name(a,b)`.
+    pub(super) fn note(call: Words, by: RoutineId, handed: &mut Vec<Self>) {
+        if !call.is(1, b'(') {
+            return;
+        }
+        let given = call.inside(1).0.list().into_iter().enumerate();
+        handed.extend(given.filter_map(|(number, given)| {
+            let (name, words) = Name::of(given)?;
+            (words == given.len()).then(|| Self {
+                name,
+                by,
+                to: call.text(0).to_ascii_lowercase(),
+                number,
+            })
+        }));
+    }
+}
+
+/// What a parameter is called in the program that has it: joints have their sign there.
+fn stem_of(parameter: &[u8], given: &Name) -> Vec<u8> {
+    let sign: &[u8] = if given.is_joints() { b"#" } else { b"" };
+    [sign, parameter].concat()
+}
+
+/// Whether `EXTCALL` may call a program: signals give the number of `pg1`, `pg2`, ….
+fn is_selected(name: &[u8]) -> bool {
+    let number = name.strip_prefix(b"pg").unwrap_or_default();
+    !number.is_empty() && number.iter().all(u8::is_ascii_digit)
+}
+
+impl<'a> Reader<'a> {
+    /// Names that are handed to programs that write them are written, too.
+    pub(super) fn note_handed(&mut self, handed: Vec<Handed>) {
+        loop {
+            let known = self.written.len();
+            for one in &handed {
+                let is_written = |callee: &RoutineId| {
+                    let parameter = self.parameters[*callee as usize].get(one.number);
+                    parameter.is_some_and(|parameter| {
+                        let own = (*callee, stem_of(parameter, &one.name));
+                        self.written.contains(&own)
+                    })
+                };
+                if self.programs_of(&one.to).iter().any(is_written) {
+                    self.written.insert((one.by, one.name.stem.clone()));
+                }
+            }
+            if self.written.len() == known {
+                break;
+            }
+        }
+        let names = self.written.iter().map(|(_, name)| name.clone());
+        self.assigned.extend(names);
+    }
+
+    /// The programs of a name; none where the files do not have it.
+    fn programs_of(&self, name: &[u8]) -> Box<[RoutineId]> {
+        let known = self.programs.get(&name.to_ascii_lowercase());
+        known.map_or_else(Box::default, |all| all[..].into())
+    }
+
+    /// Whether the words are a call.
+    pub(super) fn calls(&mut self, part: Words<'a, '_>) -> bool {
+        let rest = part.behind(1);
+        let is = |word: &[u8]| part.is_word(0, word);
+        let is_jump = is(b"JUMP") || is(b"SJUMP");
+        if is(b"CALL") || is(b"JUMP") {
+            self.call(rest, false);
+        } else if is(b"SCALL") || is(b"SJUMP") {
+            self.call_text(rest);
+        } else if is(b"EXTCALL") {
+            self.call_any(part, is_selected);
+        } else {
+            return false;
+        }
+        if is_jump {
+            // from there it goes back to the caller of this one
+            self.builder.back();
+        }
+        true
+    }
+
+    /// `CALL name(a,b)`, `JUMP name`
+    pub(super) fn call(&mut self, part: Words<'a, '_>, concurrent: bool) {
+        if part.is_empty() {
+            return;
+        }
+        let callees = self.programs_of(part.text(0));
+        let mut arguments = Vec::new();
+        if part.is(1, b'(') {
+            let given = part.inside(1).0.list();
+            for (number, given) in given.into_iter().enumerate() {
+                self.argument(given, number, &callees, &mut arguments);
+            }
+        }
+        let call = self.call_of(part.text(0), callees, arguments);
+        if concurrent {
+            self.builder.start(call);
+        } else {
+            self.put_call(call);
+        }
+    }
+
+    /// `SCALL "name"`, `SCALL $name,error`, `SJUMP "name"`
+    fn call_text(&mut self, part: Words<'a, '_>) {
+        let list = part.list();
+        match list.first() {
+            Some(name) if name.len() == 1 && name.kind(0) == Some(Kind::Text) => {
+                let name = name.text(0);
+                let name = name.strip_prefix(b"\"").unwrap_or(name);
+                let name = name.strip_suffix(b"\"").unwrap_or(name);
+                let callees = self.programs_of(name);
+                let call = self.call_of(name, callees, Vec::new());
+                self.put_call(call);
+            }
+            _ => self.call_any(part, |_| true),
+        }
+    }
+
+    /// Some program, and only the running program knows which: one of these names (in small
+    /// letters) in the files, or another.
+    fn call_any(&mut self, part: Words<'a, '_>, is_one: impl Fn(&[u8]) -> bool) {
+        let own = self.here.routine;
+        let ones = self.programs.iter().filter(|(name, _)| is_one(name));
+        let mut callees: Vec<RoutineId> = ones.flat_map(|(_, all)| all).copied().collect();
+        callees.retain(|callee| *callee != own);
+        callees.sort_unstable();
+        self.calls_any = true;
+        let call = Call {
+            place: self.place(self.here.at),
+            callees: callees.into(),
+            foreign: true,
+            name: Source::text(part.whole()).into(),
+            arguments: 0..0,
+        };
+        self.put_call(call);
+    }
+
+    /// A call of a name.
+    fn call_of(&mut self, name: &[u8], callees: Box<[RoutineId]>, given: Vec<Argument>) -> Call {
+        let own = self.here.routine;
+        self.called
+            .extend(callees.iter().filter(|callee| **callee != own));
+        Call {
+            place: self.place(self.here.at),
+            foreign: callees.is_empty(),
+            callees,
+            name: Source::text(name).into(),
+            arguments: self.builder.script.give(given),
+        }
+    }
+
+    /// What a call does to the flow, where it stands.
+    fn put_call(&mut self, call: Call) {
+        self.builder.call(call);
+        self.here.last = None;
+    }
+
+    /// Where only the running program knows what it calls, what no call names may be started by the
+    /// operator all the same.
+    pub(super) fn start_uncalled(&mut self) {
+        if !self.calls_any {
+            return;
+        }
+        for (routine, of) in (0..).zip(&mut self.builder.script.routines) {
+            if of.start == Start::Called && !self.called.contains(&routine) {
+                of.start = Start::Main;
+            }
+        }
+    }
+
+    fn argument(
+        &mut self,
+        given: Words<'a, '_>,
+        number: usize,
+        callees: &[RoutineId],
+        arguments: &mut Vec<Argument>,
+    ) {
+        let name = Name::of(given).filter(|(_, words)| *words == given.len());
+        let Some((name, _)) = name.filter(|(name, _)| self.is_known(name)) else {
+            return;
+        };
+        let position = self.position(given);
+        let value = self.expr(position);
+        if callees.is_empty() {
+            arguments.push(Argument {
+                parameter: None,
+                value,
+                back: None,
+            });
+        }
+        for &callee in callees {
+            let Some(parameter) = self.parameters[callee as usize].get(number) else {
+                continue;
+            };
+            let stem = stem_of(parameter, &name);
+            arguments.push(Argument {
+                parameter: Some(self.parameter(callee, stem)),
+                value,
+                back: match value {
+                    Expr::Variable(variable) => Some(variable),
+                    _ => None,
+                },
+            });
+        }
+    }
+
+    /// The variable of a program's parameter.
+    fn parameter(&mut self, callee: RoutineId, stem: Vec<u8>) -> VariableId {
+        let caller = std::mem::replace(&mut self.here.routine, callee);
+        let own = self.parameters[callee as usize].clone();
+        let before = std::mem::replace(&mut self.here.parameters, own);
+        let parameter = self.variable(&Name {
+            stem,
+            key: Some(Vec::new()),
+        });
+        self.here.routine = caller;
+        self.here.parameters = before;
+        parameter
+    }
+}

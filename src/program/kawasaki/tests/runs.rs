@@ -1,0 +1,117 @@
+//! What runs after what, and what programs hand to each other.
+
+use super::*;
+
+/// The targets that moves go to, each once.
+fn targets(program: &Program) -> Vec<&str> {
+    let all = program.moves.iter().filter_map(|m| target(program, m));
+    let mut all: Vec<_> = all.collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// A program with these lines behind `TOOL` and `BASE`, and another.
+fn read_two(code: &str, other: &str) -> Program {
+    let text = format!(
+        ".PROGRAM main()\nTOOL grip\nBASE NULL\n{code}\n.END\n.PROGRAM {other}\n.END\n{POINTS}"
+    );
+    read_files(&[&text]).expect("programs")
+}
+
+#[test]
+fn parameters_are_joints_and_poses_and_bring_back_what_is_written() {
+    for (code, other, expected) in [
+        ("CALL put(&p1)", "put(.&p)\nLMOVE .p", "p1"),
+        ("CALL put(p1)", "put(.p)\nLMOVE .&p", "p1"),
+        ("CALL go(#home)", "go(.#p)\nJMOVE .#p", "#home"),
+        ("CALL go(#home)", "go(.p)\nJMOVE .#p", "#home"),
+        ("CALL get(p1)\nLMOVE p1", "get(.t)\nPOINT .t = p[2]", "p[2]"),
+        (
+            "CALL get(&p1)\nLMOVE p1",
+            "get(.&t)\nPOINT .t = p[2]",
+            "p[2]",
+        ),
+    ] {
+        let program = read_two(code, other);
+        assert_eq!(targets(&program), [expected], "{code}");
+    }
+    let program = read_two(
+        "CALL get(off)\nTOOL off\nLMOVE p1",
+        "get(.t)\nPOINT .t = grip",
+    );
+    let tool = &program.tools[program.moves[0].tool];
+    let tip = tool.flange_from_tool.expect("known").translation;
+    assert_eq!(tip, [0.0, 0.0, 0.15]);
+}
+
+#[test]
+fn what_a_program_writes_that_it_is_handed_is_no_constant() {
+    let get = "get(.t)\nPOINT .t = p[2]";
+    let pass = format!("pass(.o)\nCALL get(.o)\n.END\n.PROGRAM {get}");
+    for (code, other) in [("CALL get(off)", get), ("CALL pass(off)", &pass)] {
+        let program = read_two(&format!("{code}\nLMOVE p1+off"), other);
+        assert_eq!(program.moves[0].displacement, Displacement::Unknown);
+    }
+    let program = read_two("CALL put(off)\nLMOVE p1+off", "put(.p)\nx = DX(.p)");
+    assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
+}
+
+#[test]
+fn the_last_branch_of_a_choice_needs_no_colon() {
+    for any in ["ANY", "ANY :"] {
+        let program = read(&format!(
+            "TOOL NULL\nBASE NULL\nPOINT q = p[1]\nCASE n OF\nVALUE 1:\nPOINT q = p1\n{any}\nPOINT \
+             q = p[2]\nEND\nLMOVE q"
+        ));
+        assert_eq!(targets(&program), ["p1", "p[2]"], "{any}");
+    }
+}
+
+#[test]
+fn of_a_sum_the_last_name_is_defined() {
+    for code in ["HERE p1+off", "POINT p1+off = p[2]"] {
+        let program = read(&format!(
+            "TOOL NULL\nBASE NULL\n{code}\nLMOVE p1\nLMOVE p1+off"
+        ));
+        assert_eq!(targets(&program), ["p1"], "{code}");
+        assert_eq!(program.moves[0].displacement, Displacement::None);
+        assert_eq!(program.moves[1].displacement, Displacement::Unknown);
+    }
+}
+
+#[test]
+fn programs_are_called_by_texts_and_jumped_to() {
+    let program = read_two("SCALL \"Other\"\nLMOVE p1", "other()\nTOOL off");
+    assert_eq!(program.tools[program.moves[0].tool].name, "off");
+    for jump in ["JUMP other", "SJUMP \"other\""] {
+        let program = read_two(&format!("LMOVE p1\n{jump}"), "other()\nLMOVE p[2]");
+        let tools = program.moves.iter().map(|m| &program.tools[m.tool].name);
+        assert_eq!(tools.collect::<Vec<_>>(), ["grip", "grip"], "{jump}");
+    }
+    // only the running program knows which
+    for call in ["SCALL $name,err", "EXTCALL"] {
+        let program = read_two(&format!("{call}\nLMOVE p1"), "pg1()\nPOINT p1 = p[2]");
+        assert_eq!(targets(&program), ["p1", "p[2]"], "{call}");
+    }
+    let program = read_two("EXTCALL\nLMOVE p1", "page()\nPOINT p1 = p[2]");
+    assert_eq!(targets(&program), ["p1"]);
+}
+
+#[test]
+fn a_signal_goes_to_its_label_until_it_is_ignored() {
+    let program = read(
+        "TOOL NULL\nBASE NULL\nPOINT q = p1\nONI/LVL 1001 GOTO 100\nPOINT q = p[1]\nIGNORE \
+         1001\nPOINT q = p[2]\nRETURN\n100 LMOVE q",
+    );
+    assert_eq!(targets(&program), ["p1", "p[1]"]);
+}
+
+#[test]
+fn tools_and_bases_are_sums_and_tools_have_a_shape() {
+    let program = read("TOOL grip,1\nBASE off+off\nLMOVE p1");
+    let motion = &program.moves[0];
+    assert_eq!(program.tools[motion.tool].name, "grip");
+    let base = program.frames[motion.frame].world_from_frame;
+    assert_eq!(base.expect("known").translation, [0.0, 0.0, -0.1]);
+}
