@@ -480,7 +480,7 @@ fn of_row(value: Stored, place: [u32; 3]) -> Option<Part> {
     let Stored::Row { leaves, count } = value else {
         return None;
     };
-    let [at @ 1.., 0, 0] = place else {
+    let (1.., [at, 0, 0]) = (place[0], place) else {
         return None;
     };
     let each = (leaves.1 - leaves.0) / count;
