@@ -225,7 +225,8 @@ impl Translator<'_> {
             };
             let back = match (value, argument) {
                 (Expr::Variable(variable), Some(argument))
-                    if resolved.is_written_back(datum) && self.is_one_of(argument) =>
+                    if resolved.is_written_back(datum)
+                        && (kind.is_frame() || self.is_one_of(argument)) =>
                 {
                     Some(variable)
                 }

@@ -35,6 +35,16 @@ fn parameters_by_reference_are_written_back() {
 }
 
 #[test]
+fn a_tool_that_is_declared_with_an_expression_is_written_back() {
+    let program = path(
+        "PERS tooldata g:=f();\nset g;\nMoveL p1,v5,z5,g;\nENDPROC\nPROC set(INOUT tooldata \
+         r)\nr:=t;",
+    );
+    assert_eq!(program.tools[program.moves[0].tool].name, "t");
+    assert_eq!(ids(&program), [""; 0]);
+}
+
+#[test]
 fn functions_give_positions_and_move() {
     let program = path(
         "MoveL f(p1),v5,z5,t;\nMoveL Offs(f(p2),0,0,5),v5,z5,t;\nMoveC \
