@@ -3,7 +3,8 @@
 use super::frames::State;
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{computed, conveyor, passed};
+use super::remarks::{computed, conveyor};
+use super::statements::action;
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
@@ -104,10 +105,18 @@ fn known(word: &[u8]) -> Option<Known> {
     })
 }
 
+/// Whether an index leaves out which element is meant: `[]`, `[,]`, `[2,]`.
+fn is_whole(index: &[u8]) -> bool {
+    let mut parts = index.split(|&b| b == b',');
+    parts.any(|part| part.trim_ascii().is_empty())
+}
+
 /// An argument as it is written.
 enum Given {
     /// A variable.
     Named(Symbol, Index),
+    /// All of an array: `p[]`.
+    Array(Symbol),
     /// A position that is written out, or a product.
     Position(Expr),
     Number(u32),
@@ -157,8 +166,10 @@ impl Reader {
         match (callee, known) {
             (None, Some(Known::Writes(from))) => {
                 for given in arguments.into_iter().skip(from) {
-                    if let Given::Named(name, at) = given {
-                        self.write_by_controller(name, at);
+                    match given {
+                        Given::Named(name, at) => self.write_by_controller(name, at),
+                        Given::Array(name) => self.write_by_controller(name, Index::Variable),
+                        _ => {}
                     }
                 }
             }
@@ -194,49 +205,18 @@ impl Reader {
         is_statement: bool,
     ) {
         let mut arguments = Vec::with_capacity(given.len());
-        let mut foreign = callee.is_none();
         let mut gives = false;
+        let mut written = Vec::new();
         for (at, given) in given.into_iter().enumerate() {
             let parameter = callee.and_then(|callee| {
                 let head = &self.names.heads[callee as usize];
                 head.parameters.get(at).copied()
             });
-            let (value, kind, whole) = match given {
-                Given::Named(name, at) => {
-                    let kind = self.names.kind(name, self.context());
-                    let is_number =
-                        kind == Some(DataKind::Number) && self.names.choosing.contains(&name);
-                    match kind {
-                        Some(kind) if kind.is_place() || is_number => {
-                            let datum = self.names.datum(name, self.context());
-                            let owner = Owner::Datum(datum.expect("it has a kind"));
-                            // brackets without an index: all of an array
-                            let is_array = at == Index::Variable;
-                            if is_array && callee.is_none() && self.refuse_array(owner, passed) {
-                                continue;
-                            }
-                            let value = self.named(name, at).unwrap_or(Expr::Absent);
-                            (value, Some(kind), is_array)
-                        }
-                        _ => (Expr::Absent, None, false),
-                    }
-                }
-                // nothing else has those numbers
-                Given::Position(_) if callee.is_none() => (Expr::Absent, None, false),
-                Given::Position(value) => (value, Some(DataKind::Position), false),
-                Given::Number(number) => {
-                    let is_chosen = parameter.is_some_and(|(datum, _)| {
-                        let name = self.names.data[datum as usize].name;
-                        self.names.choosing.contains(&name)
-                    });
-                    if is_chosen {
-                        (self.number_value(number), Some(DataKind::Number), false)
-                    } else {
-                        (Expr::Absent, None, false)
-                    }
-                }
-                Given::Other => (Expr::Absent, None, false),
+            let value = self.value_given(place, &given, parameter, callee.is_none());
+            let Some((value, kind)) = value else {
+                continue;
             };
+            written.extend(self.array_written(&given, parameter));
             let mut is_number = false;
             let is_given = parameter.is_some_and(|(datum, _)| {
                 let datum = &self.names.data[datum as usize];
@@ -247,8 +227,6 @@ impl Reader {
                 continue;
             }
             gives |= value != Expr::Absent;
-            // an array goes whole, and its elements are not followed
-            foreign |= whole;
             let by_reference = parameter.is_none_or(|(_, by_reference)| by_reference);
             let back = match value {
                 Expr::Variable(variable) if by_reference => Some(variable),
@@ -261,7 +239,7 @@ impl Reader {
                 (Expr::Absent, _) => self.unknown(computed()),
                 (value, _) => value,
             };
-            let parameter = parameter.filter(|_| is_given && !whole);
+            let parameter = parameter.filter(|_| is_given);
             let parameter = parameter.map(|(datum, _)| self.variable_of(datum));
             arguments.push(Argument {
                 parameter,
@@ -277,10 +255,70 @@ impl Reader {
         self.builder.call(Call {
             place,
             callees: callee.into_iter().collect(),
-            foreign,
+            foreign: callee.is_none(),
             name: self.names.symbols.spelling(name).into(),
             arguments,
         });
+        for array in written {
+            let how = How::PartSomehow(self.builder.script.remark(computed()));
+            self.write_element(Owner::Datum(array), Index::Variable, how);
+        }
+    }
+
+    /// What an argument is, and its kind; `None` where it is not followed.
+    fn value_given(
+        &mut self,
+        call: Place,
+        given: &Given,
+        parameter: Option<(u32, bool)>,
+        is_foreign: bool,
+    ) -> Option<(Expr, Option<DataKind>)> {
+        let nothing = Some((Expr::Absent, None));
+        let (name, at) = match *given {
+            Given::Named(name, at) => (name, at),
+            Given::Array(name) => (name, Index::Variable),
+            // nothing else has those numbers
+            Given::Position(value) if !is_foreign => {
+                return Some((value, Some(DataKind::Position)));
+            }
+            Given::Number(number) => {
+                let is_chosen = parameter.is_some_and(|(datum, _)| {
+                    let name = self.names.data[datum as usize].name;
+                    self.names.choosing.contains(&name)
+                });
+                if !is_chosen {
+                    return nothing;
+                }
+                return Some((self.number_value(number), Some(DataKind::Number)));
+            }
+            Given::Position(_) | Given::Other => return nothing,
+        };
+        let Some(datum) = self.names.datum(name, self.context()) else {
+            return nothing;
+        };
+        let kind = self.names.data[datum as usize].kind;
+        let is_number = kind == DataKind::Number && self.names.choosing.contains(&name);
+        if kind.is_place() && at == Index::Variable {
+            let is_whole = matches!(given, Given::Array(_));
+            if !self.follows_array(call, datum, is_whole, is_foreign) {
+                return None;
+            }
+        } else if !kind.is_place() && (!is_number || at == Index::Variable) {
+            return nothing;
+        }
+        Some((self.named(name, at).unwrap_or(Expr::Absent), Some(kind)))
+    }
+
+    /// The array of which a routine may write an element that only the running program knows.
+    fn array_written(&self, given: &Given, parameter: Option<(u32, bool)>) -> Option<u32> {
+        let (&Given::Named(name, Index::Variable), Some((parameter, true))) = (given, parameter)
+        else {
+            return None;
+        };
+        let datum = self.names.datum(name, self.context())?;
+        let is_place = self.names.data[datum as usize].kind.is_place();
+        let parameter = self.names.data[parameter as usize].name;
+        (is_place && self.names.touched.contains(&parameter)).then_some(datum)
     }
 
     /// The arguments of a call; the cursor stands in front of the bracket.
@@ -318,7 +356,12 @@ impl Reader {
                 };
                 if alone(&mut ahead) {
                     let name = self.symbol(&ahead, token);
-                    return Given::Named(name, Index::of(at, &ahead));
+                    return match at {
+                        Some((start, end)) if is_whole(&ahead.bytes[start..end]) => {
+                            Given::Array(name)
+                        }
+                        at => Given::Named(name, Index::of(at, &ahead)),
+                    };
                 }
                 if ahead.blanks() == b':' {
                     return self.position_argument(cursor);
@@ -365,21 +408,17 @@ impl Reader {
         }
     }
 
-    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO routine()`: the routine runs
-    /// at any time.
-    pub(super) fn concurrent(&mut self, mut cursor: Cursor) {
-        loop {
-            let token = cursor.next();
-            match token.kind {
-                Kind::End => return,
-                Kind::Name if cursor.text(token).eq_ignore_ascii_case(b"DO") => break,
-                _ => {}
-            }
-        }
-        let name = cursor.next();
-        if name.kind == Kind::Name && cursor.blanks() == b'(' {
-            let symbol = self.symbol(&cursor, name);
+    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO n=1`: the routine runs, or the
+    /// variable is written, at any time.
+    pub(super) fn concurrent(&mut self, cursor: Cursor) {
+        let Some((name, mut rest)) = action(cursor) else {
+            return;
+        };
+        if rest.blanks() == b'(' {
+            let symbol = self.symbol(&rest, name);
             self.concurrent.push((symbol, self.context()));
+        } else {
+            self.note_assignment(name, rest);
         }
     }
 

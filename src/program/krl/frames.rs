@@ -7,7 +7,7 @@ use super::remarks::{angle, chosen, frame_assigned, moving, of_another_robot};
 use super::targets::Owner;
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
-use crate::program::notation::pose_of_angles;
+use crate::program::notation::{pose_of_angles, write_angles};
 use crate::program::script::{
     Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
     VariableId, short,
@@ -69,6 +69,22 @@ impl Declared {
             (Entry::Frame(old), Some(new)) if is_same(old, &new) => Entry::Frame(new),
             _ => Entry::Ambiguous,
         };
+    }
+
+    /// A base of the table that stands still.
+    pub(super) fn base(&self, at: u32) -> Option<Pose> {
+        let is_still = !self.moving.contains_key(&at) && !self.of_others.contains(&at);
+        let Entry::Frame(parts) = self.entries.get(&(Table::Base, at)).filter(|_| is_still)? else {
+            return None;
+        };
+        let mut numbers = [0.0; 6];
+        for (number, part) in numbers.iter_mut().zip(parts) {
+            let PartValue::Number(value) = part.value else {
+                return None;
+            };
+            *number = value;
+        }
+        Some(pose_of(numbers))
     }
 }
 
@@ -197,12 +213,17 @@ pub(super) fn carried_record(
 
 const NOWHERE: Place = Place { file: 0, offset: 0 };
 
-pub(super) fn parts_of(value: PartValue) -> [Part; 6] {
-    [Part {
+/// A part that stands nowhere.
+pub(super) fn part_of(value: PartValue) -> Part {
+    Part {
         value,
         place: NOWHERE,
         length: 0,
-    }; 6]
+    }
+}
+
+pub(super) fn parts_of(value: PartValue) -> [Part; 6] {
+    [part_of(value); 6]
 }
 
 impl States {
@@ -288,6 +309,14 @@ impl States {
 /// `X Y Z A B C` in mm and degrees as a pose.
 pub(super) fn pose_of([x, y, z, a, b, c]: [f64; 6]) -> Pose {
     pose_of_angles([x, y, z, c, b, a])
+}
+
+/// Writes a pose as X Y Z A B C, the angles as near to the present ones as they can be.
+pub(super) fn write_pose(pose: &Pose, numbers: &mut [f64]) {
+    // A, B, C: that about z first
+    numbers[3..6].reverse();
+    write_angles(pose, 0.0, numbers);
+    numbers[3..6].reverse();
 }
 
 /// No tool or base is rotated by more, degrees.
@@ -393,11 +422,8 @@ impl Reader {
         let mut parts = parts.to_vec();
         if let (Table::Tool, Some(load)) = (table, load) {
             let [x, y, z] = load.cog_m;
-            parts.extend([load.mass_kg, x, y, z].map(|value| Part {
-                value: PartValue::Number(value),
-                place: NOWHERE,
-                length: 0,
-            }));
+            let numbers = [load.mass_kg, x, y, z];
+            parts.extend(numbers.map(|value| part_of(PartValue::Number(value))));
         }
         let machine = self
             .declared

@@ -120,10 +120,7 @@ impl Language for Krl {
     }
 
     fn write_pose(&self, _: Layout, pose: &Pose, numbers: &mut [f64]) {
-        // A, B, C: that about z first
-        numbers[3..6].reverse();
-        notation::write_angles(pose, 0.0, numbers);
-        numbers[3..6].reverse();
+        frames::write_pose(pose, numbers);
     }
 
     fn configuration(&self, layout: Layout, numbers: &[f64]) -> Configuration {

@@ -37,6 +37,17 @@ pub(super) fn passed() -> Remark {
     )
 }
 
+/// Against an array that a routine of the files is given.
+pub(super) fn unfollowed() -> Remark {
+    Remark::error(
+        "target-passed-to-routine",
+        "a routine is given this array, and which of its elements it goes to or writes is not \
+         followed",
+        "give it one element of an array that has at most 32, or move to the elements where the \
+         array is declared",
+    )
+}
+
 pub(super) fn ambiguous() -> Remark {
     Remark::error(
         "target-name-ambiguous",

@@ -17,13 +17,43 @@ pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 
+/// Functions that give the tool of the FDAT that is their argument.
+fn reads_fdat(name: &[u8]) -> bool {
+    name.eq_ignore_ascii_case(b"STOOL") || name.eq_ignore_ascii_case(b"STOOL2")
+}
+
+/// Which element `name[..].part=` writes, behind the name; `None` where it is no assignment.
+fn written(mut cursor: Cursor) -> Option<Index> {
+    let at = cursor.brackets().ok()?;
+    while cursor.take(b'.') {
+        cursor.next();
+        cursor.brackets().ok()?;
+    }
+    cursor.take(b'=').then(|| Index::of(at, &cursor))
+}
+
+/// What an interrupt or trigger does, behind DO: its first word and the rest.
+pub(super) fn action(mut cursor: Cursor) -> Option<(Token, Cursor)> {
+    loop {
+        let token = cursor.next();
+        match token.kind {
+            Kind::End => return None,
+            Kind::Name if cursor.text(token).eq_ignore_ascii_case(b"DO") => break,
+            _ => {}
+        }
+    }
+    let name = cursor.next();
+    (name.kind == Kind::Name).then_some((name, cursor))
+}
+
 impl Reader {
     /// Notes which names a statement may write, before any is read.
     pub(super) fn note(&mut self, first: Token, mut cursor: Cursor) {
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(first), &mut buffer);
         let next = cursor.blanks();
-        if is_motion(word) && !matches!(next, b'=' | b':' | b'.') {
+        let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
+        if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
             return;
         }
         match word {
@@ -47,21 +77,21 @@ impl Reader {
                 self.names.touched.insert(name);
             }
             _ => {
-                let Ok(at) = cursor.brackets() else { return };
-                let mut ahead = cursor;
-                while ahead.take(b'.') {
-                    ahead.next();
-                    if ahead.brackets().is_err() {
-                        return;
-                    }
-                }
-                if ahead.take(b'=') {
-                    let name = self.symbol(&cursor, first);
-                    self.touch(name, Index::of(at, &cursor));
+                self.note_assignment(first, cursor);
+                if cursor.brackets().is_err() {
+                    return;
                 }
             }
         }
         self.note_arguments(cursor);
+    }
+
+    /// Notes what `name[..].part=` writes; the cursor stands behind the name.
+    pub(super) fn note_assignment(&mut self, name: Token, cursor: Cursor) {
+        if let Some(at) = written(cursor) {
+            let name = self.symbol(&cursor, name);
+            self.touch(name, at);
+        }
     }
 
     fn touch(&mut self, name: Symbol, at: Index) {
@@ -79,6 +109,10 @@ impl Reader {
             let token = cursor.next();
             match token.kind {
                 Kind::End => return,
+                Kind::Name if reads_fdat(cursor.text(token)) && cursor.peek().is(b'(') => {
+                    cursor.take(b'(');
+                    fresh = false;
+                }
                 Kind::Name if fresh => {
                     let mut after = cursor;
                     let at = after.brackets().unwrap_or(None);
@@ -145,8 +179,17 @@ impl Reader {
                 self.bas(first, cursor);
                 return Ok(());
             }
-            b"WAIT" | b"HALT" | b"INTERRUPT" | b"TRIGGER" | b"BRAKE" | b"RESUME" | b"CONTINUE"
-            | b"ANIN" | b"ANOUT" | b"PULSE" => {
+            b"INTERRUPT" | b"TRIGGER" => {
+                if let Some((name, rest)) = action(cursor)
+                    && written(rest).is_some()
+                {
+                    let (routine, start) = (self.context().routine, name.start as usize);
+                    self.assignments.push((routine, start, rest.end));
+                }
+                return Ok(());
+            }
+            b"WAIT" | b"HALT" | b"BRAKE" | b"RESUME" | b"CONTINUE" | b"ANIN" | b"ANOUT"
+            | b"PULSE" => {
                 if word == b"WAIT" {
                     self.calls_in(cursor);
                 }

@@ -2,11 +2,14 @@
 
 use super::aggregate;
 use super::data::{Carried, fdat, is_external, load};
-use super::frames::{Choice, State, Table, carried_record, part, record, unit};
+use super::frames::{
+    Choice, State, Table, carried_record, part, part_of, pose_of, record, unit, write_pose,
+};
 use super::names::{Index, Stored, whole};
 use super::reader::Reader;
 use super::remarks::{carried, frame_assigned, linked, moving};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use crate::geometry::Pose;
 use crate::program::names::Symbol;
 use crate::program::number;
 use crate::program::script::{
@@ -136,9 +139,22 @@ impl Reader {
     /// A tool or base up to a comma or the end of the line; one that is written out is called
     /// `name`.
     pub(super) fn frame(&mut self, table: Table, name: &str, cursor: &mut Cursor) -> Read<Expr> {
+        let factors = *cursor;
         let found = self.plain_frame(table, name, cursor)?;
         match cursor.blanks() {
             0 | b',' | b';' => Ok(found),
+            b':' if table == Table::Base => {
+                super::moves::skip_value(cursor);
+                Ok(match self.base_product(factors)? {
+                    Some(pose) => {
+                        let mut numbers = [0.0; 6];
+                        write_pose(&pose, &mut numbers);
+                        let parts = numbers.map(|number| part_of(PartValue::Number(number)));
+                        Expr::Value(record(&mut self.builder.script, name, &parts))
+                    }
+                    None => self.chosen(),
+                })
+            }
             // C_DIS behind the last WITH
             _ if cursor.peek().kind == Kind::Name => Ok(found),
             _ => {
@@ -146,6 +162,41 @@ impl Reader {
                 Ok(self.chosen())
             }
         }
+    }
+
+    /// `BASE_DATA[3]:{X 10,...}` where nothing changes a factor.
+    fn base_product(&mut self, mut cursor: Cursor) -> Read<Option<Pose>> {
+        let mut product = Pose::identity();
+        loop {
+            let Some(factor) = self.base_factor(&mut cursor)? else {
+                return Ok(None);
+            };
+            product = product * factor;
+            if !cursor.take(b':') {
+                break;
+            }
+        }
+        let ends = matches!(cursor.blanks(), 0 | b',' | b';') || cursor.peek().kind == Kind::Name;
+        Ok(ends.then_some(product))
+    }
+
+    fn base_factor(&mut self, cursor: &mut Cursor) -> Read<Option<Pose>> {
+        if cursor.blanks() == b'{' {
+            let numbers = aggregate::read(cursor)?.frame();
+            return Ok(numbers.map(|numbers| pose_of(numbers.map(|number| number.value))));
+        }
+        let word = cursor.next();
+        let at = cursor.brackets()?;
+        let name = self.symbol(cursor, word);
+        let is_kept = !self.names.touched.contains(&name);
+        Ok(match Index::of(at, cursor) {
+            Index::At([at, 0, 0])
+                if is_kept && cursor.text(word).eq_ignore_ascii_case(b"BASE_DATA") =>
+            {
+                self.declared.base(at)
+            }
+            _ => None,
+        })
     }
 
     fn plain_frame(&mut self, table: Table, called: &str, cursor: &mut Cursor) -> Read<Expr> {

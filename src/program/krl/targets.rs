@@ -2,7 +2,7 @@
 
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{accurate, ambiguous, computed, home};
+use super::remarks::{accurate, ambiguous, computed, home, passed, unfollowed};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
 use crate::program::names::{Meaning, Symbol};
@@ -194,6 +194,34 @@ impl Reader {
         true
     }
 
+    /// Whether the elements of an array that a call is given are followed; if not they are refused.
+    pub(super) fn follows_array(
+        &mut self,
+        call: Place,
+        datum: u32,
+        is_whole: bool,
+        is_foreign: bool,
+    ) -> bool {
+        if is_foreign {
+            return !self.refuse_array(Owner::Datum(datum), passed);
+        }
+        let values = self.names.values(datum, Index::Variable);
+        if !is_whole && values.len() <= MOST_ELEMENTS {
+            return true;
+        }
+        if self.refused.insert((datum, "given to a routine")) {
+            self.unfollowed.push(call);
+            let script = &mut self.builder.script;
+            let remark = script.remark(unfollowed());
+            for (_, _, value) in values {
+                if let Stored::Target(target) = value {
+                    script.refused.push((*target, remark));
+                }
+            }
+        }
+        false
+    }
+
     /// Whatever a name that is declared more than once may mean has to stay.
     fn ambiguous(&mut self, list: u32, at: Index) -> Expr {
         if let Some(&known) = self.ambiguous.get(&(list, at)) {
@@ -258,6 +286,13 @@ impl Reader {
             let message = "this move goes to where the robot is: it stays there".to_owned();
             let (source, id) = (&sources[file as usize], "run-time-position");
             let finding = source.finding(offset as usize, id, Severity::Note, message, "");
+            script.findings.push(finding);
+        }
+        for Place { file, offset } in self.unfollowed {
+            let remark = unfollowed();
+            let (source, message) = (&sources[file as usize], remark.text.into());
+            let (id, severity) = (remark.id, remark.severity);
+            let finding = source.finding(offset as usize, id, severity, message, remark.hint);
             script.findings.push(finding);
         }
         let mut kept = named_targets(&mut script);

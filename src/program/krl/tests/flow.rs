@@ -196,6 +196,75 @@ fn routines_of_interrupts_run_at_any_time() {
 }
 
 #[test]
+fn what_interrupts_and_triggers_assign_may_hold_anywhere() {
+    let names = |text: &str| {
+        let program = path(text);
+        let mut names: Vec<_> = to(&program).into_iter().map(str::to_owned).collect();
+        names.sort_unstable();
+        (names, reported(&program).join(" "))
+    };
+    // as a whole
+    let trigger = "TRIGGER WHEN DISTANCE=0 DELAY=0 DO XP1=XP3";
+    let (found, ids) = names(&format!("{trigger}\nLIN XP2\nLIN XP1"));
+    assert_eq!(
+        (found, &*ids),
+        (vec!["XP1".into(), "XP2".into(), "XP3".into()], "")
+    );
+    // in parts: it is what the file has, or that with another number
+    let trigger = "TRIGGER WHEN DISTANCE=1 DELAY=0 DO XP1.Z=XP1.Z+40";
+    let (found, ids) = names(&format!("{trigger}\nLIN XP2\nLIN XP1"));
+    assert_eq!(found, ["?", "XP1", "XP2"]);
+    assert!(ids.contains("target-assigned-at-run-time"), "{ids}");
+    // a number that chooses
+    let program = path(
+        "DECL INT n\nINTERRUPT DECL 5 WHEN $IN[5]==TRUE DO n=1\nn=2\n$TOOL=TOOL_DATA[n]\nLIN XP1",
+    );
+    let mut tools: Vec<_> = program
+        .moves
+        .iter()
+        .map(|used| program.tools[used.tool].name.as_str())
+        .collect();
+    tools.sort_unstable();
+    assert_eq!(tools, ["TOOL_DATA[1]", "TOOL_DATA[2]"]);
+    // a signal changes nothing
+    let (found, ids) = names("TRIGGER WHEN PATH=0 DELAY=0 DO $OUT[1]=TRUE\nLIN XP1");
+    assert_eq!((found, &*ids), (vec!["XP1".into()], ""));
+}
+
+#[test]
+fn an_element_that_only_the_running_program_knows_is_each_of_them() {
+    let data = "DEFDAT M\nDECL E6POS w[2]\nw[1]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nw[2]={X 2,Y 0,Z 0,A 0,B \
+        0,C 0}\nENDDAT\n";
+    let read = |call: &str, routine: &str| {
+        let text = format!(
+            "DEF M()\nINT k\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nFOR k=1 TO 2\n{call}\nENDFOR\nLIN \
+             w[1]\nEND\n{routine}\nEND\n"
+        );
+        read_files(&[("m.src", &text), ("m.dat", data)])
+    };
+    let program = read("go(w[k])", "DEF go(p:IN)\nE6POS p\nLIN p");
+    let mut found = to(&program);
+    found.sort_unstable();
+    assert_eq!(found, ["w[1]", "w[1]", "w[2]"]);
+    assert_eq!(ids(&program), [""; 0]);
+    // what the routine writes may be any of them
+    let program = read("up(w[k])", "DEF up(q:OUT)\nE6POS q\nq.Z=q.Z+5");
+    assert!(ids(&program).contains(&"target-assigned-at-run-time"));
+    // all at once
+    let program = read("all(w[])", "DEF all(r[]:IN)\nE6POS r[]\nLIN r[1]");
+    let errors = program
+        .findings
+        .iter()
+        .filter(|f| f.id == "target-passed-to-routine");
+    assert!(errors.clone().count() > 0);
+    assert!(
+        errors
+            .clone()
+            .all(|f| !f.message.contains("not in the files"))
+    );
+}
+
+#[test]
 fn functions_that_are_not_in_the_files_may_move_to_what_they_are_given() {
     for text in [
         "b=place(XP1)",

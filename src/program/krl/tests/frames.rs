@@ -101,6 +101,20 @@ fn inline_forms_of_newer_controllers_set_tool_and_base_in_the_move() {
 }
 
 #[test]
+fn spline_blocks_and_functions_leave_the_fdat_that_they_are_given() {
+    for text in [
+        "SPLINE WITH $VEL=SVEL_CP(2.0, , LCPDAT1), $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO), \
+         $IPO_MODE=SIPO_MODE(FP1.IPO_FRAME), $LOAD=SLOAD(FP1.TOOL_NO)\nSPL XP1\nENDSPLINE",
+        "PTP_SPLINE WITH $TOOL=STOOL2(FP1), $BASE=SBASE(FP1.BASE_NO)\nSPTP XP1\nENDSPLINE",
+        "$TOOL=STOOL2(FP1)\n$BASE=SBASE(FP1.BASE_NO)\nLIN XP1",
+    ] {
+        let program = in_cell(text);
+        assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
+    }
+}
+
+#[test]
 fn frames_written_out_have_their_value() {
     let program = in_cell(
         "$TOOL={FRAME: X 1,Y 2,Z 3,A 0,B 0,C 90}\n$BASE={X 0,Y 0,Z 0,A 0,B 0,C 0}\nLIN \
@@ -227,6 +241,28 @@ fn frames_that_only_the_running_program_knows_are_refused() {
     }
     let program = in_cell("BAS(#TOOL,1)\nBAS(#BASE,1)\n$BASE.X=100\nLIN XP1");
     assert_eq!(translations(&program), [Some(0.1)]);
+}
+
+#[test]
+fn a_base_displaced_by_numbers_is_known() {
+    let set = "BAS(#TOOL,1)\n$BASE=BASE_DATA[2]:{X 10,Y 0,Z 0,A 0,B 0,C 0}\nLIN XP1";
+    let program = in_cell(set);
+    assert_eq!(reported(&program), [""; 0]);
+    let base = program.frames[program.moves[0].frame].world_from_frame;
+    let base = base.expect("a base");
+    // BASE_DATA[2] is turned by a right angle about z
+    let found = base.translation;
+    for (found, wanted) in found.into_iter().zip([0.5, 0.01, 0.0]) {
+        assert!((found - wanted).abs() < 1e-12, "{base:?}");
+    }
+    assert!((base.rotation.0[1][0] - 1.0).abs() < 1e-12);
+    // not where the program writes entries, nor on a kinematic
+    for other in [
+        format!("BASE_DATA[i].X=5\n{set}"),
+        set.replace("[2]", "[7]"),
+    ] {
+        assert_eq!(blocked(&in_cell(&other)), ["XP1"], "{other}");
+    }
 }
 
 #[test]
