@@ -176,8 +176,8 @@ impl IdentifyError {
                 known.iter().map(String::as_str),
             ),
             Self::AmbiguousTool { .. } => "add a column tool".into(),
-            Self::TooFew { .. } => "measure more configurations, or identify less: --level 1, or \
-                --fix"
+            Self::TooFew { .. } => "measure more configurations, or identify less: `poseshift \
+                calibrate --level 1`, or its --fix"
                 .into(),
             Self::Suspicious { hint, .. } => hint.clone(),
             Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? \
@@ -194,8 +194,8 @@ impl IdentifyError {
             Self::Feature { .. } => "touch it more often and farther apart, or give its numbers: \
                 cx_mm,cy_mm,cz_mm, radius_mm, nx,ny,nz"
                 .into(),
-            Self::NotConverged { .. } => "identify less (--level 1 first), or look at the rows \
-                with the largest residuals"
+            Self::NotConverged { .. } => "identify less (`poseshift calibrate --level 1` first), \
+                or look at the rows with the largest residuals"
                 .into(),
             _ => String::new(),
         }

@@ -21,7 +21,7 @@ use super::line::Line;
 const BETTER: f64 = 4.0;
 /// The way out where nothing fits.
 const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in \
-    its unit? `--loss tukey` if single rows are wrong";
+    its unit? `poseshift calibrate --loss tukey` if single rows are wrong";
 /// Residuals beyond this many of their stated standard deviations, or below one over it, are
 /// reported.
 const SIGMA_FACTOR: f64 = 3.0;

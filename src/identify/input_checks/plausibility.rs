@@ -211,7 +211,7 @@ pub(crate) fn check_rows(outliers: &[Outlier]) -> Option<Remark> {
         worst.limit
     );
     let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong \
-        rows out; `--loss tukey` ignores them";
+        rows out; `poseshift calibrate --loss tukey` ignores them";
     Some(remark("outliers", worst.line.clone(), message, hint))
 }
 

@@ -21,6 +21,7 @@ use crate::diagnose::{
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::pick::Pick;
+use crate::model::effects::SiteKey;
 use plates::{left_out, of_arm};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -261,10 +262,42 @@ impl Document for Diagnosis {
     const KIND: &'static str = "diagnosis/1";
 }
 
+/// What a person wants is in the model, or it is said what is missing.
+fn check_accepted(found: &Found, pick: &Pick) -> Result<(), Failure> {
+    let Some(kind) = pick.kind else {
+        return Ok(());
+    };
+    let definition = kind.definition();
+    if found.found.iter().any(|one| pick.means(&one.effect)) {
+        return Ok(());
+    }
+    if let Some(untested) = found.cannot_test.iter().find(|one| one.kind == kind) {
+        return Err(Failure::with_hint(
+            format!(
+                "--accept {}: it cannot be tested: needs {}",
+                definition.id, untested.missing
+            ),
+            "measure with it, or leave the effect out of --accept",
+        ));
+    }
+    let counted = definition.site.iter().filter(|p| p.numbers().is_some());
+    let not_given = counted.count().saturating_sub(pick.places.len());
+    if not_given > 0 && definition.site.contains(&SiteKey::Order) {
+        let given = pick.places.iter().map(|(first, _)| format!(":{first}"));
+        let word = definition.id.to_owned() + &given.collect::<String>();
+        return Err(Failure::with_hint(
+            format!("--accept {word}: no order is given, and none shows in these measurements"),
+            format!("name one: {word}{}", ":1".repeat(not_given)),
+        ));
+    }
+    Ok(())
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
-/// Measurements that contradict the robot or themselves, or are too few.
+/// Measurements that contradict the robot or themselves, or are too few; effects that a person wants
+/// and these measurements cannot show.
 pub fn diagnose(
     file: &ProfileFile,
     measurements: Rows,
@@ -282,6 +315,9 @@ pub fn diagnose(
     let of_arm = of_arm(options);
     let d = search(&file.profile, &tool, &of_arm, hear)
         .map_err(|error| identify_failure(&name, &error))?;
+    for pick in &of_arm.accept {
+        check_accepted(&d, pick)?;
+    }
     let positioners = if plates.rows.is_empty() {
         Vec::new()
     } else {

@@ -113,17 +113,7 @@ fn too_few_rows_and_constant_columns_are_reported() {
     assert!(String::from_utf8_lossy(&run.stderr).contains("too few"));
     assert!(!better.exists());
     let mut constant = case(group("clean"), 0, 3, 60);
-    let header = constant.csv.lines().next().expect("a header").to_owned();
-    let columns: Vec<&str> = header.split(',').collect();
-    let at = |name: &str| columns.iter().position(|c| *c == name).expect("a column");
-    let (temperature, time) = (at("temperature_c"), at("time_s"));
-    let rows = constant.csv.lines().skip(1).map(|line| {
-        let mut cells: Vec<&str> = line.split(',').collect();
-        cells[temperature] = "22";
-        cells[time] = "0";
-        cells.join(",")
-    });
-    constant.csv = format!("{header}\n{}\n", rows.collect::<Vec<_>>().join("\n"));
+    constant.csv = without_change(&constant.csv);
     let (_folder, profile, csv) = files(&constant);
     let run = poseshift()
         .args(["diagnose", "--json", "--quick", "--profile"])
@@ -140,6 +130,21 @@ fn too_few_rows_and_constant_columns_are_reported() {
         .filter_map(|c| c["effect"].as_str())
         .collect();
     assert_eq!(missing, ["thermal_growth", "warm_up_drift"]);
+}
+
+/// The measurements at one temperature and one time.
+fn without_change(csv: &str) -> String {
+    let header = csv.lines().next().expect("a header");
+    let columns: Vec<&str> = header.split(',').collect();
+    let at = |name: &str| columns.iter().position(|c| *c == name).expect("a column");
+    let (temperature, time) = (at("temperature_c"), at("time_s"));
+    let rows = csv.lines().skip(1).map(|line| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        cells[temperature] = "22";
+        cells[time] = "0";
+        cells.join(",")
+    });
+    format!("{header}\n{}\n", rows.collect::<Vec<_>>().join("\n"))
 }
 
 #[test]
@@ -173,6 +178,21 @@ fn a_person_overrules() {
         names.contains(&"backlash") && !names.contains(&"joint_scale"),
         "{names:?}"
     );
+}
+
+#[test]
+fn what_a_person_wants_and_the_rows_cannot_show_is_refused() {
+    let mut case = case(group("clean"), 0, 3, 60);
+    case.csv = without_change(&case.csv);
+    for (word, reason) in [
+        ("thermal_growth", "temperature_c ranges over 0.00 degrees"),
+        ("warm_up_drift:1", "time_s is constant"),
+        ("joint_harmonic:2", "joint_harmonic:2:1"),
+    ] {
+        let (status, _, reported) = diagnosed(&case, &["--quick", "--accept", word]);
+        assert_eq!(status, 2, "{word}: {reported}");
+        assert!(reported.contains(reason), "{word}: {reported}");
+    }
 }
 
 /// The measurements with each row's place changed: by the row, and all places.
