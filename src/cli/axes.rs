@@ -2,6 +2,7 @@
 
 use super::ending::{Ending, Pendant, ReportFile, Shown, finish};
 use super::files::Files;
+use super::progress::Progress;
 use super::{Answer, Output};
 use crate::task::Failure;
 use crate::task::axes::axes;
@@ -39,7 +40,9 @@ impl Axes {
         let profile = files.profile(&self.profile)?;
         let sweeps = files.source(&self.sweeps)?;
         self.report.refuse_over(&files, [])?;
+        let progress = Progress::new(output, "fitting");
         let found = axes(&profile, &sweeps, self.point.as_deref())?;
+        drop(progress);
         let ending = Ending {
             report: Some(&self.report),
             pendant: self.pendant,

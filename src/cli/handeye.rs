@@ -2,6 +2,7 @@
 
 use super::ending::{Ending, Pendant, ReportFile, finish};
 use super::files::Files;
+use super::progress::Progress;
 use super::{Answer, Output};
 use crate::register::handeye::Setup;
 use crate::task::Failure;
@@ -76,7 +77,9 @@ impl Handeye {
             SetupArg::EyeToHand => Setup::EyeToHand,
             SetupArg::EyeInHand => Setup::EyeInHand,
         };
+        let progress = Progress::new(output, "solving");
         let found = handeye(&inputs, setup)?;
+        drop(progress);
         let frame = self.output.iter().map(|path| {
             let text = found.frame_text.clone();
             (path.clone(), text.into_bytes().into())

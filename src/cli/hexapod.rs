@@ -3,6 +3,7 @@
 
 use super::ending::{Ending, ReportFile, Said, deliver, finish};
 use super::files::{Files, is_standard_output};
+use super::progress::Progress;
 use super::{Answer, Output, values};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
@@ -83,7 +84,9 @@ impl Hexapod {
         }
         let path = self.lengths.as_ref();
         let path = path.expect("clap asks for LENGTHS where nothing else is asked");
+        let progress = Progress::new(output, "solving");
         let found = poses(&files.source(path)?, m_from_mm(self.sigma_mm))?;
+        drop(progress);
         let measurements = self.output.as_ref().map(|_| {
             let world_from_base = match &self.frame {
                 Some(path) => frame(&files.source(path)?)?.to_from_from,

@@ -2,10 +2,11 @@
 
 use super::ending::print_table;
 use super::files::Files;
+use super::progress::Progress;
 use super::{Answer, Output};
 use crate::task::Failure;
-use crate::task::fk::{self, Options, fk};
-use crate::task::ik::ik;
+use crate::task::fk::{self, Options, fk_telling};
+use crate::task::ik::ik_telling;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -71,7 +72,11 @@ impl Fk {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
-        let found = fk(&profile, &files.source(&self.joints)?, &options)?;
+        let joints = files.source(&self.joints)?;
+        let progress = Progress::new(output, "computing poses");
+        let mut tell = |done, of| progress.tell(done, of);
+        let found = fk_telling(&profile, &joints, &options, &mut tell)?;
+        drop(progress);
         print_table(&found, output, Answer::Yes)
     }
 }
@@ -81,7 +86,11 @@ impl Ik {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
-        let found = ik(&profile, &files.source(&self.poses)?, &options, self.all)?;
+        let poses = files.source(&self.poses)?;
+        let progress = Progress::new(output, "computing joints");
+        let mut tell = |done, of| progress.tell(done, of);
+        let found = ik_telling(&profile, &poses, &options, self.all, &mut tell)?;
+        drop(progress);
         let answer = if found.reached || self.all {
             Answer::Yes
         } else {

@@ -2,6 +2,7 @@
 
 use super::ending::{Ending, Pendant, ReportFile, finish};
 use super::files::Files;
+use super::progress::Progress;
 use super::{Answer, Output, values};
 use crate::geometry::units::m_from_mm;
 use crate::printable::name_of;
@@ -185,7 +186,9 @@ impl Register {
             (Some(to), None) => Pairing::Rows(to),
             (None, None) => unreachable!("clap asks for TO where there is no --frame"),
         };
+        let progress = Progress::new(output, "registering");
         let mut found = register(&from, &pairing, &options)?;
+        drop(progress);
         let refused = found.is_refused();
         let mut written = Vec::new();
         if let Some(path) = self.output.as_ref().filter(|_| !refused) {

@@ -2,6 +2,7 @@
 
 use super::ending::{Ending, Shown, finish, print_table};
 use super::files::Files;
+use super::progress::Progress;
 use super::{Answer, Output, values};
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::identify::simulate::{Device, Session};
@@ -102,7 +103,9 @@ impl Simulate {
         let profile = files.profile(&self.profile)?;
         let joints = files.source(&self.joints)?;
         files.refuse_over(self.output.as_deref())?;
+        let progress = Progress::new(output, "measuring");
         let mut found = simulate(&profile, &joints, self.tool.as_deref(), &session)?;
+        drop(progress);
         let Some(path) = &self.output else {
             return print_table(&found, output, Answer::Yes);
         };

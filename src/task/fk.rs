@@ -59,6 +59,19 @@ impl Document for Poses {
 /// # Errors
 /// A table without joints; a tool that the profile does not have.
 pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<Poses, Failure> {
+    fk_telling(profile, joints, options, &mut |_, _| ())
+}
+
+/// As [`fk`]; `tell` hears how many of how many rows are done.
+///
+/// # Errors
+/// As [`fk`].
+pub fn fk_telling(
+    profile: &ProfileFile,
+    joints: &Source,
+    options: &Options,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Poses, Failure> {
     let tool = profile.tool(options.tool.as_deref())?;
     let table = Table::read(joints)?;
     table.require(&JOINTS)?;
@@ -106,7 +119,7 @@ pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<P
             id: row.id(number + 1),
         })
     };
-    let poses = table.rows().enumerate().map(pose);
+    let poses = table.rows_telling(tell).enumerate().map(pose);
     Ok(Poses {
         poses: poses.collect::<Result<_, Failure>>()?,
     })

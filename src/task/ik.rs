@@ -68,6 +68,20 @@ pub fn ik(
     options: &Options,
     all: bool,
 ) -> Result<Solutions, Failure> {
+    ik_telling(file, poses, options, all, &mut |_, _| ())
+}
+
+/// As [`ik`]; `tell` hears how many of how many rows are done.
+///
+/// # Errors
+/// As [`ik`].
+pub fn ik_telling(
+    file: &ProfileFile,
+    poses: &Source,
+    options: &Options,
+    all: bool,
+    tell: &mut dyn FnMut(usize, usize),
+) -> Result<Solutions, Failure> {
     let profile = &file.profile;
     let tool = file.tool(options.tool.as_deref())?;
     let table = Table::read(poses)?;
@@ -83,7 +97,7 @@ pub fn ik(
     }
     let inverse = inverse(profile, &tool, options.model, Conditions::default())?;
     let (mut solutions, mut reached) = (Vec::new(), true);
-    for (number, row) in table.rows().enumerate() {
+    for (number, row) in table.rows_telling(tell).enumerate() {
         let wanted = pose(&row)?;
         let near = if has_near {
             row.numbers(NEAR)?.map(|q| q * DEG)

@@ -59,6 +59,7 @@ impl<'a> Loader<'a> {
             let neighbour = |uri: &str| {
                 let folder = path.parent().unwrap_or(Path::new(""));
                 let path = folder.join(below(uri)?);
+                stays(&path, folder).map_err(|error| error.to_string())?;
                 (self.read)(&path).map_err(|error| error.to_string())
             };
             let name = name_of(&path);
@@ -119,9 +120,21 @@ fn bounds(name: &str, mesh: &Mesh) -> String {
     )
 }
 
+/// Only files in the mesh's folder, or below it, are read.
+const OUTSIDE: &str = "only files in the mesh's folder, or below it, are read";
+
+/// That no link leads out of a folder.
+fn stays(path: &Path, folder: &Path) -> io::Result<()> {
+    // of a name alone that is the working directory
+    let folder = Path::new(".").join(folder).canonicalize()?;
+    if path.canonicalize()?.starts_with(folder) {
+        return Ok(());
+    }
+    Err(io::Error::other(format!("{OUTSIDE}, and a link leads out")))
+}
+
 /// The path of a file that a mesh file names by a URI (RFC 3986, relative): in its folder or below.
 fn below(uri: &str) -> Result<PathBuf, String> {
-    let outside = || "only files in the mesh's folder, or below it, are read".to_owned();
     let mut bytes = Vec::new();
     let mut rest = uri.as_bytes();
     while let [first, others @ ..] = rest {
@@ -146,7 +159,7 @@ fn below(uri: &str) -> Result<PathBuf, String> {
         .all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     // a drive or another scheme, whatever system this is
     if !stays || name.is_empty() || name.contains([':', '\\', '\0']) {
-        return Err(outside());
+        return Err(OUTSIDE.to_owned());
     }
     Ok(path)
 }

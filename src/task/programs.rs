@@ -10,6 +10,8 @@ use crate::nearest;
 use crate::program::{Found, LANGUAGES, Language, Marker, Source, language_of, sha256};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::ffi::OsStr;
+use std::path::Path;
 
 /// Files in folders that are no programs of the run.
 #[derive(Clone, Debug, Default, Serialize, JsonSchema)]
@@ -157,8 +159,8 @@ pub fn refuse_marked(sources: &[Source]) -> Result<(), Failure> {
 /// Digits of a hash that a message shows.
 const SHOWN: usize = 16;
 
-/// That compensated programs were made with this profile from one of these originals, as their
-/// markers say.
+/// That compensated programs were made with this profile from these originals, as their markers
+/// say: each from the one that it is compared with.
 ///
 /// # Errors
 /// A marker names another profile or another original.
@@ -169,7 +171,11 @@ pub fn refuse_other_origin(
 ) -> Result<(), Failure> {
     let short = |digits: &str| digits[..digits.len().min(SHOWN)].to_owned();
     let hashes: Vec<String> = originals.iter().map(|of| sha256(&of.bytes)).collect();
-    for source in sources.iter().filter(|source| !source.is_context) {
+    let own = |all: &[Source]| -> Vec<usize> {
+        (0..all.len()).filter(|at| !all[*at].is_context).collect()
+    };
+    let (ours, theirs) = (own(sources), own(originals));
+    for (at, source) in ours.iter().map(|at| &sources[*at]).enumerate() {
         let found = Found::of(&source.bytes);
         let Some(offset) = found.offset else {
             continue;
@@ -193,12 +199,16 @@ pub fn refuse_other_origin(
             );
             return fail(message, "profile");
         }
-        let known = |hash: &String| begins(hash, &found.sources);
-        if !found.sources.is_empty() && !hashes.iter().any(known) {
-            let each = originals.iter().zip(&hashes);
+        let compared = if ours.len() == theirs.len() {
+            vec![theirs[at]]
+        } else {
+            of_name(&source.name, originals)
+        };
+        let known = |of: &usize| begins(&hashes[*of], &found.sources);
+        if !found.sources.is_empty() && !compared.iter().any(known) {
+            let each = compared.iter().take(3);
             let each: Vec<String> = each
-                .take(3)
-                .map(|(of, hash)| format!("{} has {}…", of.name, short(hash)))
+                .map(|of| format!("{} has {}…", originals[*of].name, short(&hashes[*of])))
                 .collect();
             let message = format!(
                 "this file was made from a program of SHA-256 {}…; {}",
@@ -209,6 +219,18 @@ pub fn refuse_other_origin(
         }
     }
     Ok(())
+}
+
+/// The programs whose files are called so, in whatever folder; all of them where there is none.
+fn of_name(name: &str, programs: &[Source]) -> Vec<usize> {
+    let file = |name: &str| Path::new(name).file_name().map(OsStr::to_owned);
+    let alike = |at: &usize| file(&programs[*at].name) == file(name);
+    let found: Vec<usize> = (0..programs.len()).filter(alike).collect();
+    if found.is_empty() {
+        (0..programs.len()).collect()
+    } else {
+        found
+    }
 }
 
 /// Why programs cannot be compensated, with the place in their text.

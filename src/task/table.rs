@@ -122,6 +122,20 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// The rows in the order of the file; `tell` hears how many of how many are done.
+    pub(super) fn rows_telling<'t>(
+        &'t self,
+        tell: &'t mut dyn FnMut(usize, usize),
+    ) -> impl Iterator<Item = Row<'t>> {
+        let all = self.rows.len();
+        self.rows().enumerate().map(move |(number, row)| {
+            if number.is_multiple_of(PORTION) {
+                tell(number, all);
+            }
+            row
+        })
+    }
+
     /// The rows in the order of the file.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.rows.iter().map(|(line, cells)| Row {
@@ -132,6 +146,8 @@ impl<'a> Table<'a> {
     }
 }
 
+/// Rows that are done from one word of it to the next.
+const PORTION: usize = 1024;
 /// A larger number is no length, angle or weight: sums of its squares and sines of it mean nothing.
 const LARGEST: f64 = 1e12;
 

@@ -286,13 +286,13 @@ fn meshes_that_mean_harm_are_errors() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("/dev/zero", folder.path().join("zero.bin")).expect("a link");
-        let (text, _) = gltf(r#""uri":"zero.bin","#);
-        refused(
-            folder.path(),
-            "device.gltf",
-            text.as_bytes(),
-            "no plain file",
-        );
+        std::os::unix::fs::symlink(given.path().join("out.bin"), folder.path().join("out.bin"))
+            .expect("a link");
+        for uri in ["zero.bin", "out.bin"] {
+            let (text, _) = gltf(&format!(r#""uri":"{uri}","#));
+            let says = "in the mesh's folder";
+            refused(folder.path(), "linked.gltf", text.as_bytes(), says);
+        }
         let (status, _, error) = check(&cell(folder.path(), "mesh: /dev/zero"), &[]);
         assert!(status == 2 && error.contains("no plain file"), "{error}");
     }

@@ -287,6 +287,40 @@ fn a_check_compares_with_the_files_of_the_marker() {
 }
 
 #[test]
+fn programs_in_the_places_of_others_are_refused() {
+    let folder = scratch();
+    let at = folder.path();
+    let copy = |from: &str, to: &str| {
+        std::fs::copy(at.join(from), at.join(to)).expect("scratch");
+    };
+    for name in ["in", "swapped"] {
+        std::fs::create_dir(at.join(name)).expect("scratch");
+    }
+    let poses = "programs/csv/poses/in/inspection.csv";
+    std::fs::write(at.join("in/a.csv"), text(poses)).expect("scratch");
+    let moved = changed(poses, "460.500", "462.500");
+    std::fs::write(at.join("in/b.csv"), moved).expect("scratch");
+    std::fs::copy(
+        repository("programs/inform/profile.yaml"),
+        at.join("p.yaml"),
+    )
+    .expect("scratch");
+    let given = ["--profile", "p.yaml", "--frame", "nest=430,-40,-120,0,0,20"];
+    let run = |words: &[&str]| run_in(at, &[words, &given].concat());
+    let (status, said) = run(&["compensate", "in", "-o", "out"]);
+    assert_eq!(status, 0, "{said}");
+    let (status, said) = run(&["check", "out", "--nominal", "in"]);
+    assert_eq!(status, 0, "{said}");
+    copy("out/a.csv", "swapped/b.csv");
+    copy("out/b.csv", "swapped/a.csv");
+    let (status, said) = run(&["check", "swapped", "--nominal", "in"]);
+    assert_eq!(status, 2, "{said}");
+    for word in ["swapped/a.csv:", "in/a.csv has", "--force"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+}
+
+#[test]
 fn a_marker_is_known_by_what_is_left_of_it() {
     let mut languages = 0;
     for language in LANGUAGES.iter().map(|language| language.about().id) {
