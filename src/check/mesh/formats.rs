@@ -37,6 +37,21 @@ fn fan(corners: &[Vector], out: &mut Vec<Triangle>) {
     }
 }
 
+/// That a binary STL holds as many triangles as its header counts: 50 bytes each behind 84.
+fn refuse_cut(bytes: &[u8]) -> Result<(), String> {
+    let is_text = (bytes.get(..5)).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let Some((&count, triangles)) = bytes.get(80..).and_then(<[u8]>::split_first_chunk) else {
+        return Ok(());
+    };
+    let (count, held) = (u32::from_le_bytes(count) as usize, triangles.len() / 50);
+    if is_text || held >= count {
+        return Ok(());
+    }
+    Err(format!(
+        "it is cut off: its header counts {count} triangles, and it holds {held}"
+    ))
+}
+
 /// STL and OBJ.
 fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     // only this file's bytes are read: no material library or texture that it names
@@ -44,9 +59,14 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
         Err(std::io::ErrorKind::NotFound.into())
     }
     let loader = mesh_loader::Loader::default().custom_reader(none);
-    let scene = match ending(name).as_str() {
-        "stl" => loader.load_stl_from_slice(bytes, name),
-        _ => loader.load_obj_from_slice(bytes, name),
+    let is_stl = ending(name) == "stl";
+    if is_stl {
+        refuse_cut(bytes)?;
+    }
+    let scene = if is_stl {
+        loader.load_stl_from_slice(bytes, name)
+    } else {
+        loader.load_obj_from_slice(bytes, name)
     }
     .map_err(|error| error.to_string())?;
     let mut triangles = Vec::new();
@@ -63,4 +83,27 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
         }
     }
     Ok(triangles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_binary_stl_that_is_cut_off_is_an_error() {
+        let mut bytes = vec![0; 80];
+        bytes.extend(2_u32.to_le_bytes());
+        for _ in 0..2 {
+            let corners = [
+                0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 9.0, 0.0_f32,
+            ];
+            bytes.extend(corners.iter().flat_map(|number| number.to_le_bytes()));
+            bytes.extend([0; 2]);
+        }
+        let read = |bytes: &[u8]| triangles("a.stl", bytes, &|_| Err(String::new()));
+        assert_eq!(read(&bytes).map(|found| found.len()), Ok(2));
+        let error = read(&bytes[..bytes.len() - 1]).expect_err("cut");
+        let said = "its header counts 2 triangles, and it holds 1";
+        assert!(error.to_string().contains(said), "{error}");
+    }
 }

@@ -1,5 +1,6 @@
 //! The texts of `profile`.
 
+use crate::printable::printable;
 use crate::report::Style;
 use crate::task::profile::{
     Changed, Deviation, Diff, Difference, Exported, Facts, FromUrdf, Imported, NewProfile,
@@ -51,8 +52,8 @@ pub(super) fn facts(found: &Facts, _: Style) -> String {
     let [robot, serial, language] = found.robot.each_ref().map(Option::as_deref);
     let mut text = format!(
         "{}, serial {}\ncontroller: {}, {}\ninverse: {}\n\njoints\n",
-        robot.unwrap_or_default(),
-        serial.unwrap_or("not given"),
+        printable(robot.unwrap_or_default()),
+        printable(serial.unwrap_or("not given")),
         language.unwrap_or("language not given"),
         found.controller,
         found.inverse
