@@ -172,11 +172,11 @@ pub(super) fn stand(
         } else {
             Standing::Likely
         };
-        against.extend(untested.into_iter().map(|rival| Against {
+        against.extend(untested.into_iter().map(|alternative| Against {
             what: format!(
                 "{}, which needs {}",
-                rival.kind.definition().id,
-                rival.missing
+                alternative.kind.definition().id,
+                alternative.missing
             ),
             odds: 1.0,
         }));
@@ -186,9 +186,9 @@ pub(super) fn stand(
 
 /// Effects that do what one found does, and that cannot be tested.
 fn untested<'a>(attempt: &'a Attempt, found: &Found) -> Vec<&'a CannotTest> {
-    let rivals = found.effect.definition().search.rivals;
+    let alternatives = found.effect.definition().search.alternatives;
     let all = attempt.session.candidates.cannot_test.iter();
-    all.filter(|c| rivals.contains(&c.kind)).collect()
+    all.filter(|c| alternatives.contains(&c.kind)).collect()
 }
 
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
@@ -279,12 +279,12 @@ fn objections(
         ));
     }
     for one in found.iter().filter(|f| !f.accepted) {
-        for rival in untested(attempt, one) {
+        for alternative in untested(attempt, one) {
             reasons.push(format!(
                 "{} may be {}, which cannot be tested: it needs {}",
                 one.effect.label(),
-                rival.kind.definition().id,
-                rival.missing
+                alternative.kind.definition().id,
+                alternative.missing
             ));
         }
     }

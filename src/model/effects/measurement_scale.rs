@@ -26,7 +26,7 @@ impl Equation for MeasurementScale {
         shown_against: Shown::Order,
         search: Search {
             rare: true,
-            rivals: &[Kind::ThermalGrowth],
+            alternatives: &[Kind::ThermalGrowth],
             ..Search::PLAIN
         },
     };

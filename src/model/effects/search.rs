@@ -22,7 +22,7 @@ pub struct Search {
     /// The parameter that is more, or less, of a mass: no mass is negative.
     pub mass: Option<usize>,
     /// Effects that do nearly the same where a column is missing that would tell them.
-    pub rivals: &'static [Kind],
+    pub alternatives: &'static [Kind],
 }
 
 impl Search {
@@ -34,7 +34,7 @@ impl Search {
         sets: Sets::All,
         never_negative: &[],
         mass: None,
-        rivals: &[],
+        alternatives: &[],
     };
 
     /// A structure that bends about x and y.

@@ -27,7 +27,7 @@ impl Equation for Settling {
         shown_against: Shown::Move,
         search: Search {
             rare: true,
-            rivals: &[Kind::Backlash, Kind::FrictionBacklash],
+            alternatives: &[Kind::Backlash, Kind::FrictionBacklash],
             ..Search::PLAIN
         },
     };

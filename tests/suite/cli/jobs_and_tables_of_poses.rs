@@ -50,8 +50,17 @@ fn the_frame_of_the_command_line_is_for_poses_that_name_none() {
     assert!((a[0] - b[0] - 400.0).abs() < 1e-3 && (a[2] - b[2] - 20.0).abs() < 1e-3);
     assert!((a[0] - 455.0).abs() > 1e-3);
     // a cell that says world means it
-    let (_, named) = compensated("p.csv", &format!("{HEAD}{IN_WORLD},world\n"), &frame);
+    let both = format!("{HEAD}{moved},\n{IN_WORLD},world\n");
+    let (_, named) = compensated("p.csv", &both, &frame);
     assert_eq!(last(named), format!("{world}world"));
+    // and where all do, the frame is for nothing
+    let (output, none) = compensated("p.csv", &format!("{HEAD}{IN_WORLD},world\n"), &frame);
+    assert_eq!((output.status.code(), none), (Some(2), None));
+    assert!(
+        reported(&output).contains("--frame without a name"),
+        "{}",
+        reported(&output)
+    );
     let (output, none) = compensated("p.csv", &format!("{HEAD}{IN_WORLD},nest\n"), &[]);
     assert_eq!((output.status.code(), none), (Some(2), None));
     assert!(
