@@ -35,6 +35,7 @@
 
 pub mod identifiability;
 pub mod measurements;
+mod needs;
 pub mod normal;
 pub mod observation;
 pub mod parameters;
