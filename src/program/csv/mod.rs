@@ -61,7 +61,7 @@ static ABOUT: About = About {
         "cells separated by semicolons or tabs, numbers with a decimal comma",
         "GOTO lines of APT and CL files: they do not tell the turn about the tool's axis",
     ],
-    has: "a header with x_mm, y_mm, z_mm, qw, qx, qy, qz or with q1_deg to q6_deg",
+    has: "header with x_mm, y_mm, z_mm, qw, qx, qy, qz or with q1_deg to q6_deg",
 };
 
 /// The frame that poses are in which name none, unless the command line gives another.

@@ -153,8 +153,8 @@ fn broken_tables_are_reported_with_line_and_column() {
             (2, 5),
             "a quoted cell is not closed",
         ),
-        ("x_mm,y_mm,z_mm\n1,2,3\n".into(), (0, 0), "a header with"),
-        (String::new(), (0, 0), "a header with"),
+        ("x_mm,y_mm,z_mm\n1,2,3\n".into(), (0, 0), "no header with"),
+        (String::new(), (0, 0), "no header with"),
         (
             format!("{head},q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n"),
             (1, 1),

@@ -41,10 +41,21 @@ fn stem_of(parameter: &[u8], given: &Name) -> Vec<u8> {
     [sign, parameter].concat()
 }
 
-/// Whether `EXTCALL` may call a program: signals give the number of `pg1`, `pg2`, ….
-fn is_selected(name: &[u8]) -> bool {
-    let number = name.strip_prefix(b"pg").unwrap_or_default();
-    !number.is_empty() && number.iter().all(u8::is_ascii_digit)
+/// Which programs only the running program may choose among.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Any {
+    /// All: `SCALL $name`.
+    Program,
+    /// `pg1`, `pg2`, …, whose number signals give: `EXTCALL`.
+    Selected,
+}
+
+impl Any {
+    /// Whether a program of this name, in small letters, is among them.
+    fn is_one(self, name: &[u8]) -> bool {
+        let number = name.strip_prefix(b"pg").unwrap_or_default();
+        self == Self::Program || !number.is_empty() && number.iter().all(u8::is_ascii_digit)
+    }
 }
 
 impl<'a> Reader<'a> {
@@ -88,7 +99,7 @@ impl<'a> Reader<'a> {
         } else if is(b"SCALL") || is(b"SJUMP") {
             self.call_text(rest);
         } else if is(b"EXTCALL") {
-            self.call_any(part, is_selected);
+            self.call_any(part, Any::Selected);
         } else {
             return false;
         }
@@ -132,27 +143,52 @@ impl<'a> Reader<'a> {
                 let call = self.call_of(name, callees, Vec::new());
                 self.put_call(call);
             }
-            _ => self.call_any(part, |_| true),
+            _ => self.call_any(part, Any::Program),
         }
     }
 
-    /// Some program, and only the running program knows which: one of these names (in small
-    /// letters) in the files, or another.
-    fn call_any(&mut self, part: Words<'a, '_>, is_one: impl Fn(&[u8]) -> bool) {
-        let own = self.here.routine;
-        let ones = self.programs.iter().filter(|(name, _)| is_one(name));
-        let mut callees: Vec<RoutineId> = ones.flat_map(|(_, all)| all).copied().collect();
-        callees.retain(|callee| *callee != own);
-        callees.sort_unstable();
-        self.calls_any = true;
+    /// Some program, and only the running program knows which: one of these in the files, or another.
+    fn call_any(&mut self, part: Words<'a, '_>, any: Any) {
+        let place = self.place(self.here.at);
+        let known = self.any.iter().find(|(of, _)| *of == any);
+        let routine = known.map(|(_, routine)| *routine).unwrap_or_else(|| {
+            let made = (self.builder).declare("any program", place, Start::Called);
+            self.called.insert(made);
+            self.any.push((any, made));
+            made
+        });
         let call = Call {
-            place: self.place(self.here.at),
-            callees: callees.into(),
+            place,
+            callees: [routine].into(),
             foreign: true,
             name: Source::text(part.whole()).into(),
             arguments: 0..0,
         };
         self.put_call(call);
+    }
+
+    /// What stands for any program: a routine that calls one of them.
+    pub(super) fn write_any(&mut self) {
+        for (any, routine) in std::mem::take(&mut self.any) {
+            let place = self.builder.script.routines[routine as usize].place;
+            let ones = self.programs.iter().filter(|(name, _)| any.is_one(name));
+            let mut callees: Vec<RoutineId> = ones.flat_map(|(_, all)| all).copied().collect();
+            callees.sort_unstable();
+            self.builder.open(routine);
+            self.builder.begin_choice();
+            for callee in callees {
+                self.builder.next_branch(false);
+                self.builder.call(Call {
+                    place,
+                    callees: [callee].into(),
+                    foreign: false,
+                    name: "any program".into(),
+                    arguments: 0..0,
+                });
+            }
+            self.builder.end_choice();
+            self.builder.close();
+        }
     }
 
     /// A call of a name.
@@ -178,7 +214,7 @@ impl<'a> Reader<'a> {
     /// Where only the running program knows what it calls, what no call names may be started by the
     /// operator all the same.
     pub(super) fn start_uncalled(&mut self) {
-        if !self.calls_any {
+        if self.any.is_empty() {
             return;
         }
         for (routine, of) in (0..).zip(&mut self.builder.script.routines) {

@@ -1,6 +1,6 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
-use super::calls::Handed;
+use super::calls::{Any, Handed};
 use super::moves::Verb;
 use super::remarks::Cause;
 use super::sections::{Entry, Program, Sections, lines};
@@ -50,8 +50,8 @@ pub(super) struct Reader<'a> {
     pub parameters: Vec<Vec<Vec<u8>>>,
     /// Programs that another calls by name.
     pub called: HashSet<RoutineId>,
-    /// Some program is called whose name only the running program knows.
-    pub calls_any: bool,
+    /// What stands for programs that only the running program chooses.
+    pub any: Vec<(Any, RoutineId)>,
     pub tool: VariableId,
     pub base: VariableId,
     /// Hold a reason while tool and base are as they were when the controller was saved.
@@ -73,10 +73,8 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     let honoured = builder.script.value(Held::Flag(true));
     let off = builder.script.held(Held::Flag(false));
     let state = |builder: &mut Builder, name: &str, declared: Expr| {
-        builder.script.variable(Variable {
-            shared: true,
-            ..Variable::new(name, NOWHERE, declared)
-        })
+        let made = Variable::new(name, NOWHERE, declared);
+        builder.script.variable(made)
     };
     let switched = state(&mut builder, "configuration", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
@@ -107,7 +105,7 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         programs: HashMap::new(),
         parameters: Vec::new(),
         called: HashSet::new(),
-        calls_any: false,
+        any: Vec::new(),
         switched,
         honoured,
         here: Here::default(),
@@ -144,6 +142,7 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         }
     }
     reader.start_uncalled();
+    reader.write_any();
     let mut script = reader.builder.finish();
     let all = vec![true; script.targets.len()];
     script.keep(&all);

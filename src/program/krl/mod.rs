@@ -75,7 +75,7 @@ static ABOUT: About = About {
         "points of absolutely accurate robots (S bit 4)",
         "_REL moves from unknown positions, products of frames without one known position",
     ],
-    has: "DEF, DEFDAT, a header (&ACCESS) or a move",
+    has: "DEF, DEFDAT, header (&ACCESS) or move",
 };
 
 /// Characters of a line that the controller takes.

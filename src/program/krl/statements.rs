@@ -54,6 +54,10 @@ impl Reader {
         let next = cursor.blanks();
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
+            // WITH $BASE=BASE_DATA[n]
+            if memchr::memchr(b'[', &cursor.bytes[cursor.at..cursor.end]).is_some() {
+                self.note_indices(cursor);
+            }
             return;
         }
         match word {
@@ -123,18 +127,35 @@ impl Reader {
                     }
                     fresh = false;
                 }
-                Kind::Name if cursor.bytes.get(cursor.at) == Some(&b'[') => {
-                    let mut buffer = [0; 24];
-                    if Table::named(capitals(cursor.text(token), &mut buffer)).is_some() {
-                        cursor.take(b'[');
-                        let name = cursor.next();
-                        let name = self.symbol(&cursor, name);
-                        self.names.choosing.insert(name);
-                    }
-                }
+                Kind::Name => self.note_index(token, &mut cursor),
                 Kind::Sign(b'(' | b',') => fresh = true,
                 _ => fresh = false,
             }
+        }
+    }
+
+    /// Notes what chooses tools, bases and loads in a line.
+    fn note_indices(&mut self, mut cursor: Cursor) {
+        loop {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Name => self.note_index(token, &mut cursor),
+                _ => {}
+            }
+        }
+    }
+
+    /// `BASE_DATA[n]`: what `n` is chooses.
+    fn note_index(&mut self, token: Token, cursor: &mut Cursor) {
+        let mut buffer = [0; 24];
+        if cursor.bytes.get(cursor.at) == Some(&b'[')
+            && Table::named(capitals(cursor.text(token), &mut buffer)).is_some()
+        {
+            cursor.take(b'[');
+            let name = cursor.next();
+            let name = self.symbol(cursor, name);
+            self.names.choosing.insert(name);
         }
     }
 

@@ -84,7 +84,7 @@ static ABOUT: About = About {
         "targets that functions outside the file are given, servoing to poses",
         "conveyor tracking and path offsets",
     ],
-    has: "a function, a move or set_tcp",
+    has: "function, move or set_tcp",
 };
 
 /// Calls are written again with a pose written out.

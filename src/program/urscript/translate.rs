@@ -60,6 +60,8 @@ struct Translator<'m, 'n, 'a> {
     present: Present,
     /// Loads may go along with the tool.
     loads_in_tool: bool,
+    /// Functions that others call.
+    called: HashSet<FunctionId>,
     said: HashSet<(TargetId, &'static str)>,
 }
 
@@ -144,6 +146,10 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             loads: HashMap::new(),
             present: Present::default(),
             loads_in_tool,
+            called: (parsed.calls.iter())
+                .flat_map(|call| variables.callees(call))
+                .copied()
+                .collect(),
             said: HashSet::new(),
         }
     }
@@ -317,10 +323,16 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let parsed = self.goals.parsed;
         let routine = self.first_routine + function;
         self.goals.builder.open(routine);
-        self.present = Present::default();
+        let of = &parsed.functions[function as usize];
+        self.present = Present {
+            // where a program begins no load has been given yet
+            in_tool: (!of.thread && !self.called.contains(&function)).then_some(false),
+            ..Present::default()
+        };
+        let calm = self.calm(&of.events);
         // blocks around that never run, from the outermost such `if` on
         let mut dead = 0_u32;
-        for event in &parsed.functions[function as usize].events {
+        for (event, calm) in of.events.iter().zip(calm) {
             match event {
                 Event::Never if dead == 0 => dead = 1,
                 Event::Branch { .. } if dead == 1 => dead = 0,
@@ -337,7 +349,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 _ if dead > 0 => continue,
                 _ => {}
             }
-            if event.is_crossing() {
+            if event.is_crossing() && !calm {
                 self.present = Present::default();
             }
             let builder = &mut *self.goals.builder;
@@ -392,6 +404,53 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Event::Step(step) => self.step(&parsed.steps[step as usize], function),
             }
         }
+    }
+
+    /// Of each event, whether it is one of a branch or loop in which nothing sets a tool or a load,
+    /// nor calls what may.
+    fn calm(&self, events: &[Event]) -> Vec<bool> {
+        let parsed = self.goals.parsed;
+        let sets = |event: &Event| match event {
+            Event::Tool(..) | Event::Load(..) => true,
+            Event::Call(call) => {
+                let call = &parsed.calls[*call as usize];
+                !self.goals.variables.is_of_language(call)
+            }
+            _ => false,
+        };
+        let mut calm = vec![false; events.len()];
+        // of each open block its events and whether something in it sets
+        let mut open: Vec<(Vec<usize>, bool)> = Vec::new();
+        for (at, event) in events.iter().enumerate() {
+            match event {
+                Event::If | Event::Never | Event::Switch | Event::Loop => {
+                    open.push((vec![at], false));
+                }
+                Event::Branch { .. } => {
+                    if let Some((own, _)) = open.last_mut() {
+                        own.push(at);
+                    }
+                }
+                Event::EndIf | Event::EndLoop { .. } => {
+                    let Some((own, is_set)) = open.pop() else {
+                        continue;
+                    };
+                    for at in own.into_iter().chain([at]) {
+                        calm[at] = !is_set;
+                    }
+                    if let Some((_, around)) = open.last_mut() {
+                        *around |= is_set;
+                    }
+                }
+                _ if sets(event) => {
+                    if let Some((_, is_set)) = open.last_mut() {
+                        *is_set = true;
+                    }
+                }
+                _ => {}
+            }
+        }
+        calm
     }
 
     fn write(&mut self, variable: Option<VariableId>, how: How, offset: u32) {
@@ -475,6 +534,10 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
 
     /// The load becomes another.
     fn load(&mut self, payload: Payload, function: FunctionId, offset: u32) {
+        if payload.mass.is_none() && payload.cog == Cog::Stays {
+            // it is what it was
+            return;
+        }
         let load = self.load_of(payload, function);
         self.present.load = load;
         self.present.in_tool = match payload.cog {

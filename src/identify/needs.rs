@@ -1,0 +1,142 @@
+//! What effects need: loads that change, columns, axes that the profile has.
+
+use super::error::IdentifyError;
+use super::measurements::{DIRECTION_COLUMNS, Measurements};
+use super::parameters::{Selection, Subject};
+use super::pick::Pick;
+use super::problem::{Problem, Row};
+use crate::model::Conditions;
+use crate::model::effects::{Effect, List, Need};
+use crate::model::profile::{Mounted, Profile, is_of_profile};
+
+/// A joint's torque must change by this part of the largest change to tell its compliance.
+const TORQUE_PART: f64 = 1e-3;
+/// And that of joint 1, which carries none where the arm stands upright: 1 % is half a degree of
+/// tilt.
+const UPRIGHT_PART: f64 = 0.02;
+
+/// Joints whose gravity torque changes enough over the rows to tell their compliance.
+pub(super) fn loaded(
+    profile: &Profile,
+    tools: &[Mounted],
+    rows: &[Row],
+    gravity_known: bool,
+) -> [bool; 6] {
+    if !gravity_known {
+        return [false; 6];
+    }
+    let models: Vec<_> = tools
+        .iter()
+        .map(|tool| profile.real_model(tool, &Conditions::default()))
+        .collect();
+    let (mut sum, mut squares) = ([0.0; 6], [0.0; 6]);
+    for row in rows {
+        let torques = models[row.tool].torques(&row.q, &row.conditions);
+        for i in 0..6 {
+            sum[i] += torques[i];
+            squares[i] += torques[i] * torques[i];
+        }
+    }
+    let count = rows.len() as f64;
+    let spread: [f64; 6] = std::array::from_fn(|i| {
+        (squares[i] / count - (sum[i] / count).powi(2))
+            .max(0.0)
+            .sqrt()
+    });
+    let largest = spread.iter().copied().fold(0.0, f64::max);
+    std::array::from_fn(|i| {
+        let part = if i == 0 { UPRIGHT_PART } else { TORQUE_PART };
+        spread[i] > part * largest
+    })
+}
+
+/// Effects that are asked for by name must be of axes that the profile has, and that the measured
+/// tool shows; points on a plate show nothing of the arm.
+pub(super) fn refuse_others_axes(
+    profile: &Profile,
+    measurements: &Measurements,
+    asked: &[Pick],
+) -> Result<(), IdentifyError> {
+    if let Some(row) = measurements.rows.iter().find(|row| row.plate.is_some()) {
+        return Err(IdentifyError::Suspicious {
+            message: format!("{}: a point on a plate shows nothing of the arm", row.line),
+            hint: "keep rows on plates apart from rows of the tool".into(),
+        });
+    }
+    for pick in asked {
+        let Some(kind) = pick
+            .kind
+            .filter(|kind| kind.definition().of_external_axis())
+        else {
+            continue;
+        };
+        let id = kind.definition().id;
+        if id.starts_with("positioner_") {
+            let need =
+                "points on the plate: a tool that a device sees shows nothing of a positioner";
+            return Err(IdentifyError::Missing { id, need });
+        }
+        let effects = pick.effects();
+        if !pick.together && !effects.iter().any(|e| is_of_profile(e, &profile.external)) {
+            let need = "a linear axis of that number under `external_axes: track:` of the profile";
+            return Err(IdentifyError::Missing { id, need });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses effects that lack what they need where they were asked for.
+pub(super) fn check_needs(
+    problem: &Problem,
+    measurements: &Measurements,
+    effects: &[Effect],
+    selection: &Selection,
+) -> Result<(), IdentifyError> {
+    let masses =
+        !problem.profile.bodies.is_empty() || problem.tools.iter().any(|t| t.load.is_some());
+    for parameter in &problem.parameters {
+        let Subject::Effect(slot) = parameter.subject else {
+            continue;
+        };
+        let effect = &effects[slot.effect];
+        let definition = effect.definition();
+        let listed = definition
+            .listed()
+            .filter(|(_, list)| *list == List::Torques);
+        if listed.is_some_and(|(number, _)| effect.parameters[number] == 0.0) {
+            return Err(IdentifyError::Missing {
+                id: definition.id,
+                need: "a torque_n_m in the profile to begin with (`poseshift diagnose` \
+                    searches it)",
+            });
+        }
+        let asked = selection
+            .identify
+            .iter()
+            .any(|p| p.kind == Some(effects[slot.effect].kind));
+        for need in definition
+            .needs
+            .iter()
+            .filter(|_| asked || definition.needs_masses())
+        {
+            let met = match need {
+                Need::Masses => masses,
+                Need::Directions => measurements.has(&DIRECTION_COLUMNS),
+                Need::ExternalDirections => problem.rows.iter().any(|row| row.stand.is_directed()),
+                Need::Temperature => measurements.has(&["temperature_c"]),
+                Need::Time => measurements.has(&["time_s"]),
+                Need::Order | Need::NoTime => true,
+                Need::Moves => problem.rows.iter().any(|r| r.conditions.moved != [0.0; 6]),
+                Need::Load => problem.tools.iter().any(|t| t.load.is_some()),
+                Need::Places => problem.rows.iter().all(|r| r.observed.point_m().is_some()),
+            };
+            if !met {
+                return Err(IdentifyError::Missing {
+                    id: definition.id,
+                    need: need.describe(),
+                });
+            }
+        }
+    }
+    Ok(())
+}
