@@ -33,6 +33,10 @@ const CLOSE_M: f64 = 5e-6;
 const SHORTEST: f64 = 1e-7;
 /// Intervals looked at in one move before its bound is reported as it is.
 const MOST: usize = 20_000;
+/// Nothing nearer than this is beyond any horizon, metres: it must be far above [`CLOSE_M`].
+const LEAST_HORIZON_M: f64 = 1e-4;
+/// Intervals that are sampled where the search gives up.
+const SAMPLED: usize = 2_000;
 /// More triangles than this stay in their tree.
 const FEW: usize = 48;
 
@@ -239,6 +243,8 @@ impl Ord for Node {
 }
 
 struct Search<'a> {
+    /// What is required of pairs counts; else whether they touch.
+    rooms: bool,
     scene: &'a Scene,
     mover: &'a Mover<'a>,
     leg: &'a Leg<'a>,
@@ -254,6 +260,8 @@ struct Search<'a> {
 
 /// The clearance of one move, as far as anything comes within `horizon_m` of what is required of
 /// it. Where all bodies are is known: see [`Scene::is_known`].
+///
+/// What touches comes before what only has too little room, whatever is required of it.
 pub(crate) fn clearance(
     scene: &Scene,
     mover: &Mover,
@@ -261,7 +269,28 @@ pub(crate) fn clearance(
     pieces: &[Piece],
     horizon_m: f64,
 ) -> Clearance {
+    let horizon_m = horizon_m.max(LEAST_HORIZON_M);
+    let found = searched(scene, mover, leg, pieces, (horizon_m, true));
+    // a pair with too little room has ended the search for others
+    if found.sampled_m > 0.0 && found.clearance_m < found.required_m {
+        let touching = searched(scene, mover, leg, pieces, (LEAST_HORIZON_M, false));
+        if touching.sampled_m <= 0.0 {
+            return touching;
+        }
+    }
+    found
+}
+
+/// The same by one search: of the least room, or (`rooms` is false) of contact alone.
+fn searched(
+    scene: &Scene,
+    mover: &Mover,
+    leg: &Leg,
+    pieces: &[Piece],
+    (horizon_m, rooms): (f64, bool),
+) -> Clearance {
     let mut search = Search {
+        rooms,
         scene,
         mover,
         leg,
@@ -318,12 +347,17 @@ pub(crate) fn clearance(
             break;
         }
         looked += 1;
-        if looked > MOST || node.to - node.from < SHORTEST {
-            search.settled = search.settled.min(node.bound);
-            if looked > MOST {
-                break;
-            }
+        if node.to - node.from < SHORTEST {
+            search.give_up(&node);
             continue;
+        }
+        if looked > MOST {
+            search.give_up(&node);
+            let rest = std::mem::take(&mut open).into_sorted_vec();
+            for node in rest.iter().rev().take(SAMPLED) {
+                search.give_up(node);
+            }
+            break;
         }
         let (middle, bound, items) = search.look(&node);
         if items.is_empty() {
@@ -370,9 +404,20 @@ impl Search<'_> {
         }
     }
 
+    /// What counts as required of a pair, metres.
+    fn required_m(&self, pair: &Watched) -> f64 {
+        if self.rooms { pair.required_m } else { 0.0 }
+    }
+
+    /// Leaves an interval whose bound is not near its samples: of it only samples are known.
+    fn give_up(&mut self, node: &Node) {
+        self.best.certified = false;
+        self.sample_all(node, &node.items);
+    }
+
     fn note(&mut self, item: Item, found: &Nearest, frames: &Frames, at: f64, joints: &[f64; 6]) {
         let pair = &self.scene.watched[item.pair as usize];
-        let margin = found.distance_m - pair.required_m;
+        let margin = found.distance_m - self.required_m(pair);
         if margin < self.margin {
             let place = match pair.b {
                 Other::Fixed(_) => Pose::identity(),
@@ -414,7 +459,7 @@ impl Search<'_> {
                         }
                         FixedForm::Mesh { triangles, .. } => {
                             let (centre, radius) = body.ball();
-                            let reach = radius + self.margin + pair.required_m;
+                            let reach = radius + self.margin + self.required_m(pair);
                             let mut found = Vec::new();
                             triangles.near(relative.transform(centre), reach, |t| {
                                 found.push(body.nearest(&relative, &triangles.bodies[t as usize]));
@@ -443,6 +488,7 @@ impl Search<'_> {
         let (mut bound, mut settled, mut items) = (f64::INFINITY, f64::INFINITY, Vec::new());
         for item in &node.items {
             let pair = self.scene.watched[item.pair as usize];
+            let required_m = self.required_m(&pair);
             let moving = &self.scene.moving[pair.a];
             let base = norm(frames[0].links[0].translation);
             let [speed, gain] = self.mover.speed(&rates, self.scene, &pair, base);
@@ -450,7 +496,7 @@ impl Search<'_> {
             let (moved, sag) = (speed * half, gain * half * half / 8.0);
             // what is farther than this adds nothing; it falls with every sample
             let cutoff_of =
-                |search: &Self| search.margin.min(search.horizon_m) - CLOSE_M + pair.required_m;
+                |search: &Self| search.margin.min(search.horizon_m) - CLOSE_M + required_m;
             let (centre, radius) = moving.body.ball();
             let centre = poses[1].transform(centre);
             let into_body = poses[1].inverse();
@@ -465,7 +511,7 @@ impl Search<'_> {
             let judge = |search: &mut Self, other: &Body, item: Item, apart: f64| {
                 let cutoff = cutoff_of(search);
                 if apart >= cutoff {
-                    return (apart - pair.required_m, false);
+                    return (apart - required_m, false);
                 }
                 let found = moving.body.nearest(&poses[1], other);
                 search.note(item, &found, &frames[1], at, &middle);
@@ -479,7 +525,7 @@ impl Search<'_> {
                     let stays = -other.support(n.map(|x| -x));
                     least = least.max(stays - far - sag);
                 }
-                (least - pair.required_m, least < cutoff_of(search))
+                (least - required_m, least < cutoff_of(search))
             };
             let mut keep = |item: Item, (least, open): (f64, bool)| {
                 if open {
@@ -519,7 +565,7 @@ impl Search<'_> {
                         // the nearest first: what is found there settles most others
                         near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
                         // what is not near is at least so far
-                        keep(*item, (cutoff - pair.required_m, false));
+                        keep(*item, (cutoff - required_m, false));
                         let mut some = Vec::new();
                         let mut least = f64::INFINITY;
                         for (apart, t) in near {

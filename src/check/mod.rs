@@ -374,9 +374,12 @@ fn sum_up(program: &Program, moves: &[MoveReport], unknown: usize, no_bodies: bo
     };
     for report in moves {
         summary.max_target_error = worse(summary.max_target_error, report.target_error);
-        if let Some(path) = &report.path {
-            summary.max_path_error = worse(summary.max_path_error, path.bound);
-        }
+        // of a move that begins nobody knows where the end alone is known
+        let path = report
+            .path
+            .as_ref()
+            .map_or(report.target_error, |path| path.bound);
+        summary.max_path_error = worse(summary.max_path_error, path);
         let certified = report.path.is_none_or(|p| p.certified)
             && report.clearance.as_ref().is_none_or(|c| c.certified);
         summary.uncertified += usize::from(!certified);

@@ -79,6 +79,7 @@ pub const TABLE: &[Kind] = &[
     row("branch-lost", Error, "the calibrated arm does not reach the pose on the configuration that the file gives", "move the target away from the singularity", &["compensate"], &[]).never_accepted(),
     row("circular-angle", Error, "an arc goes on to an angle (`CA`), and ends where none of its points is", "write the arc to the point where it ends, without an angle", &["compensate", "check"], &["krl"]),
     row("clearance", Error, "the real arm comes nearer to a body than is allowed", "move the target or the body, or give the pair another clearance in the cell", &["check"], &[]),
+    row("clearance-uncertified", Warning, "the clearance along the move is bounded at samples only", "lead the path around the singularity", &["check"], &[]),
     row("collision", Error, "the real arm touches a body; a warning of `plan`, of its own program", "move the target or the body", &["check", "plan"], &[]),
     row("computed-target", Error, "a move goes to a position that only the running program knows", "move to a target that the files declare with numbers", &["compensate", "check"], &[]),
     row(

@@ -208,6 +208,11 @@ impl Problem {
         selection: &Selection,
         world_from_base: Pose,
     ) -> Result<(Self, Estimate), IdentifyError> {
+        // what the controller knows of its own arm stays where nothing better is found
+        let profile = &Profile {
+            effects: profile.real_effects(),
+            ..profile.clone()
+        };
         let (points, points_m) = named_points(profile, measurements, selection.wants_points());
         let features = contact::gather(&measurements.rows)?;
         let mut tools: Vec<Mounted> = Vec::new();

@@ -50,6 +50,12 @@ impl Job<'_> {
         report.clearance = Some(Box::new(found));
         if first {
             for pair in collision::inside(scene, &arms.mover(Which::Real), leg, &leg.start) {
+                report.clearance = Some(Box::new(Clearance {
+                    clearance_m: 0.0,
+                    sampled_m: 0.0,
+                    pair: Some(pair),
+                    ..found
+                }));
                 let (a, b) = scene.names_of(&scene.watched[pair]);
                 let message = format!("{a} is inside {b}");
                 let hint = "is the cell in the robot's world frame?";
@@ -61,6 +67,22 @@ impl Job<'_> {
                     hint,
                 ));
             }
+        }
+        if !found.certified && pieces.iter().all(|piece| piece.certified) {
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
+                "clearance-uncertified",
+                Severity::Warning,
+                format!(
+                    "bounds of the clearance cannot be guaranteed here: the arm moves too fast near \
+                     a singularity; the nearest sample is {}",
+                    match found.pair {
+                        Some(_) => format!("{:.3} mm", mm_from_m(found.sampled_m)),
+                        None => "beyond the horizon".to_owned(),
+                    }
+                ),
+                "only samples were looked at: lead the path around the singularity",
+            ));
         }
         let alike = arms.real_is_nominal && self.original.is_none();
         let nominal = if alike {

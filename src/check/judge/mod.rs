@@ -136,8 +136,31 @@ impl Job<'_> {
         ))
     }
 
+    /// Of a move that begins nobody knows where its end alone is known.
+    fn judge_known_end(&self, index: usize, report: &MoveReport, findings: &mut Vec<Finding>) {
+        let missed_m = report.target_error.distance_m;
+        let limit = self.options.max_path_error_m;
+        if let Some(limit) = limit.filter(|limit| missed_m > *limit) {
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
+                "path-error",
+                Severity::Error,
+                format!(
+                    "the real tool ends {:.3} mm from the wanted target (limit {:.3} mm; where the \
+                     move begins nobody knows)",
+                    mm_from_m(missed_m),
+                    mm_from_m(limit)
+                ),
+                "compensate the program, or give --start-joints",
+            ));
+        }
+    }
+
     fn judge_path(&self, index: usize, report: &MoveReport, findings: &mut Vec<Finding>) {
-        let Some(path) = &report.path else { return };
+        let Some(path) = &report.path else {
+            self.judge_known_end(index, report, findings);
+            return;
+        };
         if !path.certified {
             let message = "bounds between samples cannot be guaranteed here: the move passes near \
                 a singularity, or the controller's own chain is calibrated";

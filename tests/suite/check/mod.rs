@@ -6,6 +6,7 @@ mod insert;
 mod laws;
 mod meshes;
 mod mutated;
+mod rooms;
 mod urdf;
 
 use poseshift::check::cell::Cell;

@@ -1,6 +1,7 @@
 //! Hidden truths found again.
 
 mod contact;
+mod controller;
 mod generated;
 mod identify;
 mod input_checks;

@@ -1,0 +1,88 @@
+//! What touches is never hidden: by the horizon, by what other pairs require, by what is accepted.
+
+use crate::support::{poseshift, repository, scratch};
+use serde_json::Value;
+
+const PROGRAM: &str = "MODULE A
+  TASK PERS tooldata art:=[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+  PROC main()
+    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,art\\WObj:=wobj0;
+    MoveL [[400,-200,400],[0,0,1,0],[-1,-1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,art\\WObj:=wobj0;
+    MoveL [[400,200,400],[0,0,1,0],[0,-1,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,art\\WObj:=wobj0;
+  ENDPROC
+ENDMODULE
+";
+/// A plate of one millimetre that the arm goes through in the middle of a move.
+const PLATE: &str = "poseshift: cell/1
+bodies:
+  - {name: plate, box_mm: [40, 1, 40], at: {x_mm: 400, y_mm: 13, z_mm: 400, rx_deg: 0, ry_deg: 0, rz_deg: 0}}
+  - {name: person, box_mm: [100, 4000, 4000], at: {x_mm: 700, y_mm: 0, z_mm: 400, rx_deg: 0, ry_deg: 0, rz_deg: 0}}
+attached:
+  - {name: tip, to: flange, sphere_mm: {radius: 5}}
+";
+
+/// The exit status, and the report.
+fn checked(program: &str, cell: &str, options: &[&str]) -> (i32, Value) {
+    let folder = scratch();
+    std::fs::write(folder.path().join("a.mod"), program).expect("scratch");
+    std::fs::write(folder.path().join("cell.yaml"), cell).expect("scratch");
+    let run = poseshift()
+        .current_dir(folder.path())
+        .args([
+            "check",
+            "a.mod",
+            "--cell",
+            "cell.yaml",
+            "--json",
+            "--profile",
+        ])
+        .arg(repository("robots/abb_irb120_thesis.yaml"))
+        .args(options)
+        .output()
+        .expect("the program starts");
+    let report = serde_json::from_slice(&run.stdout).expect("JSON");
+    (run.status.code().expect("it ended"), report)
+}
+
+fn has(report: &Value, id: &str) -> bool {
+    let findings = report["findings"].as_array().expect("a list");
+    findings.iter().any(|finding| finding["id"] == id)
+}
+
+#[test]
+fn what_touches_is_found_whatever_is_required_of_others() {
+    let far = format!("{PLATE}pairs: [{{a: tip, b: person, clearance_mm: 400}}]\n");
+    let cases: [(&str, &[&str]); 4] = [
+        (PLATE, &[]),
+        (PLATE, &["--horizon", "0"]),
+        (&far, &[]),
+        (&far, &["--accept", "clearance"]),
+    ];
+    for (cell, options) in cases {
+        let (status, report) = checked(PROGRAM, cell, options);
+        assert_eq!(status, 1, "{options:?}");
+        assert!(has(&report, "collision"), "{options:?}");
+        assert_eq!(report["summary"]["min_clearance_mm"], 0.0, "{options:?}");
+        assert!(
+            report["summary"]["collisions"].as_u64() > Some(0),
+            "{options:?}"
+        );
+    }
+}
+
+#[test]
+fn the_end_of_a_move_that_begins_nobody_knows_where_has_the_limit_of_its_path() {
+    let only = "MODULE A
+  PROC main()
+    MoveJ [[400,0,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0\\WObj:=wobj0;
+  ENDPROC
+ENDMODULE
+";
+    let (status, report) = checked(only, "poseshift: cell/1\n", &["--max-path-error", "0.05"]);
+    assert_eq!(status, 1);
+    assert!(has(&report, "path-error"));
+    let most = report["summary"]["max_path_error_mm"]
+        .as_f64()
+        .expect("a number");
+    assert!(most > 1.0, "{most}");
+}
