@@ -69,6 +69,8 @@ pub(crate) fn hint<'a>(
         sentences.push(format!("there are no {what}"));
     } else if known.len() <= MOST_LISTED {
         sentences.push(format!("{what}: {}", known.join(", ")));
+    } else if sentences.is_empty() {
+        sentences.push(format!("none of the {} {what} is alike", known.len()));
     }
     sentences.join(" ")
 }
@@ -106,5 +108,10 @@ mod tests {
             "there are no tools of the profile"
         );
         assert_eq!(hint("q", "columns", ["a", "b"]), "columns: a, b");
+        let many = ["a"; MOST_LISTED + 1];
+        assert_eq!(
+            hint("q", "columns", many),
+            "none of the 41 columns is alike"
+        );
     }
 }

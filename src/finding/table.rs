@@ -168,7 +168,7 @@ pub const TABLE: &[Kind] = &[
     row("number-inserted", Note, "a target leaves out numbers that are zero, and the correction needs them: they are put in, in the order of the format", "nothing: the text of each is in the message", &["compensate"], &[]),
     row("other-group", Note, "moves to points that have no group 1", "they stay as they are", &["compensate", "check"], &["fanuc"]),
     row("out-of-reach", Error, "the calibrated arm does not reach the wanted pose", "check the tool and the work frame; move the part nearer", &["compensate"], &[]).never_accepted(),
-    row("outlier", Warning, "a row does not fit the others of its sweep and is left out", "measure them again, or leave them out", &["axes"], &[]),
+    row("outlier", Warning, "a row does not fit the others; `axes` leaves it out, `handeye` does not", "measure them again, or leave them out", &["axes", "handeye"], &[]),
     row("outliers", Warning, "rows do not fit the others", "measure them again, or leave them out", &["calibrate", "validate", "diagnose"], &[]),
     row("partial-target", Error, "components are missing: they keep the value of the position before, or are zero", "write all components of the target", &["compensate", "check"], &["krl", "kawasaki"]),
     row("path-error", Error, "the path between targets is farther from the wanted one than --max-path-error", "`poseshift compensate --max-path-error` inserts targets where the path needs them", &["check"], &[]),

@@ -12,8 +12,8 @@ const MEDIAN_CHI2_3: f64 = 2.366;
 /// three at 99.97 %.
 pub const LIMIT: f64 = 4.35;
 /// Fewest points from which a bad one can be found: with four, one that is off across the plane of
-/// the others tilts them.
-pub const FEWEST: usize = 5;
+/// the others tilts them; with five, the three that happen to fit best often contradict good ones.
+pub const FEWEST: usize = 6;
 
 /// A touch that disagrees with the others.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -166,6 +166,7 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
     let (left_out_m, left_out_rad) = left_out(&refined);
     let mut findings = Vec::new();
     findings.extend(weak_rotation(&problem, names[0]));
+    findings.extend(outliers(&refined, names[0]));
     findings.extend(corners.as_ref().and_then(|c| not_accepted(c, names[0])));
     let frame = Frame {
         to_from_from: *camera,
@@ -245,6 +246,43 @@ fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
         Finding::of_file("weak-rotation", Severity::Warning, name, message)
             .hint("add poses that tilt the flange in another direction")
     })
+}
+
+/// Fewer rows do not show which of them is off.
+const FEWEST_JUDGED: usize = 6;
+/// A row stands out whose left-out residual is more than this many times the median.
+const STANDS_OUT: f64 = 5.0;
+/// Residuals below these are nobody's outliers, metres and radians.
+const SMALL: [f64; 2] = [1e-5, 1e-5];
+
+/// Rows that the others contradict; they are in the fit.
+fn outliers(refined: &Refined, name: &str) -> Vec<Finding> {
+    let left = |kind: usize| -> Vec<f64> {
+        let rows = refined.rows.iter();
+        rows.map(|row| [row.out_distance_m, row.out_rotation_rad][kind])
+            .collect()
+    };
+    if refined.rows.len() < FEWEST_JUDGED {
+        return Vec::new();
+    }
+    let limits = [0, 1].map(|kind| {
+        let mut sorted = left(kind);
+        sorted.sort_by(f64::total_cmp);
+        (STANDS_OUT * sorted[sorted.len() / 2]).max(SMALL[kind])
+    });
+    let rows = left(0).into_iter().zip(left(1)).enumerate();
+    rows.filter(|(_, (distance, turn))| *distance > limits[0] || *turn > limits[1])
+        .map(|(index, (distance, turn))| {
+            let message = format!(
+                "row {} is {:.3} mm and {:.3} deg from where the others have it; it is in the fit",
+                index + 1,
+                mm_from_m(distance),
+                turn / DEG
+            );
+            Finding::of_file("outlier", Severity::Warning, name, message)
+                .hint("measure it again, or leave it out")
+        })
+        .collect()
 }
 
 fn not_accepted(corners: &Refinement, name: &str) -> Option<Finding> {

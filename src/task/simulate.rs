@@ -35,11 +35,14 @@ impl Document for Simulation {
     const KIND: &'static str = "simulation/1";
 }
 
+/// Directions from which a joint comes.
+const STEPS: [f64; 3] = [-1.0, 0.0, 1.0];
+
 /// Measures the real arm of a profile in each row's joint angles, every named point of it, in the
 /// frame of the profile's device.
 ///
 /// # Errors
-/// A table without joints; a tool that the profile does not have.
+/// A table without joints, or with directions of some of them only; a tool that the profile does not have.
 pub fn simulate(
     file: &ProfileFile,
     joints: &Source,
@@ -51,7 +54,10 @@ pub fn simulate(
     if !table.has("on") {
         table.require(&JOINTS)?;
     }
-    let directions = DIRECTION_COLUMNS.iter().all(|c| table.has(c));
+    let directions = DIRECTION_COLUMNS.iter().any(|c| table.has(c));
+    if directions {
+        table.require(&DIRECTION_COLUMNS)?;
+    }
     let forces = FORCE_COLUMNS.iter().all(|c| table.has(c));
     let command = |row: Row| {
         let mut conditions = Conditions::default();
@@ -67,6 +73,12 @@ pub fn simulate(
         table.require(&JOINTS)?;
         if directions {
             conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
+            let steps = conditions.direction.iter().zip(DIRECTION_COLUMNS);
+            if let Some((step, column)) = steps.into_iter().find(|(d, _)| !STEPS.contains(*d)) {
+                return Err(row.failure(format!(
+                    "column {column}: {step} is no direction: -1, 0 or 1"
+                )));
+            }
         }
         if forces {
             conditions.force_n = row.numbers(FORCE_COLUMNS)?;

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Quaternion};
-use crate::identify::input_checks::csv::not_csv;
+use crate::identify::input_checks::csv::{line_of_row, not_csv};
 use crate::nearest;
 use crate::program::Source;
 use std::borrow::Cow;
@@ -45,9 +45,7 @@ impl<'a> Table<'a> {
             .trim(csv::Trim::All)
             .from_reader(source.bytes.as_slice());
         let failure = |error: &csv::Error| {
-            let line = error
-                .position()
-                .map_or(0, |p| usize::try_from(p.line()).unwrap_or(0));
+            let line = line_of_row(&source.bytes, error.position());
             let message = match error.kind() {
                 csv::ErrorKind::UnequalLengths {
                     expected_len, len, ..
@@ -66,10 +64,7 @@ impl<'a> Table<'a> {
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record.map_err(|error| failure(&error))?;
-            let line = record
-                .position()
-                .map_or(0, |p| usize::try_from(p.line()).unwrap_or(0));
-            rows.push((line, record));
+            rows.push((line_of_row(&source.bytes, record.position()), record));
         }
         Ok(Self {
             source,

@@ -26,6 +26,23 @@ fn has_decimal_comma(cell: &[u8]) -> bool {
     text.contains(',') && text.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
+/// The line of a row, from 1, whose reading began at this position: there the `\n` of the row before
+/// and blank lines and comments may still stand.
+#[must_use]
+pub fn line_of_row(bytes: &[u8], position: Option<&csv::Position>) -> usize {
+    let place = |position: &csv::Position| {
+        let (line, byte) = (position.line(), position.byte());
+        Some((usize::try_from(line).ok()?, usize::try_from(byte).ok()?))
+    };
+    let Some((line, byte)) = position.and_then(place) else {
+        return 0;
+    };
+    let lines = bytes.get(byte..).unwrap_or_default().split(|b| *b == b'\n');
+    line + lines
+        .take_while(|line| matches!(line, [] | b"\r" | [b'#', ..]))
+        .count()
+}
+
 /// A file without anything in it.
 #[must_use]
 pub fn empty() -> NotCsv {

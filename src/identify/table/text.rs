@@ -1,7 +1,7 @@
 //! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign,
 //! header.
 
-use crate::identify::input_checks::csv::{NotCsv, doubled, empty};
+use crate::identify::input_checks::csv::{NotCsv, doubled, empty, line_of_row};
 use std::ops::Range;
 
 /// What stands between cells.
@@ -232,20 +232,12 @@ impl Grid {
             .has_headers(false)
             .flexible(true)
             .from_reader(text.as_bytes());
-        let line_of = |position: Option<&csv::Position>| {
-            position.map_or(0, |p| usize::try_from(p.line()).unwrap_or(0))
-        };
-        let lines: Vec<&str> = text.lines().collect();
+        let line_of = |position| line_of_row(text.as_bytes(), position);
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record
                 .map_err(|error| fault(line_of(error.position()), 1, error.to_string(), ""))?;
-            // a position is where the blank lines before the row begin
-            let from = line_of(record.position()).saturating_sub(1);
-            let blank = lines[from..]
-                .iter()
-                .take_while(|line| line.trim().is_empty());
-            rows.push((from + blank.count() + 1, record));
+            rows.push((line_of(record.position()), record));
         }
         rows.drain(..skipped.min(rows.len()));
         Ok(rows)

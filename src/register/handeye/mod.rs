@@ -70,6 +70,12 @@ pub const WEAK_RAD: f64 = 0.17;
 const ANGLES_RAD: f64 = 0.05;
 /// Rotations left over above this are no noise, radians.
 const GROSS_RAD: f64 = 0.1;
+/// Distances left over above this part of the spread of the positions are no noise.
+const GROSS_PART: f64 = 0.05;
+/// Positions of robot and board that spread less are in another unit, metres.
+const SMALLEST_M: f64 = 3e-3;
+/// Another unit is meant where it leaves less than this part of the distances.
+const OTHER_UNIT: f64 = 0.1;
 /// With so many poses or fewer every pair is used.
 const ALL_PAIRS: usize = 25;
 
@@ -126,6 +132,17 @@ pub enum HandEyeError {
         /// Row (from 1) that is in the worst pairs.
         row: usize,
     },
+    /// Neither robot nor board moves.
+    #[error(
+        "the positions of robot and board spread over {spread_mm:.3} mm only (limit {limit_mm:.0} \
+         mm): are they in metres?"
+    )]
+    TooSmall {
+        /// Root mean square distance from the middle, mm.
+        spread_mm: f64,
+        /// The least that is accepted, mm.
+        limit_mm: f64,
+    },
     /// The best solution leaves more than noise.
     #[error("the best solution leaves {left_deg:.2} deg and {left_mm:.1} mm: {advice}")]
     Gross {
@@ -161,6 +178,8 @@ pub struct HandEye {
     /// `camera_from_board`.
     b: Vec<Pose>,
     motions: Vec<Motion>,
+    /// Root mean square distance of the robot's or the board's positions from their middle.
+    reach_m: f64,
     /// Root mean square rotations about the main directions, largest first, radians.
     pub spread_rad: [f64; 3],
 }
@@ -188,11 +207,19 @@ impl HandEye {
         let motions = motions(&a, &b);
         let spread_rad = spread(&motions)?;
         agree(&motions, a.len())?;
+        let reach_m = reach_m(robot).max(reach_m(board));
+        if reach_m < SMALLEST_M {
+            return Err(HandEyeError::TooSmall {
+                spread_mm: reach_m * 1e3,
+                limit_mm: SMALLEST_M * 1e3,
+            });
+        }
         Ok(Self {
             setup,
             a,
             b,
             motions,
+            reach_m,
             spread_rad,
         })
     }
@@ -231,13 +258,18 @@ impl HandEye {
     /// If no method has a start, or more is left than noise; then with what would fit.
     pub fn refined(&self) -> Result<Refined, HandEyeError> {
         let refined = self.refine()?;
-        if refined.rotation_rad < GROSS_RAD {
+        let turned = refined.rotation_rad >= GROSS_RAD;
+        if !turned && refined.distance_m <= GROSS_PART * self.reach_m {
             return Ok(refined);
         }
         Err(HandEyeError::Gross {
             left_deg: refined.rotation_rad.to_degrees(),
             left_mm: refined.distance_m * 1e3,
-            advice: self.advice(),
+            advice: if turned {
+                self.advice()
+            } else {
+                self.unit_advice(refined.distance_m)
+            },
         })
     }
 
@@ -277,8 +309,74 @@ impl HandEye {
                 return advice;
             }
         }
-        "do the rows of ROBOT and BOARD belong together?"
+        TOGETHER
     }
+
+    /// In which unit the positions may be, by what fits.
+    fn unit_advice(&self, left_m: f64) -> &'static str {
+        let cases = [
+            (
+                1e3,
+                1.0,
+                "with ROBOT's positions times 1000 (metres) it fits",
+            ),
+            (
+                1.0,
+                1e3,
+                "with BOARD's positions times 1000 (metres) it fits",
+            ),
+            (
+                25.4,
+                1.0,
+                "with ROBOT's positions times 25.4 (inches) it fits",
+            ),
+            (
+                1.0,
+                25.4,
+                "with BOARD's positions times 25.4 (inches) it fits",
+            ),
+        ];
+        let fits = |robot: f64, board: f64| {
+            let (a, b) = (scaled(&self.a, robot), scaled(&self.b, board));
+            let motions = motions(&a, &b);
+            let other = Self {
+                a,
+                b,
+                motions,
+                ..self.clone()
+            };
+            other
+                .refine()
+                .is_ok_and(|r| r.distance_m < OTHER_UNIT * left_m)
+        };
+        let case = cases
+            .into_iter()
+            .find(|(robot, board, _)| fits(*robot, *board));
+        case.map_or(TOGETHER, |(_, _, advice)| advice)
+    }
+}
+
+/// Advice where nothing else fits.
+const TOGETHER: &str = "do the rows of ROBOT and BOARD belong together?";
+
+fn scaled(poses: &[Pose], factor: f64) -> Vec<Pose> {
+    let one = |pose: &Pose| Pose {
+        translation: pose.translation.map(|x| x * factor),
+        ..*pose
+    };
+    poses.iter().map(one).collect()
+}
+
+/// Root mean square distance of positions from their middle, metres.
+#[allow(clippy::cast_precision_loss)]
+fn reach_m(poses: &[Pose]) -> f64 {
+    let n = poses.len() as f64;
+    let squares = (0..3).map(|k| {
+        let mean = poses.iter().map(|p| p.translation[k]).sum::<f64>() / n;
+        let off = poses.iter().map(|p| (p.translation[k] - mean).powi(2));
+        off.sum::<f64>() / n
+    });
+    squares.sum::<f64>().sqrt()
 }
 
 /// Pairs of rows: all of few; of many each with its next ones and some far away, so that their

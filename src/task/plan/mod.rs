@@ -13,6 +13,7 @@ use super::simulate::stand;
 use super::table::{JOINTS, Table, cell, text_cell};
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::IdentifyError;
 use crate::identify::external::{column_of, track_columns};
 use crate::identify::measurements::{DIRECTION_COLUMNS, EXTERNAL_MM_COLUMNS};
 use crate::identify::parameters::Selection;
@@ -161,7 +162,7 @@ pub fn plan(
     let driving = Driving::new(file, &tool, &request.constraints, read)?;
     let admits = |q: &[f64; 6]| driving.admits(q);
     let mut found = plan_telling(profile, &tool, selection, request, &admits, hear)
-        .map_err(|error| identify_failure(&file.name, &error))?;
+        .map_err(|error| failed(&file.name, &error))?;
     let given = request.given.len();
     let chosen = found.joints.split_off(given);
     let order = driving.order(&chosen);
@@ -258,7 +259,7 @@ pub fn plan_plate(
         request,
         &mut heard,
     )
-    .map_err(|error| identify_failure(&file.name, &error))?;
+    .map_err(|error| failed(&file.name, &error))?;
     let own = &all[positioner];
     let range = axes.first_of(positioner)..axes.first_of(positioner) + own.axes.len();
     let listed: Vec<_> = axes.listed().collect();
@@ -432,5 +433,18 @@ impl Plan {
             table += &(cells.join(",") + "\n");
         }
         table
+    }
+}
+
+/// Of too few configurations the hint is this command's own.
+fn failed(name: &str, error: &IdentifyError) -> Failure {
+    let failure = identify_failure(name, error);
+    match error {
+        IdentifyError::TooFew { .. } => Failure {
+            hint: "plan more configurations (`--count`), or for fewer parameters (`--level 1`)"
+                .into(),
+            ..failure
+        },
+        _ => failure,
     }
 }

@@ -202,3 +202,45 @@ fn catalogues_list_everything_and_json_is_json() {
     assert!(stdout(&["completions", "bash"]).contains("compensate"));
     assert!(stdout(&["man"]).contains("poseshift"));
 }
+
+#[test]
+fn rows_behind_windows_line_ends_and_directions_that_are_none_are_named() {
+    let folder = scratch();
+    let file = folder.path().join("q.csv");
+    let path = file.to_str().expect("UTF-8");
+    let joints = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
+    let refusal = |command: &str, text: &str| {
+        std::fs::write(&file, text).expect("scratch");
+        refused(&[command, "--profile", PROFILE, "--joints", path])
+    };
+    for end in ["\n", "\r\n"] {
+        let rows = ["1,2,3,4,5,6", "", "# seen", "1,2,x,4,5,6"].join(end);
+        let reported = refusal("fk", &format!("{joints}{end}{rows}{end}"));
+        assert!(reported.contains("q.csv:5:"), "{reported}");
+    }
+    let reported = refusal("simulate", &format!("{joints},dir1\n1,2,3,4,5,6,1\n"));
+    assert!(reported.contains("dir2"), "{reported}");
+    let all = "dir1,dir2,dir3,dir4,dir5,dir6";
+    let row = "1,2,3,4,5,6,1,1,7,1,0,-1";
+    let reported = refusal("simulate", &format!("{joints},{all}\n{row}\n"));
+    assert!(reported.contains("dir3: 7 is no direction"), "{reported}");
+}
+
+#[test]
+fn a_plan_of_too_few_configurations_names_its_own_options() {
+    let profile = repository("robots/abb_irb120.yaml");
+    let profile = profile.to_str().expect("UTF-8");
+    let reported = refused(&[
+        "plan",
+        "--profile",
+        profile,
+        "--count",
+        "2",
+        "--starts",
+        "1",
+    ]);
+    assert!(
+        reported.contains("--count") && !reported.contains("poseshift calibrate"),
+        "{reported}"
+    );
+}

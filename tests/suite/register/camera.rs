@@ -271,3 +271,56 @@ fn bad_corners_are_refused_with_their_place() {
         assert!(!at.join("camera.yaml").exists());
     }
 }
+
+#[test]
+fn other_units_and_rows_that_stand_out_do_not_pass_in_silence() {
+    let folder = scratch();
+    let at = folder.path();
+    let mut random = seeded(44);
+    let (camera, board) = (
+        Pose::from_xyz_rxryrz([0.05, -0.03, 0.09, 0.4, -0.2, 1.0]),
+        Pose::from_xyz_rxryrz([0.6, 0.1, 0.02, 0.05, 0.0, 0.7]),
+    );
+    let (_, flanges) = postures(&mut random, 20);
+    let mut seen: Vec<Pose> = flanges
+        .iter()
+        .map(|f| camera.inverse() * f.inverse() * board)
+        .collect();
+    for pose in &mut seen {
+        pose.translation = noisy(&mut random, pose.translation, 1e-4);
+    }
+    let write = |name: &str, all: &[Pose], factor: f64| {
+        let mut all = all.to_vec();
+        for pose in &mut all {
+            pose.translation = pose.translation.map(|x| factor * x);
+        }
+        std::fs::write(at.join(name), poses(&all)).expect("scratch");
+    };
+    let with = ["robot.csv", "board.csv", "--setup", "eye-in-hand"];
+    for (robot, board, word) in [
+        (1.0, 1e-3, "BOARD's positions times 1000"),
+        (1e-3, 1.0, "ROBOT's positions times 1000"),
+        (1.0, 1.0 / 25.4, "BOARD's positions times 25.4"),
+        (1e-3, 1e-3, "are they in metres?"),
+    ] {
+        write("robot.csv", &flanges, robot);
+        write("board.csv", &seen, board);
+        let (status, _, reported) = run(at, &with);
+        let flat = reported.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            status == Some(2) && flat.contains(word),
+            "{word}: {reported}"
+        );
+    }
+    write("robot.csv", &flanges, 1.0);
+    write("board.csv", &seen, 1.0);
+    assert_eq!(report(at, &with)["findings"], Value::Array(Vec::new()));
+    seen[6].translation[0] += 0.02;
+    write("board.csv", &seen, 1.0);
+    let found = report(at, &with);
+    let messages = found["findings"].as_array().expect("findings");
+    assert!(
+        messages.len() == 1 && messages[0].to_string().contains("row 7 "),
+        "{messages:?}"
+    );
+}
