@@ -39,7 +39,7 @@ pub fn line_of_row(bytes: &[u8], position: Option<&csv::Position>) -> usize {
     };
     let lines = bytes.get(byte..).unwrap_or_default().split(|b| *b == b'\n');
     line + lines
-        .take_while(|line| matches!(line, [] | b"\r" | [b'#', ..]))
+        .take_while(|line| matches!(line, [] | [b'\r'] | [b'#', ..]))
         .count()
 }
 

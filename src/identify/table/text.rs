@@ -232,7 +232,7 @@ impl Grid {
             .has_headers(false)
             .flexible(true)
             .from_reader(text.as_bytes());
-        let line_of = |position| line_of_row(text.as_bytes(), position);
+        let line_of = |position: Option<&csv::Position>| line_of_row(text.as_bytes(), position);
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record

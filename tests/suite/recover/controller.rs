@@ -23,7 +23,8 @@ fn place(profile: &str, folder: &Path) -> [f64; 3] {
         "real",
         "--tool",
         "t",
-        "10,-80,90,-100,-90,0",
+        "--joints",
+        "asked.csv",
         "--json",
     ]));
     fn number(found: &Value, key: &str) -> Option<f64> {
@@ -107,6 +108,8 @@ fn a_controller_with_a_chain_of_its_own_keeps_it_where_the_arm_has_it() {
         ],
         folder,
     );
+    let asked = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n10,-80,90,-100,-90,0\n";
+    std::fs::write(folder.join("asked.csv"), asked).expect("scratch");
     // the arm is what the controller believes: hundredths of the noise, not its own correction
     let (truth, found) = (place("own.yaml", folder), place("found.yaml", folder));
     for (a, b) in truth.iter().zip(&found) {
