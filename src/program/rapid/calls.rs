@@ -101,7 +101,7 @@ impl Translator<'_> {
                 [indices(part)]
             .iter()
             .any(|&name| is_target(name)),
-            Expression::Nothing | Expression::Text(..) => false,
+            Expression::Nothing | Expression::Text(..) | Expression::Load(_) => false,
         }
     }
 

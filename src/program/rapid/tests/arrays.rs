@@ -34,6 +34,29 @@ fn strings(names: &[&str]) -> Vec<String> {
 }
 
 #[test]
+fn elements_of_a_large_array_are_one_for_an_index_that_only_the_program_knows() {
+    let filled: String = (1..=100)
+        .map(|i| format!("q{{{i}}}:=p{};\n", 1 + i % 2))
+        .collect();
+    let (names, said) = both(&format!(
+        "VAR robtarget q{{100}};\n{filled}MoveL q{{7}},v5,z5,t;\nMoveL q{{k}},v5,z5,t;"
+    ));
+    assert_eq!((names, said), (strings(&["p2", "p1", "p2"]), vec![]));
+    let many: String = (1..=70)
+        .map(|i| format!("q{{{i}}}:=[[{i},0,0],[1,0,0,0],CONF;\n"))
+        .collect();
+    let moves = "MoveL q{k},v5,z5,t;\n".repeat(50);
+    let program = path(&format!(
+        "VAR robtarget q{{70}};\n{many}{moves}MoveL q{{7}},v5,z5,t;"
+    ));
+    assert!(ids(&program).contains(&"too-many-uses"));
+    assert!(
+        program.moves.len() < 50 * 70,
+        "each move once for each element"
+    );
+}
+
+#[test]
 fn an_element_that_only_the_program_knows_may_be_any() {
     let (names, said) =
         both("VAR robtarget q{3};\nq{1}:=p1;\nq{k}:=p2;\nMoveL q{1},v5,z5,t;\nMoveL q{j},v5,z5,t;");
