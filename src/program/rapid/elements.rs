@@ -161,6 +161,12 @@ impl Translator<'_> {
             return known;
         }
         let name = element_name(self.resolved.spelling(self.name_of(entity)), place);
+        // what a routine fills is what it writes
+        let holds = if self.resolved.is_filled(entity) {
+            Expr::Absent
+        } else {
+            holds
+        };
         let made = self.variable(entity, number, holds);
         self.builder.script.variables[made as usize].name = name.into();
         if self.is_large(entity) {
