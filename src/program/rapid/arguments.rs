@@ -1,9 +1,9 @@
 //! Arguments of instructions: names, targets written out, Offs and `RelTool` around them.
 
-use super::aggregate::{self, JOINTTARGET, Leaf, ROBTARGET};
+use super::aggregate::{self, JOINTTARGET, LOADDATA, Leaf, ROBTARGET};
 use super::reader::Reader;
 use super::syntax::{Amount, BadValue, Base, Expression, Index, Part, Path, Step, Verb};
-use super::tokens::{Fault, Kind};
+use super::tokens::{Fault, Kind, Token};
 use crate::geometry::Quaternion;
 use crate::program::script::short;
 use crate::program::{Layout, Number, Shape, Target, number};
@@ -61,6 +61,18 @@ impl Reader<'_> {
         self.expression().map(Expression::Computed)
     }
 
+    /// A load that is written out, the present token is its bracket.
+    pub(super) fn load(&mut self) -> Result<Expression, Fault> {
+        let mark = self.mark();
+        match self.leaves(LOADDATA) {
+            Ok(leaves) if self.argument_ends() => return Ok(Expression::Load(leaves)),
+            Ok(_) | Err(Fault::Unexpected { .. }) => {}
+            Err(fault) => return Err(fault),
+        }
+        self.rewind(mark);
+        self.argument(None)
+    }
+
     /// `.trans.x`, the present token is the point.
     fn members(&mut self) -> Result<(), Fault> {
         while self.token.is(b'.') {
@@ -97,7 +109,8 @@ impl Reader<'_> {
         self.advance()?;
         if self.token.is(b'(') {
             let relative = self.text(first).eq_ignore_ascii_case(b"reltool");
-            if depth < DEEPEST && (relative || self.text(first).eq_ignore_ascii_case(b"offs")) {
+            let displaces = relative || self.text(first).eq_ignore_ascii_case(b"offs");
+            if depth < DEEPEST && displaces && self.is_built_in(first) {
                 return self.displaced(of, relative, depth);
             }
             self.rewind(mark);
@@ -109,6 +122,12 @@ impl Reader<'_> {
         let index = self.index()?;
         let index = self.parsed.keep_index(name, index);
         Ok(Some(Written::Base(Base::Named { name, index })))
+    }
+
+    /// Whether no routine of the files hides Offs or `RelTool`, this token.
+    fn is_built_in(&mut self, token: Token) -> bool {
+        let name = self.parsed.symbols.intern(self.text(token));
+        self.verbs.displaces(name)
     }
 
     /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token

@@ -101,7 +101,7 @@ impl Translator<'_> {
                 [indices(part)]
             .iter()
             .any(|&name| is_target(name)),
-            Expression::Nothing | Expression::Text(..) => false,
+            Expression::Nothing | Expression::Text(..) | Expression::Load(_) => false,
         }
     }
 
@@ -343,7 +343,9 @@ impl Translator<'_> {
             };
             let whole = Expr::Variable(self.parameter(datum));
             for variable in self.written(name, index) {
-                for how in [How::PartSomehow(self.changed()), How::Whole(whole)] {
+                let part = resolved.is_in_parts(datum).then(|| self.changed());
+                let part = part.map(How::PartSomehow);
+                for how in part.into_iter().chain([How::Whole(whole)]) {
                     let place = self.here;
                     self.emit_write(Write {
                         place,

@@ -231,7 +231,7 @@ impl Reader<'_> {
         self.expression().map(|_| Stored::Computed)
     }
 
-    fn leaves(&mut self, template: &[u8]) -> Result<Part, Fault> {
+    pub(super) fn leaves(&mut self, template: &[u8]) -> Result<Part, Fault> {
         let leaves = self.aggregate(template)?;
         let start = short(self.parsed.leaves.len());
         self.parsed.leaves.extend_from_slice(leaves.as_slice());

@@ -5,7 +5,10 @@ use super::syntax::{Element, Index, Part, Storage, Stored, Type, indices};
 use super::translate::Translator;
 use super::values::DEEPEST;
 use crate::program::names::Symbol;
-use crate::program::script::{Expr, TableId, VariableId, short};
+use crate::program::script::{Expr, How, TableId, VariableId, Write, Written, short};
+
+/// Elements without values of an array that are distinguished by an index that is not constant.
+const MOST_ELEMENTS: usize = 64;
 
 impl Translator<'_> {
     /// The position that a declaration with an index means.
@@ -136,6 +139,9 @@ impl Translator<'_> {
         if let Some(&(first, end)) = self.lists.get(&entity) {
             return Expr::Any { first, end };
         }
+        if self.is_large(entity) {
+            return Expr::Variable(self.variable(entity, 0, Expr::Absent));
+        }
         let all = self.variables_of(entity, holds);
         if let [one] = all[..] {
             return Expr::Variable(one);
@@ -155,9 +161,52 @@ impl Translator<'_> {
             return known;
         }
         let name = element_name(self.resolved.spelling(self.name_of(entity)), place);
+        // what a routine fills is what it writes
+        let holds = if self.resolved.is_filled(entity) {
+            Expr::Absent
+        } else {
+            holds
+        };
         let made = self.variable(entity, number, holds);
         self.builder.script.variables[made as usize].name = name.into();
+        if self.is_large(entity) {
+            let gathered = self.gathered(entity);
+            self.gathers.insert(made, gathered);
+        }
         made
+    }
+
+    /// Whether an array without values has more elements than an index that is not constant
+    /// distinguishes. Its number 0 then holds what any of them has held: that is what such an index
+    /// reads.
+    fn is_large(&self, entity: Entity) -> bool {
+        let mut places = self.resolved.parsed.places_of(self.name_of(entity));
+        self.is_array(entity) && places.nth(MOST_ELEMENTS).is_some()
+    }
+
+    /// The table of number 0 alone: what is written there is added to what it holds.
+    fn gathered(&mut self, entity: Entity) -> TableId {
+        if let Some(&known) = self.gathered.get(&entity) {
+            return known;
+        }
+        let all = self.variable(entity, 0, Expr::Absent);
+        let name = self.resolved.spelling(self.name_of(entity));
+        let script = &mut self.builder.script;
+        let made = script.table(name);
+        script.enter(made, all);
+        self.gathered.insert(entity, made);
+        made
+    }
+
+    /// What is written into an element of a large array is among what the array holds.
+    pub(super) fn gather(&mut self, element: VariableId) {
+        if let Some(&all) = self.gathers.get(&element) {
+            self.builder.write(Write {
+                place: self.here,
+                variable: Written::AnyOf(all),
+                how: How::Whole(Expr::Variable(element)),
+            });
+        }
     }
 
     /// Every variable of data without values: with number 0 what no statement names by constants.
@@ -170,7 +219,7 @@ impl Translator<'_> {
                 all.push(self.named_element(entity, place, number, holds));
             }
         }
-        if all.is_empty() || resolved.is_scattered(entity) {
+        if all.is_empty() || resolved.is_scattered(entity) || self.is_large(entity) {
             // an element that nothing has written is none to go to
             let holds = if is_array { Expr::Absent } else { holds };
             all.push(self.variable(entity, 0, holds));

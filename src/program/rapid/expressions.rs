@@ -66,6 +66,7 @@ impl Reader<'_> {
                 Kind::Sign(b'\\') => {
                     let begin = self.token.start;
                     self.advance()?;
+                    let is_load = self.is_word(b"tload");
                     let option = Some(self.name("the name of an optional argument")?);
                     let if_given = self.token.is(b'?');
                     let expression = if if_given || self.token.kind == Kind::Assign {
@@ -73,7 +74,11 @@ impl Reader<'_> {
                         if if_given {
                             self.note_if_given();
                         }
-                        self.argument(None)?
+                        if is_load && self.token.is(b'[') {
+                            self.load()?
+                        } else {
+                            self.argument(None)?
+                        }
                     } else {
                         Expression::Nothing
                     };

@@ -1,5 +1,6 @@
 //! Instructions that move: what each goes to, with which tool, in which work object.
 
+use super::records::load_of;
 use super::resolved::Entity;
 use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
@@ -271,28 +272,40 @@ impl Translator<'_> {
 
     /// The load of a move that is not that of its tool.
     fn carried(&mut self, argument: &Argument) -> Expr {
-        let Expression::Point {
-            base: Base::Named { name, .. },
-            ..
-        } = argument.expression
-        else {
+        let known = match argument.expression {
+            Expression::Nothing => return Expr::Absent,
+            // load0 stands for none: the tool's own counts
+            Expression::Point {
+                base: Base::Named { name, .. },
+                ..
+            } if self.resolved.spelling(name).eq_ignore_ascii_case("load0") => return Expr::Absent,
+            Expression::Point {
+                base: Base::Named { name, index: 0 },
+                steps: (a, b),
+            } if a == b => self.load(name),
+            Expression::Load(leaves) => {
+                let leaves = &self.resolved.parsed.leaves[indices(leaves)];
+                let mass = leaves.first().and_then(|mass| mass.number());
+                if mass.is_some_and(|mass| mass <= 0.0) {
+                    return Expr::Absent;
+                }
+                load_of(leaves)
+            }
+            _ => None,
+        };
+        let Some(load) = known else {
+            let message = "only the running program knows the load of this move, or it is not in \
+                the files; that of the tool is taken";
+            let hint = "write the load with numbers, in the move or in data that nothing writes";
+            let severity = Severity::Warning;
+            self.say("load-chosen-at-run-time", severity, message.into(), hint);
             return Expr::Absent;
         };
-        // load0 stands for none: the tool's own counts
-        if self.resolved.spelling(name).eq_ignore_ascii_case("load0") {
-            return Expr::Absent;
-        }
-        if let Some(load) = self.load(name) {
-            let value = self.loads.get(&name).copied();
-            Expr::Value(value.unwrap_or_else(|| {
-                let value = self.builder.script.value(Held::Load(Some(load)));
-                self.loads.insert(name, value);
-                value
-            }))
-        } else {
-            self.other_load(name);
-            Expr::Absent
-        }
+        let [x, y, z] = load.cog_m;
+        let key = [load.mass_kg, x, y, z].map(f64::to_bits);
+        let script = &mut self.builder.script;
+        let value = self.loads.entry(key);
+        Expr::Value(*value.or_insert_with(|| script.value(Held::Load(Some(load)))))
     }
 
     /// `GripLoad`

@@ -2,8 +2,8 @@
 
 use super::builtins::Known;
 use super::syntax::{
-    Argument, Base, Callee, Datum, Expression, Function, Index, Parsed, Part, StatementKind,
-    Storage, Stored, Type, Verb, indices,
+    Argument, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
+    StatementKind, Storage, Stored, Type, Verb, indices,
 };
 use super::verbs::Verbs;
 use crate::program::Source;
@@ -25,6 +25,10 @@ pub(super) struct Resolved<'a> {
     undeclared: HashSet<Symbol>,
     /// Data that are written at an index that is not constant, or as a whole.
     scattered: HashSet<Entity>,
+    /// Arrays without values that routines of the files fill.
+    filled: HashSet<u32>,
+    /// Data a part of which is written, such as `p.trans`.
+    in_parts: HashSet<u32>,
 }
 
 /// Data: a declaration, or a name that the files do not declare.
@@ -76,6 +80,8 @@ impl<'a> Resolved<'a> {
             written,
             undeclared: HashSet::new(),
             scattered: HashSet::new(),
+            filled: HashSet::new(),
+            in_parts: HashSet::new(),
         };
         resolved.find_written();
         resolved
@@ -112,6 +118,16 @@ impl<'a> Resolved<'a> {
     /// Whether data are written at an index that is not constant, or as a whole.
     pub(super) fn is_scattered(&self, entity: Entity) -> bool {
         self.scattered.contains(&entity)
+    }
+
+    /// Whether routines of the files fill an array without values.
+    pub(super) fn is_filled(&self, entity: Entity) -> bool {
+        matches!(entity, Entity::Declared(datum) if self.filled.contains(&datum))
+    }
+
+    /// Whether a part of data is written, such as `p.trans`.
+    pub(super) fn is_in_parts(&self, datum: u32) -> bool {
+        self.in_parts.contains(&datum)
     }
 
     /// Whether what a routine writes into a parameter is written where it is called.
@@ -244,6 +260,14 @@ impl<'a> Resolved<'a> {
 
     // ---- what may be written
 
+    /// Marks what a name may mean, of which a part is written; whether that is new.
+    fn mark_part(&mut self, name: Symbol, context: Context) -> bool {
+        match self.data.meaning(name, context) {
+            Meaning::One(datum) => self.in_parts.insert(datum),
+            _ => false,
+        }
+    }
+
     /// Marks what a name may mean, where an element of it is written; whether that is new.
     fn mark(&mut self, (name, index): (Symbol, Index), context: Context) -> bool {
         let is_scattered = !matches!(index, Index::At(_));
@@ -293,8 +317,16 @@ impl<'a> Resolved<'a> {
                     file: in_file,
                     context: now,
                 } => (context, file) = (now, in_file),
-                StatementKind::Assign { name, index, .. } => {
+                StatementKind::Assign {
+                    name,
+                    index,
+                    component,
+                    ..
+                } => {
                     self.mark((name, index), context);
+                    if component != Component::Whole {
+                        self.mark_part(name, context);
+                    }
                 }
                 StatementKind::Function(function) => {
                     let function = self.parsed.functions[function as usize];
@@ -376,9 +408,17 @@ impl<'a> Resolved<'a> {
         let mut positional = self.list(given.of_function)[indices(given.arguments)]
             .iter()
             .filter(|argument| argument.option.is_none());
-        let argument = positional.nth(usize::from(position));
-        if let Some(place) = argument.and_then(|argument| self.place_of(&argument.expression)) {
+        let Some(expression) = positional
+            .nth(usize::from(position))
+            .map(|of| of.expression)
+        else {
+            return;
+        };
+        if let Some(place) = self.place_of(&expression) {
             self.mark(place, given.context);
+            if matches!(expression, Expression::Member { .. }) {
+                self.mark_part(place.0, given.context);
+            }
         }
     }
 
@@ -386,12 +426,21 @@ impl<'a> Resolved<'a> {
     fn mark_given(&mut self, given: Given) -> bool {
         let callees = self.callees(given.callee, given.arguments, given.context, given.file);
         let arguments = &self.list(given.of_function)[indices(given.arguments)];
-        let mut places = Vec::new();
+        let (mut places, mut filled, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         for &routine in &callees.routines {
             for (datum, argument) in self.parameters(routine, arguments) {
-                if self.is_written_back(datum) {
-                    places
-                        .extend(argument.and_then(|argument| self.place_of(&argument.expression)));
+                let expression = argument.map(|argument| argument.expression);
+                let Some(expression) = expression.filter(|_| self.is_written_back(datum)) else {
+                    continue;
+                };
+                let Some((name, index)) = self.place_of(&expression) else {
+                    continue;
+                };
+                places.push((name, index));
+                if matches!(expression, Expression::Member { .. }) || self.is_in_parts(datum) {
+                    parts.push(name);
+                } else if index == Index::Whole {
+                    filled.push(name);
                 }
             }
         }
@@ -407,6 +456,16 @@ impl<'a> Resolved<'a> {
         let mut changed = false;
         for place in places {
             changed |= self.mark(place, given.context);
+        }
+        for name in parts {
+            changed |= self.mark_part(name, given.context);
+        }
+        for name in filled {
+            if let Meaning::One(datum) = self.data.meaning(name, given.context)
+                && self.datum(datum).value == Stored::Computed
+            {
+                self.filled.insert(datum);
+            }
         }
         changed
     }

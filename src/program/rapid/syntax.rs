@@ -299,6 +299,8 @@ pub(super) enum Expression {
     Composed(Part),
     /// Anything else, with the names in it: part of [`Parsed::mentions`].
     Computed(Part),
+    /// A load that is written out: part of [`Parsed::leaves`].
+    Load(Part),
     /// A string, without its quotes: its bytes.
     Text(u32, u32),
 }

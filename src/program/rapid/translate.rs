@@ -43,9 +43,12 @@ pub(super) struct Translator<'a> {
     pub variables: HashMap<(Entity, u32), VariableId>,
     pub records: HashMap<Entity, ValueId>,
     pub frame_elements: HashMap<(Entity, [u32; 3]), ValueId>,
-    pub loads: HashMap<Symbol, ValueId>,
+    pub loads: HashMap<[u64; 4], ValueId>,
     pub lists: HashMap<Entity, (u32, u32)>,
     pub tables: HashMap<Entity, TableId>,
+    /// The tables of what any element of large arrays has held, by array and by element.
+    pub gathered: HashMap<Entity, TableId>,
+    pub gathers: HashMap<VariableId, TableId>,
     pub remarks: HashMap<(&'static str, Symbol), RemarkId>,
     /// What functions of the files give, by routine.
     pub results: HashMap<u32, VariableId>,
@@ -113,6 +116,8 @@ pub(super) fn translate(
         loads: HashMap::new(),
         lists: HashMap::new(),
         tables: HashMap::new(),
+        gathered: HashMap::new(),
+        gathers: HashMap::new(),
         remarks: HashMap::new(),
         results: HashMap::new(),
         kept_results: HashMap::new(),
@@ -166,12 +171,22 @@ impl Translator<'_> {
 
     pub(super) fn emit_write(&mut self, write: Write) {
         self.may_fail();
+        let variable = write.variable;
         self.builder.write(write);
+        if let Written::One(element) = variable {
+            self.gather(element);
+        }
     }
 
     pub(super) fn emit_call(&mut self, call: Call) {
         self.may_fail();
+        let given = call.arguments.clone();
         self.builder.call(call);
+        for at in given {
+            if let Some(element) = self.builder.script.arguments[at as usize].back {
+                self.gather(element);
+            }
+        }
     }
 
     /// Text begins that stands elsewhere.

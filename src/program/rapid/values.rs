@@ -185,7 +185,7 @@ impl Translator<'_> {
     /// The position that an expression gives.
     pub(super) fn position_from(&mut self, expression: Expression, wanted: Type) -> Expr {
         match expression {
-            Expression::Nothing | Expression::Text(..) => self.computed(),
+            Expression::Nothing | Expression::Text(..) | Expression::Load(_) => self.computed(),
             Expression::Point { base, steps } => {
                 let base = match base {
                     Base::Named { name, index } => {

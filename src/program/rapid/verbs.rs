@@ -22,6 +22,8 @@ const TOOL_INSIDE: [&[u8]; 4] = [b"do", b"ao", b"go", b"sync"];
 pub(super) struct Verbs {
     instructions: Vec<Option<Verb>>,
     functions: Vec<Option<Known>>,
+    /// Whether Offs and `RelTool`, where they were met, are those of the language.
+    displacing: Vec<Option<bool>>,
 }
 
 impl Verbs {
@@ -34,6 +36,11 @@ impl Verbs {
     pub(super) fn function(&mut self, name: Symbol, spelling: &[u8]) -> Known {
         *slot(&mut self.functions, name)
             .get_or_insert_with(|| builtins::function(&Source::text(spelling).to_ascii_lowercase()))
+    }
+
+    /// Whether the function of this name, Offs or `RelTool`, is that of the language.
+    pub(super) fn displaces(&mut self, name: Symbol) -> bool {
+        *slot(&mut self.displacing, name).get_or_insert(true)
     }
 
     /// Within its scope a routine hides the instruction or function of its name: calls of what
@@ -50,6 +57,10 @@ impl Verbs {
                 && *known != Known::Other
             {
                 *known = Known::Other;
+                hidden = true;
+            }
+            if let Some(Some(displaces @ true)) = self.displacing.get_mut(at) {
+                *displaces = false;
                 hidden = true;
             }
         }

@@ -34,6 +34,29 @@ fn strings(names: &[&str]) -> Vec<String> {
 }
 
 #[test]
+fn elements_of_a_large_array_are_one_for_an_index_that_only_the_program_knows() {
+    let filled: String = (1..=100)
+        .map(|i| format!("q{{{i}}}:=p{};\n", 1 + i % 2))
+        .collect();
+    let (names, said) = both(&format!(
+        "VAR robtarget q{{100}};\n{filled}MoveL q{{7}},v5,z5,t;\nMoveL q{{k}},v5,z5,t;"
+    ));
+    assert_eq!((names, said), (strings(&["p2", "p1", "p2"]), vec![]));
+    let many: String = (1..=70)
+        .map(|i| format!("q{{{i}}}:=[[{i},0,0],[1,0,0,0],CONF;\n"))
+        .collect();
+    let moves = "MoveL q{k},v5,z5,t;\n".repeat(50);
+    let program = path(&format!(
+        "VAR robtarget q{{70}};\n{many}{moves}MoveL q{{7}},v5,z5,t;"
+    ));
+    assert!(ids(&program).contains(&"too-many-uses"));
+    assert!(
+        program.moves.len() < 50 * 70,
+        "each move once for each element"
+    );
+}
+
+#[test]
 fn an_element_that_only_the_program_knows_may_be_any() {
     let (names, said) =
         both("VAR robtarget q{3};\nq{1}:=p1;\nq{k}:=p2;\nMoveL q{1},v5,z5,t;\nMoveL q{j},v5,z5,t;");
@@ -77,13 +100,17 @@ fn what_a_routine_writes_into_an_element_by_reference_is_written() {
             "{call}\nMoveL a{{2}},v5,z5,t;\nENDPROC\nPROC set(INOUT robtarget r)\nr:=p1;\nENDPROC\n\
              FUNC bool ask(INOUT robtarget r)\nr:=p1;\nRETURN TRUE;\nENDFUNC\nPROC more()\n{ARRAY}"
         ));
-        // by value and as a part of what it was, each once a place that writes it
         let mut names = to(&program);
         names.dedup();
-        assert_eq!(names, ["p1", "a{2}", "?"], "{call}");
-        assert_eq!(ids(&program), ["target-assigned-at-run-time"], "{call}");
-        assert_eq!(blocked(&program), ["a{2}"], "{call}");
+        assert_eq!(names, ["p1", "a{2}"], "{call}");
+        assert_eq!(ids(&program), [""; 0], "{call}");
     }
+    let program = path(&format!(
+        "lift a{{k}};\nMoveL a{{2}},v5,z5,t;\nENDPROC\nPROC lift(INOUT robtarget \
+         r)\nlift_it r;\nENDPROC\nPROC lift_it(INOUT robtarget r)\nr.trans.z:=5;\nENDPROC\nPROC \
+         more()\n{ARRAY}"
+    ));
+    assert!(ids(&program).contains(&"target-assigned-at-run-time"));
     for call in ["set a{2};", "ok:=ask(a{2});", "ok:=ask(a{ 2 });"] {
         let program = path(&format!(
             "{call}\nMoveL a{{2}},v5,z5,t;\nMoveL a{{1}},v5,z5,t;\nENDPROC\nPROC set(INOUT \
@@ -93,6 +120,15 @@ fn what_a_routine_writes_into_an_element_by_reference_is_written() {
         assert_eq!(to(&program), ["?", "a{1}"], "{call}");
         assert_eq!(ids(&program), ["target-assigned-at-run-time"], "{call}");
     }
+}
+
+#[test]
+fn what_a_routine_fills_is_what_it_writes() {
+    let (names, said) = both(
+        "VAR robtarget arr{2};\nfill arr;\nMoveL arr{1},v5,z5,t;\nENDPROC\nPROC fill(INOUT robtarget \
+         p{*})\np{1}:=p1;\np{2}:=p2;",
+    );
+    assert_eq!((names, said), (strings(&["p1", "p2"]), vec![]));
 }
 
 #[test]
