@@ -249,9 +249,9 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
     let rows = problem.rows.len() as f64;
     let sees_rad = std::array::from_fn(|joint| {
         let whole = slope(problem, estimate, |p, _, step| {
-            Arc::make_mut(&mut p.rows)
-                .iter_mut()
-                .for_each(|row| row.q[joint] += step);
+            for row in Arc::make_mut(&mut p.rows) {
+                row.q[joint] += step;
+            }
         });
         let seen = expected.size(&whole);
         let is_seen = seen > LEAST_SEEN * whole.norm_squared();

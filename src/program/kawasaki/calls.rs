@@ -60,10 +60,10 @@ impl Any {
 
 impl<'a> Reader<'a> {
     /// Names that are handed to programs that write them are written, too.
-    pub(super) fn note_handed(&mut self, handed: Vec<Handed>) {
+    pub(super) fn note_handed(&mut self, handed: &[Handed]) {
         loop {
             let known = self.written.len();
-            for one in &handed {
+            for one in handed {
                 let is_written = |callee: &RoutineId| {
                     let parameter = self.parameters[*callee as usize].get(one.number);
                     parameter.is_some_and(|parameter| {
@@ -151,12 +151,14 @@ impl<'a> Reader<'a> {
     fn call_any(&mut self, part: Words<'a, '_>, any: Any) {
         let place = self.place(self.here.at);
         let known = self.any.iter().find(|(of, _)| *of == any);
-        let routine = known.map(|(_, routine)| *routine).unwrap_or_else(|| {
+        let routine = if let Some((_, routine)) = known {
+            *routine
+        } else {
             let made = (self.builder).declare("any program", place, Start::Called);
             self.called.insert(made);
             self.any.push((any, made));
             made
-        });
+        };
         let call = Call {
             place,
             callees: [routine].into(),

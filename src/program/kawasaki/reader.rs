@@ -133,7 +133,7 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             reader.note_assigned(&sources[file], program, routine, &mut handed);
         }
     }
-    reader.note_handed(handed);
+    reader.note_handed(&handed);
     let mut routine = 0;
     for (file, of) in sections.iter().enumerate() {
         for program in &of.programs {

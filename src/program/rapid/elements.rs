@@ -233,18 +233,19 @@ impl Translator<'_> {
             return known;
         }
         let all = match entity {
-            Entity::Declared(datum) => match self.resolved.datum(datum).value {
-                Stored::Elements { elements, .. } => indices(elements)
-                    .filter_map(|one| match self.element(datum, short(one), 0) {
-                        Expr::Variable(variable) => Some(variable),
-                        _ => None,
-                    })
-                    .collect(),
-                _ => {
+            Entity::Declared(datum) => {
+                if let Stored::Elements { elements, .. } = self.resolved.datum(datum).value {
+                    indices(elements)
+                        .filter_map(|one| match self.element(datum, short(one), 0) {
+                            Expr::Variable(variable) => Some(variable),
+                            _ => None,
+                        })
+                        .collect()
+                } else {
                     let holds = self.computed_name(self.name_of(entity));
                     self.variables_of(entity, holds)
                 }
-            },
+            }
             Entity::Undeclared(name) => {
                 let holds = self.undeclared(name);
                 self.variables_of(entity, holds)

@@ -221,12 +221,11 @@ impl<'a> Reader<'a> {
             }
             Of::Program(_) => None,
         };
-        let made = match value {
-            Some((datum, at)) => self.variables.values[datum][at].variable,
-            None => {
-                let key = (known.table, plain_key(key));
-                self.variables.others.get(&key).copied()
-            }
+        let made = if let Some((datum, at)) = value {
+            self.variables.values[datum][at].variable
+        } else {
+            let key = (known.table, plain_key(key));
+            self.variables.others.get(&key).copied()
         };
         if let Some(made) = made {
             return made;
@@ -251,12 +250,11 @@ impl<'a> Reader<'a> {
         let script = &mut self.builder.script;
         let made = script.variable(variable);
         script.enter(known.table, made);
-        match value {
-            Some((datum, at)) => self.variables.values[datum][at].variable = Some(made),
-            None => {
-                let key = (known.table, plain_key(key));
-                self.variables.others.insert(key, made);
-            }
+        if let Some((datum, at)) = value {
+            self.variables.values[datum][at].variable = Some(made);
+        } else {
+            let key = (known.table, plain_key(key));
+            self.variables.others.insert(key, made);
         }
         made
     }

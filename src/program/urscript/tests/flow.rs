@@ -166,13 +166,13 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
     );
 }
 
+/// Id, severity and line of a finding.
+type Said = (&'static str, Severity, usize);
+/// A mass and its centre of gravity.
+type Carried = (f64, [f64; 3]);
+
 /// The loads of the last move, by mass, behind a tool of 0.2 m; and what is found.
-fn loads(
-    lines: &str,
-) -> (
-    Vec<Option<(f64, [f64; 3])>>,
-    Vec<(&'static str, Severity, usize)>,
-) {
+fn loads(lines: &str) -> (Vec<Option<Carried>>, Vec<Said>) {
     let program = path(&format!(
         "set_tcp(p[0,0,0.2,0,0,0])\n{lines}\nmovel(p[.1,.2,.3,0,0,1])"
     ));
