@@ -42,6 +42,7 @@ pub mod deviation;
 mod judge;
 pub mod limits;
 pub mod mesh;
+mod mover;
 mod nominal;
 pub mod passage;
 pub mod posture;

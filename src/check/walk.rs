@@ -1,7 +1,7 @@
 //! A program as it is walked: the models of its tools, and its moves as legs.
 
-use super::collision::Mover;
 use super::deviation::Models;
+use super::mover::Mover;
 use super::uncertainty::Spread;
 use super::{Options, Subject};
 use crate::compensate::CompensateError;

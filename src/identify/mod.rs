@@ -64,6 +64,7 @@ mod fault;
 pub mod holder;
 mod imagined;
 pub mod input_checks;
+mod levelled;
 mod line;
 mod pairs;
 mod reading;

@@ -1,7 +1,8 @@
 //! What readers of all languages share.
 
-use super::script::short;
+use super::script::{Remark, short};
 use super::{About, Marker, ReadError, Source};
+use crate::finding::Severity;
 use std::ops::Range;
 
 /// No text has a zero byte, and places are kept in 32 bits.
@@ -169,4 +170,17 @@ pub(super) fn comments(source: &Source, marker: &Marker, sign: &str) -> Vec<u8> 
     let lines = marker.lines();
     let line = |line: &String| [sign.as_bytes(), line.as_bytes(), end].concat();
     lines.iter().flat_map(line).collect()
+}
+
+/// A load that the text does not say.
+pub(super) fn load_chosen(hint: &'static str) -> Remark {
+    Remark {
+        id: "load-chosen-at-run-time",
+        severity: Severity::Warning,
+        text:
+            "only the running program knows the load that is set here; moves are taken with that \
+            of the tool"
+                .into(),
+        hint,
+    }
 }

@@ -59,11 +59,22 @@ pub fn robust(
     sigma_m: Option<f64>,
 ) -> Result<Robust, RegisterError> {
     kabsch_of_whole(from, to, weights)?;
+    agreeing(from, to, weights, sigma_m, FEWEST)
+}
+
+/// The same of at least `fewest` points: of five, what it names is a suspicion.
+pub(crate) fn agreeing(
+    from: &[Vector],
+    to: &[Vector],
+    weights: Option<&[f64]>,
+    sigma_m: Option<f64>,
+    fewest: usize,
+) -> Result<Robust, RegisterError> {
     let n = from.len();
-    if n < FEWEST {
+    if n < fewest {
         return Err(RegisterError::TooFewToJudge {
             found: n,
-            needed: FEWEST,
+            needed: fewest,
         });
     }
     let weight = |i: usize| weights.map_or(1.0, |w| w[i]);

@@ -2,8 +2,8 @@
 //! never a confident wrong answer.
 //!
 //! [`csv`] looks at the text, [`screening`] at the rows before anything is believed (`readings` are
-//! what else a file may mean), `finite` at the model of the arm, `plausibility` at a fit, `validation` at a profile judged on rows,
-//! [`sweeps`] at sweeps of single joints.
+//! what else a file may mean), `finite` at the model of the arm, `plausibility` at a fit,
+//! `validation` at a profile judged on rows, [`sweeps`] at sweeps of single joints.
 
 pub mod csv;
 pub(crate) mod finite;

@@ -1,6 +1,7 @@
 //! What speaks against targets and moves, as sentences.
 
 use crate::finding::Severity;
+use crate::program::kit;
 use crate::program::script::Remark;
 
 /// Why a target has to stay: a sentence without its subject.
@@ -174,15 +175,7 @@ pub(super) fn angle() -> Remark {
     )
 }
 
-/// A load that the text does not tell.
+/// A load that the text does not say.
 pub(super) fn carried() -> Remark {
-    Remark {
-        id: "load-chosen-at-run-time",
-        severity: Severity::Warning,
-        text:
-            "only the running program knows the load that is set here; moves are taken with that \
-            of the tool"
-                .into(),
-        hint: "write the load with numbers, or choose an entry of LOAD_DATA",
-    }
+    kit::load_chosen("write the load with numbers, or choose an entry of LOAD_DATA")
 }

@@ -1,15 +1,17 @@
 //! The statements of one file.
 
+mod loads;
+
+use self::loads::Present;
 use super::goals::{Common, Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::finding::Severity;
-use crate::geometry::{Pose, Vector};
 use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
     Variable, VariableId, Write, Written, short,
 };
-use crate::program::{Layout, Load, Shape, Source, Target, TargetId, number};
+use crate::program::{Layout, Shape, Source, Target, TargetId, kit};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Adds the statements of a file.
@@ -30,16 +32,6 @@ pub(super) fn translate(
     translator.goals.builder.close();
     translator.report();
     builder.script.numbers.append(&mut parsed.numbers);
-}
-
-/// What is set where the text is read from top to bottom: behind branches, loops and calls nothing
-/// is known of it.
-#[derive(Default)]
-struct Present {
-    tool: Option<Pose>,
-    load: Option<Load>,
-    /// The load goes along with the tool.
-    in_tool: Option<bool>,
 }
 
 struct Translator<'m, 'n, 'a> {
@@ -116,7 +108,9 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             script.guards.push(of.into());
             short(script.guards.len() - 1)
         });
-        let unknown_load = script.unknown(unknown_load());
+        let unknown_load = script.unknown(kit::load_chosen(
+            "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
+        ));
         let mut events = parsed.functions.iter().flat_map(|of| &of.events);
         let loads_in_tool = events.any(|event| match event {
             Event::Load(payload, _) => payload.cog == Cog::Tool,
@@ -406,53 +400,6 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
     }
 
-    /// Of each event, whether it is one of a branch or loop in which nothing sets a tool or a load,
-    /// nor calls what may.
-    fn calm(&self, events: &[Event]) -> Vec<bool> {
-        let parsed = self.goals.parsed;
-        let sets = |event: &Event| match event {
-            Event::Tool(..) | Event::Load(..) => true,
-            Event::Call(call) => {
-                let call = &parsed.calls[*call as usize];
-                !self.goals.variables.is_of_language(call)
-            }
-            _ => false,
-        };
-        let mut calm = vec![false; events.len()];
-        // of each open block its events and whether something in it sets
-        let mut open: Vec<(Vec<usize>, bool)> = Vec::new();
-        for (at, event) in events.iter().enumerate() {
-            match event {
-                Event::If | Event::Never | Event::Switch | Event::Loop => {
-                    open.push((vec![at], false));
-                }
-                Event::Branch { .. } => {
-                    if let Some((own, _)) = open.last_mut() {
-                        own.push(at);
-                    }
-                }
-                Event::EndIf | Event::EndLoop { .. } => {
-                    let Some((own, is_set)) = open.pop() else {
-                        continue;
-                    };
-                    for at in own.into_iter().chain([at]) {
-                        calm[at] = !is_set;
-                    }
-                    if let Some((_, around)) = open.last_mut() {
-                        *around |= is_set;
-                    }
-                }
-                _ if sets(event) => {
-                    if let Some((_, is_set)) = open.last_mut() {
-                        *is_set = true;
-                    }
-                }
-                _ => {}
-            }
-        }
-        calm
-    }
-
     fn write(&mut self, variable: Option<VariableId>, how: How, offset: u32) {
         let place = self.at(offset);
         if let Some(variable) = variable {
@@ -530,72 +477,6 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         } else {
             script::Expr::Unknown(self.goals.common.frame_computed)
         }
-    }
-
-    /// The load becomes another.
-    fn load(&mut self, payload: Payload, function: FunctionId, offset: u32) {
-        if payload.mass.is_none() && payload.cog == Cog::Stays {
-            // it is what it was
-            return;
-        }
-        let load = self.load_of(payload, function);
-        self.present.load = load;
-        self.present.in_tool = match payload.cog {
-            Cog::Stays => self.present.in_tool,
-            cog => Some(cog == Cog::Tool),
-        };
-        let (load, remark) = match load {
-            Some(load) => (self.load_value(load), script::Expr::Absent),
-            None => (self.unknown_load, self.unknown_load),
-        };
-        self.write(Some(self.load), How::Whole(load), offset);
-        self.write(Some(self.load_remark), How::Whole(remark), offset);
-    }
-
-    /// The load behind a call, where the text says it.
-    fn load_of(&self, payload: Payload, function: FunctionId) -> Option<Load> {
-        let Present { tool, load, .. } = &self.present;
-        let mass_kg = match payload.mass {
-            None => load.as_ref()?.mass_kg,
-            Some(mass) => match self.goals.variables.follow(mass, function).0 {
-                Expr::Number(mass_kg) => mass_kg,
-                _ => return None,
-            },
-        };
-        let cog_m = match payload.cog {
-            Cog::Stays => load.as_ref()?.cog_m,
-            Cog::Tool => tool.as_ref()?.translation,
-            Cog::At(cog) => self.three_numbers(cog, function)?,
-        };
-        (mass_kg >= 0.0).then_some(Load { mass_kg, cog_m })
-    }
-
-    /// `[0, 0, 0.05]`
-    fn three_numbers(&self, value: ExprId, function: FunctionId) -> Option<Vector> {
-        let (Expr::Literal(id), _) = self.goals.variables.follow(value, function) else {
-            return None;
-        };
-        let literal = self.goals.parsed.literal(id);
-        if literal.elements != 3 || literal.pose {
-            return None;
-        }
-        let (start, end) = (literal.offset as usize + 1, literal.end as usize - 1);
-        let inside = self.source.bytes.get(start..end)?;
-        let mut values = inside
-            .split(|b| *b == b',')
-            .map(|text| number::parse(text.trim_ascii()));
-        Some([values.next()??, values.next()??, values.next()??])
-    }
-
-    fn load_value(&mut self, load: Load) -> script::Expr {
-        let [x, y, z] = load.cog_m;
-        let key = [load.mass_kg, x, y, z].map(f64::to_bits);
-        let script = &mut self.goals.builder.script;
-        let value = *self
-            .loads
-            .entry(key)
-            .or_insert_with(|| script.value(Held::Load(Some(load))));
-        script::Expr::Value(value)
     }
 
     fn call(&mut self, call: &Called) {
@@ -746,18 +627,5 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let hint = "look where the new value is used";
             self.say(offset, "target-copied", Severity::Warning, message, hint);
         }
-    }
-}
-
-/// A load that the text does not say.
-fn unknown_load() -> Remark {
-    Remark {
-        id: "load-chosen-at-run-time",
-        severity: Severity::Warning,
-        text:
-            "only the running program knows the load that is set here; moves are taken with that \
-               of the tool"
-                .into(),
-        hint: "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
     }
 }

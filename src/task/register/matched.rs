@@ -14,6 +14,11 @@ use crate::task::Failure;
 
 /// A residual above so many standard deviations of a coordinate is worth a look.
 const SUSPECT: f64 = 4.35;
+/// The same of fewer points than `--robust` needs: one in eight good sets of five has a residual
+/// above [`SUSPECT`] of what the other four leave, one in 25 above this.
+const SUSPECT_OF_FIVE: f64 = 8.0;
+/// Fewest points of which one is suspected.
+const FEWEST_SUSPECTED: usize = 5;
 /// A scale that differs from 1 by more than this and its uncertainty is a finding.
 const SCALE: f64 = 2e-5;
 /// Linear thermal expansion of steel and of aluminium, 1/K.
@@ -216,13 +221,18 @@ fn suspect(
     findings: &mut Vec<Finding>,
     name: &str,
 ) {
-    if touched.len() < robust::FEWEST || touched.len() > 2000 {
+    if touched.len() > 2000 {
         return;
     }
-    let Ok(found) = robust(from, to, weights, given) else {
+    let Ok(found) = robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) else {
         return;
     };
-    for bad in found.rejected.iter().filter(|bad| bad.sigmas > SUSPECT) {
+    let (enough, hint) = if touched.len() < robust::FEWEST {
+        (SUSPECT_OF_FIVE, "touch it again; --robust needs six points")
+    } else {
+        (SUSPECT, "--robust leaves such touches out")
+    };
+    for bad in found.rejected.iter().filter(|bad| bad.sigmas > enough) {
         let message = format!(
             "{} is {:.3} mm from where the others put it, {:.1} standard deviations; it is in the \
              fit",
@@ -230,8 +240,7 @@ fn suspect(
             mm_from_m(bad.distance_m),
             bad.sigmas
         );
-        findings
-            .push(warning("suspect-touch", name, message).hint("--robust leaves such touches out"));
+        findings.push(warning("suspect-touch", name, message).hint(hint));
     }
 }
 
