@@ -11,7 +11,7 @@
 //! Rao, *Linear Statistical Inference* (1973), 4a, for predicted rows; M. A. Woodbury (1950) for
 //! `S⁻¹`.
 
-use super::chances::{f_power, f_quantile, f_tail};
+use crate::diagnose::estimator::chances::{f_power, f_quantile, f_tail};
 use crate::geometry::units::m_from_mm;
 use crate::identify::parameters::Subject;
 use crate::identify::problem::{Estimate, Problem};

@@ -1,15 +1,15 @@
 //! The answer, and how the profile's own calibration is trusted on the way to it.
 
-use super::attempt::{Attempt, attempt};
-use super::candidates::CannotTest;
-use super::conclusion::conclude;
-use super::judgement::{Against, Standing};
-use super::poses::Telling;
-use super::proof::Compared;
-use super::session::{Trust, for_choice, is_nominal};
-use super::stand_ins::{Impossible, StandIn};
-use super::unknown::Unknown;
-use super::whereabouts::Spot;
+use crate::diagnose::judgement::attempt::{Attempt, attempt};
+use crate::diagnose::judgement::conclusion::conclude;
+use crate::diagnose::judgement::poses::Telling;
+use crate::diagnose::judgement::whereabouts::Spot;
+use crate::diagnose::judgement::{Against, Standing};
+use crate::diagnose::outside::Unknown;
+use crate::diagnose::proof::Compared;
+use crate::diagnose::question::{Trust, for_choice, is_nominal};
+use crate::diagnose::search::candidates::CannotTest;
+use crate::diagnose::search::stand_ins::{Impossible, StandIn};
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;

@@ -13,7 +13,7 @@
 //! CUSUM charts for location and scale", The Statistician 36 (1987); D. V. Hinkley, "Inference
 //! about the change-point in a sequence of random variables", Biometrika 57 (1970).
 
-use super::chances::normal_score;
+use crate::diagnose::estimator::chances::normal_score;
 
 /// Half of the shift that is sought, in standard deviations from run to run: `k`.
 pub const ALLOWANCE: f64 = 0.5;

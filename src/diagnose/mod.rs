@@ -6,6 +6,12 @@
 //! it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration that is trusted in
 //! part; G. Schwarz (1978) for the information criterion.
 //!
+//! ```text
+//! question (what the rows and the profile say) → estimator (what a column gains) → search (effects)
+//!   → outside (functions that no effect is) → judgement (what may be believed) → proof (rows left
+//!   out) → diagnosis (the answer)
+//! ```
+//!
 //! # Example
 //!
 //! A robot whose joint 3 has backlash that its profile does not know, measured at 80 postures:
@@ -42,32 +48,15 @@
 //! ```
 
 pub mod as_calibrated;
-mod attempt;
-pub mod candidates;
-pub mod chances;
-mod conclusion;
 pub mod diagnosis;
 pub mod drift;
-pub mod fit;
-mod functions;
-pub mod given;
-mod improved;
-mod judgement;
-pub mod noise;
+pub mod estimator;
+pub mod judgement;
+pub mod outside;
 pub mod plates;
-pub mod poses;
 mod proof;
-pub mod refit;
-mod scan;
+pub mod question;
 pub mod search;
-pub mod session;
-pub mod stand_ins;
-mod steps;
-pub mod table;
-pub mod unknown;
-mod waves;
-pub mod weights;
-pub mod whereabouts;
 
 pub use diagnosis::{Alternative, Diagnosis, Found, NoiseSource, Options, Verdict, diagnose};
 pub use judgement::{Against, Standing};

@@ -12,20 +12,22 @@
 //! I − D (S + DᵀD)⁻¹ Dᵀ = I − Σ a q qᵀ      a: eigenvalues of L⁻¹ DᵀD L⁻ᵀ, L Lᵀ = S + DᵀD;  q: columns of D L⁻ᵀ U, of length 1
 //! ```
 //!
-//! so that each of these columns is held with the share `a` (see [`super::fit::Held`]). An axis is
+//! so that each of these columns is held with the share `a` (see [`crate::diagnose::estimator::fit::Held`]). An axis is
 //! not blamed for a device that is known no better.
 
-use super::attempt::LOUDER;
-use super::candidates::{Candidate, Candidates, columns_of};
-use super::chances::{chi_squared_tail, normal_tail};
-use super::conclusion::corrected;
-use super::diagnosis::{Diagnosis, Found, Options, Verdict};
-use super::fit::{Fit, REDUNDANT};
-use super::judgement::{AGAIN, Against, CLEAR, EVIDENT, Standing, TIE, odds_of};
-use super::search::{Chosen, World, by_gain};
-use super::session::{LEAST, held_of};
-use super::table::{Column, Layout, Stored, add_scaled, dot, lengths_m, table};
-use super::weights::Plain;
+use crate::diagnose::diagnosis::{Diagnosis, Found, Options, Verdict};
+use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
+use crate::diagnose::estimator::fit::{Fit, REDUNDANT};
+use crate::diagnose::estimator::table::{
+    Column, Layout, Stored, add_scaled, dot, lengths_m, table,
+};
+use crate::diagnose::estimator::weights::Plain;
+use crate::diagnose::judgement::attempt::LOUDER;
+use crate::diagnose::judgement::conclusion::corrected;
+use crate::diagnose::judgement::{AGAIN, Against, CLEAR, EVIDENT, Standing, TIE, odds_of};
+use crate::diagnose::question::{LEAST, held_of};
+use crate::diagnose::search::candidates::{Candidate, Candidates, columns_of};
+use crate::diagnose::search::{Chosen, World, by_gain};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Vector, sub};
 use crate::identify::IdentifyError;

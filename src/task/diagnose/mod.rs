@@ -14,7 +14,7 @@ use super::parts::{File, SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
 use crate::diagnose::plates::diagnose_plates;
-use crate::diagnose::stand_ins::{Impossible, StandIn};
+use crate::diagnose::search::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
     self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
@@ -524,8 +524,8 @@ impl Diagnosis {
     }
 }
 
-impl From<&engine::whereabouts::Spot> for Spot {
-    fn from(s: &engine::whereabouts::Spot) -> Self {
+impl From<&engine::judgement::whereabouts::Spot> for Spot {
+    fn from(s: &engine::judgement::whereabouts::Spot) -> Self {
         Self {
             column: s.column.clone(),
             values: s.values.clone(),

@@ -3,8 +3,8 @@
 use super::commands::diagnosed;
 use super::{group, with_csv, without_sigma};
 use crate::trial::{Case, NOISE_MM, case, case_of};
-use poseshift::diagnose::noise::{Repeats, of_repeats};
-use poseshift::diagnose::table::Layout;
+use poseshift::diagnose::estimator::table::Layout;
+use poseshift::diagnose::question::noise::{Repeats, of_repeats};
 use poseshift::diagnose::{Diagnosis, NoiseSource, Options, Verdict, diagnose};
 use poseshift::identify::parameters::{Level, Selection};
 use poseshift::identify::problem::{Problem, Row};

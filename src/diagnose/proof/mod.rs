@@ -1,13 +1,15 @@
 //! What the effects found are worth on rows that were not used to choose them.
 
-use super::attempt::Attempt;
-use super::candidates::Candidate;
-use super::chances::mean_tail;
-use super::diagnosis::Options;
-use super::search::{Chosen, World};
-use super::session::{Trust, for_choice};
-use super::table::lengths_m;
-use super::waves::near;
+pub(crate) mod improved;
+
+use crate::diagnose::diagnosis::Options;
+use crate::diagnose::estimator::chances::mean_tail;
+use crate::diagnose::estimator::table::lengths_m;
+use crate::diagnose::judgement::attempt::Attempt;
+use crate::diagnose::question::{Trust, for_choice};
+use crate::diagnose::search::candidates::Candidate;
+use crate::diagnose::search::waves::near;
+use crate::diagnose::search::{Chosen, World};
 use crate::geometry::units::mm_from_m;
 use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Spread;
@@ -77,7 +79,7 @@ impl Compared {
 
 /// Rows not used, predicted.
 #[derive(Clone, Debug)]
-pub(super) struct Proof {
+pub(crate) struct Proof {
     /// Lengths of their residuals, metres: present model, what is absorbed, then with each effect.
     lengths: Vec<Vec<f64>>,
     /// The profile as it is, against its calibration with the effects found on top. A profile that
@@ -93,7 +95,7 @@ pub(super) struct Proof {
 
 impl Proof {
     /// Nothing was left out.
-    pub(super) fn none(effects: usize) -> Self {
+    pub(crate) fn none(effects: usize) -> Self {
         Self {
             lengths: vec![Vec::new(); 2 + effects],
             profile: None,
@@ -104,13 +106,13 @@ impl Proof {
 
     /// The comparison by which the effects found are judged: the better of those that are fair to
     /// them.
-    pub(super) fn judged(&self) -> Option<Compared> {
+    pub(crate) fn judged(&self) -> Option<Compared> {
         let both = self.profile.iter().chain(&self.equal);
         both.copied().min_by(|a, b| a.p_value.total_cmp(&b.p_value))
     }
 
     /// Statistics of each step, mm.
-    pub(super) fn spreads(&self) -> Vec<Option<Spread>> {
+    pub(crate) fn spreads(&self) -> Vec<Option<Spread>> {
         let of = |lengths: &Vec<f64>| {
             Spread::of(&lengths.iter().map(|l| mm_from_m(*l)).collect::<Vec<_>>())
         };
@@ -174,7 +176,7 @@ struct Part {
 }
 
 /// The choice made again without parts of the measurements, and those predicted.
-pub(super) fn held_out(attempt: &Attempt, measurements: &Measurements, options: &Options) -> Proof {
+pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: &Options) -> Proof {
     let session = &attempt.session;
     let choice = for_choice(measurements);
     let tests = parts(measurements, &choice);

@@ -10,12 +10,12 @@ use std::sync::Arc;
 
 /// A column is redundant where less than this part of its square is left when earlier ones have
 /// explained the rest.
-pub(super) const REDUNDANT: f64 = 1e-7;
+pub(crate) const REDUNDANT: f64 = 1e-7;
 /// A column shows nothing where its parameter's typical size moves all numbers together by fewer
 /// standard deviations.
-pub(super) const INVISIBLE: f64 = 0.1;
+pub(crate) const INVISIBLE: f64 = 0.1;
 /// Rounds of re-weighting.
-pub(super) const TURNS: usize = 8;
+pub(crate) const TURNS: usize = 8;
 /// A parameter beyond its typical size by this factor is one standard deviation off.
 const PRIOR_WIDTH: f64 = 5.0;
 
@@ -43,17 +43,17 @@ pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
     pub roots: Column,
     /// Columns of Q, then of U, weighted.
-    pub(super) basis: Vec<Arc<Column>>,
+    pub(crate) basis: Vec<Arc<Column>>,
     /// One for each of the basis: those of S, then ones.
-    pub(super) shares: Vec<f64>,
+    pub(crate) shares: Vec<f64>,
     /// Which of the columns stands behind each of the basis.
-    pub(super) kept: Vec<usize>,
+    pub(crate) kept: Vec<usize>,
     /// How many of the basis belong to Q.
     base: usize,
     /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.
-    pub(super) triangle: Vec<Vec<f64>>,
+    pub(crate) triangle: Vec<Vec<f64>>,
     /// Parts of the residual along the basis.
-    pub(super) parts: Vec<f64>,
+    pub(crate) parts: Vec<f64>,
     /// `M r`, weighted.
     pub left: Column,
     /// `rᵀ M r`: the deviance, before division by the scale squared.
@@ -73,7 +73,7 @@ fn weighted(column: &[f64], roots: &[f64]) -> Column {
 }
 
 /// Median length of rows, in standard deviations.
-pub(super) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
+pub(crate) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
     let mut ratios: Vec<f64> = Vec::new();
     let mut numbers = 0;
     for row in (0..layout.rows()).filter(|row| used[*row]) {
@@ -112,7 +112,7 @@ impl Fit {
         fit
     }
 
-    pub(super) fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
+    pub(crate) fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
         let mut fit = Self {
             left: weighted(residual, &roots),
             roots,
@@ -177,7 +177,7 @@ impl Fit {
     }
 
     /// Adds a column that is sought.
-    pub(super) fn seek(&mut self, index: usize, column: &[f64]) {
+    pub(crate) fn seek(&mut self, index: usize, column: &[f64]) {
         let column = weighted(column, &self.roots);
         let before = dot(&column, &column);
         if before < INVISIBLE * INVISIBLE * 1e-4 {
@@ -230,7 +230,7 @@ impl Fit {
         parts
     }
 
-    pub(super) fn strained(&mut self) {
+    pub(crate) fn strained(&mut self) {
         let parts = self.remaining(&self.sought());
         let pulls = parts.iter().zip(&self.shares).filter(|(_, s)| **s < 1.0);
         self.strain = pulls.fold((0.0, 0), |(sum, count), (p, _)| (sum + p * p, count + 1));
@@ -261,7 +261,7 @@ impl Fit {
 
     /// Values of the columns that are held, of `count`, which follow a part of what is left along
     /// them as far as their `precision` lets them; those sought stay.
-    pub(super) fn followed(&self, count: usize, part: f64, precision: &DMatrix<f64>) -> Vec<f64> {
+    pub(crate) fn followed(&self, count: usize, part: f64, precision: &DMatrix<f64>) -> Vec<f64> {
         let lower = DMatrix::from_fn(self.base, self.base, |j, k| {
             self.triangle[j].get(k).copied().unwrap_or(0.0)
         });
@@ -304,7 +304,7 @@ impl Fit {
     }
 
     /// The weighted column and its parts along the basis.
-    pub(super) fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
+    pub(crate) fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
         let column = weighted(column, &self.roots);
         let parts = self.basis.iter().map(|q| dot(q, &column)).collect();
         (column, parts)
@@ -329,7 +329,7 @@ impl Fit {
 
     /// A weighted column times M.
     #[must_use]
-    pub(super) fn turned(&self, seen: &Projection) -> Column {
+    pub(crate) fn turned(&self, seen: &Projection) -> Column {
         let mut turned = seen.column.clone();
         for ((q, part), share) in self.basis.iter().zip(&seen.parts).zip(&self.shares) {
             add_scaled(&mut turned, -share * part, q);
@@ -338,7 +338,7 @@ impl Fit {
     }
 
     /// Inner product of two columns after projection.
-    pub(super) fn product(&self, a: &Projection, b: &Projection) -> f64 {
+    pub(crate) fn product(&self, a: &Projection, b: &Projection) -> f64 {
         let along: f64 = (a.parts.iter().zip(&b.parts).zip(&self.shares))
             .map(|((x, y), s)| x * y * s)
             .sum();
@@ -347,7 +347,7 @@ impl Fit {
 
     /// The square of one over a typical size, in numbers' units: the scale is that of the noise,
     /// not of what is missing.
-    pub(super) fn ridge(&self) -> f64 {
+    pub(crate) fn ridge(&self) -> f64 {
         let variance = self.scale * self.scale;
         let noise = variance.min((self.floor * self.floor).max(0.01 * variance));
         noise / (PRIOR_WIDTH * PRIOR_WIDTH)
@@ -392,12 +392,12 @@ impl Fit {
 #[derive(Clone, Debug)]
 pub struct Projection {
     /// Weighted.
-    pub(super) column: Column,
-    pub(super) parts: Vec<f64>,
+    pub(crate) column: Column,
+    pub(crate) parts: Vec<f64>,
     /// Inner product with the residual.
-    pub(super) slope: f64,
+    pub(crate) slope: f64,
     /// Inner product with itself, before projection.
-    pub(super) square: f64,
+    pub(crate) square: f64,
 }
 
 /// What a group of columns gains.
@@ -413,7 +413,7 @@ pub struct Gain {
     pub count: usize,
 }
 
-pub(super) fn gain_of(
+pub(crate) fn gain_of(
     gram: &[Vec<f64>],
     slopes: &[f64],
     squares: &[f64],

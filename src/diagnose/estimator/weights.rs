@@ -365,8 +365,8 @@ impl Plain {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::noise;
     use super::*;
+    use crate::diagnose::estimator::table::noise;
 
     fn held(columns: &[Column]) -> Vec<Held<'_>> {
         let shares = [1.0, 1.0, 0.4, 0.1];

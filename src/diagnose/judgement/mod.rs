@@ -4,14 +4,19 @@
 //! against the effects found, `improved` where something does but rows left out are predicted
 //! better with them; each effect has its own standing.
 
-use super::attempt::{ALIKE, Attempt};
-use super::candidates::{CannotTest, least, range};
-use super::diagnosis::{Alternative, Found, Verdict};
-use super::proof::Proof;
-use super::refit::{Beyond, Refit};
-use super::search::MOST_EFFECTS;
-use super::stand_ins::StandIn;
-use super::waves::near;
+pub(crate) mod attempt;
+pub(crate) mod conclusion;
+pub mod poses;
+pub mod whereabouts;
+
+use self::attempt::{ALIKE, Attempt};
+use crate::diagnose::diagnosis::{Alternative, Found, Verdict};
+use crate::diagnose::estimator::refit::{Beyond, Refit};
+use crate::diagnose::proof::Proof;
+use crate::diagnose::search::MOST_EFFECTS;
+use crate::diagnose::search::candidates::{CannotTest, least, range};
+use crate::diagnose::search::stand_ins::StandIn;
+use crate::diagnose::search::waves::near;
 use crate::geometry::norm;
 use crate::model::effects::{Effect, Kind, Need, SiteKey};
 use crate::model::{JOINTS, Slot};
@@ -19,10 +24,10 @@ use std::f64::consts::TAU;
 
 /// Two effects cannot be distinguished where one is better by less than this, in twice a log
 /// likelihood: odds of 1.6.
-pub(super) const TIE: f64 = 1.0;
+pub(crate) const TIE: f64 = 1.0;
 /// One is clearly better beyond this: odds of 150 (R. E. Kass, A. E. Raftery, "Bayes factors"
 /// (1995): very strong).
-pub(super) const CLEAR: f64 = 10.0;
+pub(crate) const CLEAR: f64 = 10.0;
 /// So many low functions of one joint's angle, a slow harmonic among them, are the series of another.
 const SERIES: usize = 2;
 /// So many functions of one joint's angle, two waves among them, are the series of another, too.
@@ -35,9 +40,9 @@ const FEW_PERIODS: f64 = 2.0;
 /// A value is clearly none that is possible by more than this many standard deviations.
 const CLEARLY: f64 = 5.0;
 /// An effect is there by its own evidence where chance does that less often.
-pub(super) const EVIDENT: f64 = 1e-4;
+pub(crate) const EVIDENT: f64 = 1e-4;
 /// And found again in this part of the measurements' parts.
-pub(super) const AGAIN: f64 = 0.8;
+pub(crate) const AGAIN: f64 = 0.8;
 /// Numbers beyond the parameters that tell their own noise: to 7 %.
 const TELLS_NOISE: f64 = 100.0;
 /// Index of a joint's zero in its link's geometry.
@@ -80,14 +85,14 @@ pub struct Against {
 }
 
 /// The whole.
-pub(super) struct Judged {
+pub(crate) struct Judged {
     /// Why it may not be the answer, one sentence each.
     pub reasons: Vec<String>,
     pub verdict: Verdict,
 }
 
 /// Judges the outcome of a search.
-pub(super) fn judge(
+pub(crate) fn judge(
     attempt: &Attempt,
     proof: &Proof,
     found: &[Found],
@@ -106,12 +111,12 @@ pub(super) fn judge(
 }
 
 /// Odds of what is better by so much, in twice a log likelihood.
-pub(super) fn odds_of(behind: f64) -> f64 {
+pub(crate) fn odds_of(behind: f64) -> f64 {
     (0.5 * behind).clamp(-MOST_LN_ODDS, MOST_LN_ODDS).exp()
 }
 
 /// Says how sure each effect is, and what may be in its place.
-pub(super) fn stand(
+pub(crate) fn stand(
     attempt: &Attempt,
     found: &mut [Found],
     alternatives: &[Alternative],

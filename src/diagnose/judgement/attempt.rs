@@ -1,16 +1,16 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be
 //! questioned.
 
-use super::chances::{chi_squared_tail, normal_tail};
-use super::diagnosis::Options;
-use super::fit::Fit;
-use super::given::{Given, Kept};
-use super::noise::{Repeats, of_repeats};
-use super::refit::{Refit, moved, refit};
-use super::search::{Chosen, by_gain};
-use super::session::{Session, Trust, for_choice, held_of, session};
-use super::table::Column;
-use super::unknown::{Library, Likeness, Unknown, chance, likeness};
+use crate::diagnose::diagnosis::Options;
+use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
+use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::given::{Given, Kept};
+use crate::diagnose::estimator::refit::{Refit, moved, refit};
+use crate::diagnose::estimator::table::Column;
+use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
+use crate::diagnose::question::noise::{Repeats, of_repeats};
+use crate::diagnose::question::{Session, Trust, for_choice, held_of, session};
+use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
@@ -26,15 +26,15 @@ const UNKNOWN_PART: f64 = 0.01;
 /// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
-pub(super) const ALIKE: f64 = 2e-4;
+pub(crate) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
 const STRAINED: f64 = 1e-4;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its
 /// estimate.
-pub(super) const LOUDER: f64 = 4.0;
+pub(crate) const LOUDER: f64 = 4.0;
 
 /// What a search on one set of assumptions found.
-pub(super) struct Attempt {
+pub(crate) struct Attempt {
     pub session: Session,
     pub chosen: Vec<Chosen>,
     pub refit: Refit,
@@ -60,7 +60,7 @@ pub(super) struct Attempt {
 
 impl Attempt {
     /// Nothing speaks against it.
-    pub(super) fn clean(&self) -> bool {
+    pub(crate) fn clean(&self) -> bool {
         self.unknown.is_empty()
             && self.outdone.is_empty()
             && self.likeness.in_order > ALIKE
@@ -70,7 +70,7 @@ impl Attempt {
     }
 
     /// The median of the rows' standard deviations, metres.
-    pub(super) fn sigma_m(&self) -> f64 {
+    pub(crate) fn sigma_m(&self) -> f64 {
         let mut sigmas: Vec<f64> = self
             .session
             .problem
@@ -83,7 +83,7 @@ impl Attempt {
     }
 
     /// Its merit with residuals of this variance: less is better.
-    pub(super) fn merit_at(&self, variance: f64) -> f64 {
+    pub(crate) fn merit_at(&self, variance: f64) -> f64 {
         let deviance = self.refit.deviance;
         self.merit - deviance + deviance / variance
     }
@@ -164,7 +164,7 @@ fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refi
 ///
 /// # Errors
 /// As [`super::diagnose`].
-pub(super) fn attempt(
+pub(crate) fn attempt(
     profile: &Profile,
     measurements: &Measurements,
     trust: Trust,

@@ -1,11 +1,11 @@
 //! The effects' values with everything fitted together, without linearisation, and the improved
 //! profile.
 
-use super::as_calibrated::known_of;
-use super::candidates::least;
 use super::fit::{Fit, Held};
-use super::search::Chosen;
 use super::table::{Layout, add_scaled, table};
+use crate::diagnose::as_calibrated::known_of;
+use crate::diagnose::search::Chosen;
+use crate::diagnose::search::candidates::least;
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
@@ -77,7 +77,7 @@ pub fn put(estimate: &mut Estimate, chosen: &[Chosen]) -> Vec<usize> {
 
 /// What a fit begins with.
 #[derive(Clone, Copy)]
-pub(super) struct Start<'a> {
+pub(crate) struct Start<'a> {
     /// The comparison.
     pub problem: &'a Problem,
     /// Numbers of its rows.
@@ -93,7 +93,7 @@ pub(super) struct Start<'a> {
 /// Fits everything together on the rows in use; the last fit is that of the residuals at the
 /// estimate.
 #[must_use]
-pub(super) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, Fit) {
+pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, Fit) {
     let Start {
         problem,
         layout,
@@ -226,7 +226,7 @@ fn beyond(
 /// W. James, C. Stein, "Estimation with quadratic loss" (1961), for a calibration that does not say
 /// how sure it is; else the posterior mean of a normal prior, whose size is that of the pull at it
 /// (empirical Bayes: B. Efron, C. Morris (1973)).
-pub(super) fn moved(start: Start, profile: &Profile, refit: &Refit, fit: &Fit) -> Option<Estimate> {
+pub(crate) fn moved(start: Start, profile: &Profile, refit: &Refit, fit: &Fit) -> Option<Estimate> {
     let Start {
         problem, shares, ..
     } = start;

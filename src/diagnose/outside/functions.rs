@@ -8,7 +8,7 @@ use std::fmt;
 
 /// What effects of the registry do already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Registered {
+pub(crate) enum Registered {
     /// At this joint.
     Of(usize),
     /// At every joint.
@@ -17,7 +17,7 @@ pub(super) enum Registered {
 
 /// What functions are of, of one row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facts {
+pub(crate) struct Facts {
     angles: [f64; JOINTS],
     torques: [f64; JOINTS],
     direction: [f64; JOINTS],
@@ -35,7 +35,7 @@ const PARTS: usize = 10;
 const MOST_HALVES: u32 = 12;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Wave {
+pub(crate) enum Wave {
     Cos,
     Sin,
 }
@@ -60,7 +60,7 @@ const WAVES: [Wave; 2] = [Wave::Cos, Wave::Sin];
 
 /// What the direction of a joint is multiplied with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum By {
+pub(crate) enum By {
     Load,
     Torque,
     Angle(Wave),
@@ -68,7 +68,7 @@ pub(super) enum By {
 
 /// A function of a row. Joints count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Function {
+pub(crate) enum Function {
     Power(usize, i32),
     /// Of a joint's angle, so many half periods a revolution.
     Periodic(Wave, u32, usize),
@@ -91,7 +91,7 @@ pub(super) enum Function {
 
 impl Function {
     /// Whether it is one of the row or the time.
-    pub(super) const fn of_session(self) -> bool {
+    pub(crate) const fn of_session(self) -> bool {
         matches!(self, Self::ClockPower(..) | Self::ClockWave(..))
     }
 }
@@ -133,7 +133,7 @@ impl fmt::Display for Function {
 
 impl Function {
     /// Its value at a row.
-    pub(super) fn at(&self, row: &Facts) -> f64 {
+    pub(crate) fn at(&self, row: &Facts) -> f64 {
         let (q, torque, direction) = (&row.angles, &row.torques, &row.direction);
         match *self {
             Self::Power(i, power) => q[i].powi(power),
@@ -165,7 +165,7 @@ impl Function {
 
     /// What effects of the registry do already: a joint's scale, coupling, harmonic, compliance or
     /// backlash.
-    pub(super) const fn registered(&self) -> Option<Registered> {
+    pub(crate) const fn registered(&self) -> Option<Registered> {
         match *self {
             Self::Power(_, 1) => Some(Registered::OfAll),
             Self::Periodic(_, halves, i) if halves % 2 == 0 => Some(Registered::Of(i)),
@@ -177,7 +177,7 @@ impl Function {
     }
 
     /// The joint that it may turn alone; all where none.
-    pub(super) const fn joint(&self) -> Option<usize> {
+    pub(crate) const fn joint(&self) -> Option<usize> {
         match *self {
             Self::Periodic(_, halves, i) if halves % 2 == 1 => Some(i),
             Self::Beyond(i, _) | Self::BentAt(i, _) | Self::DirectionTimes(i, _) => Some(i),
@@ -186,7 +186,7 @@ impl Function {
     }
 
     /// Whether it may move the base and the tool as well.
-    pub(super) const fn moves_frames(&self) -> bool {
+    pub(crate) const fn moves_frames(&self) -> bool {
         match *self {
             Self::Power(_, power) | Self::Torque(_, power) => power < 3,
             Self::Periodic(_, halves, _) => halves % 2 == 0 && halves < 6,
@@ -200,7 +200,7 @@ impl Function {
 }
 
 /// What functions are of, of each row.
-pub(super) fn facts(problem: &Problem, estimate: &Estimate) -> Vec<Facts> {
+pub(crate) fn facts(problem: &Problem, estimate: &Estimate) -> Vec<Facts> {
     let rows = &problem.rows;
     let mechanism = problem.mechanism();
     let models = problem.models(estimate, &[]);
@@ -225,7 +225,7 @@ pub(super) fn facts(problem: &Problem, estimate: &Estimate) -> Vec<Facts> {
 }
 
 /// All functions of these rows, whether or not they differ from row to row.
-pub(super) fn functions(problem: &Problem, rows: &[Facts]) -> Vec<Function> {
+pub(crate) fn functions(problem: &Problem, rows: &[Facts]) -> Vec<Function> {
     let mut all = Vec::new();
     for i in 0..JOINTS {
         all.extend((1..=4).map(|power| Function::Power(i, power)));

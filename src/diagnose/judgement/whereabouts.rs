@@ -1,7 +1,7 @@
 //! Where the disagreement lies: which columns and regions the residuals depend on.
 
-use super::chances::chi_squared_tail;
-use super::table::Layout;
+use crate::diagnose::estimator::chances::chi_squared_tail;
+use crate::diagnose::estimator::table::Layout;
 use crate::identify::problem::{Estimate, PointRef, Problem};
 use crate::identify::robust::limit;
 use crate::model::JOINTS;

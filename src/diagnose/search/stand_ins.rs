@@ -1,10 +1,10 @@
 //! Effects of one kind in the place of several of another: a group of like effects is dropped, and
 //! others stand in.
 
-use super::attempt::Attempt;
-use super::refit::refit;
 use super::scan::View;
-use super::search::{Chosen, Scored, World};
+use super::{Chosen, Scored, World};
+use crate::diagnose::estimator::refit::refit;
+use crate::diagnose::judgement::attempt::Attempt;
 use crate::identify::problem::Estimate;
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, SiteKey, shown_by_tool};
@@ -30,7 +30,7 @@ pub struct StandIn {
     /// What they leave of a coordinate, metres.
     pub residual_m: f64,
     /// The model with them.
-    pub(super) estimate: Estimate,
+    pub(crate) estimate: Estimate,
 }
 
 /// Effects that would compete with a group of those found if they could be what they would have to
@@ -110,7 +110,7 @@ fn of_kind(
 
 /// Springs that would explain as much as a group of other effects if some of them pushed against
 /// their load.
-pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
+pub(crate) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
     let chosen = &attempt.chosen;
     let mut view = View::of(world);
     view.show(world, chosen);
@@ -164,7 +164,7 @@ pub(super) fn impossible(attempt: &Attempt, world: &World) -> Vec<Impossible> {
 
 /// What competes with groups of the effects found, the nearest first. Where the verdict is sure
 /// only what explains nearly all is reported: `least` is the part.
-pub(super) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) -> Vec<StandIn> {
+pub(crate) fn stand_ins(attempt: &Attempt, world: &World, least: Option<f64>) -> Vec<StandIn> {
     let chosen = &attempt.chosen;
     let least = least.unwrap_or(PART);
     let mut view = View::of(world);

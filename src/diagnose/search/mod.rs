@@ -1,17 +1,22 @@
 //! Which effects explain the residuals: forward, with exchange and removal after every step.
 
-use super::candidates::{Candidate, Candidates};
-use super::fit::{Fit, Gain, Held};
-use super::scan::View;
-use super::table::{Column, Layout};
-use super::weights::{Plain, Weighted};
+pub mod candidates;
+mod scan;
+pub mod stand_ins;
+pub(crate) mod waves;
+
+use self::candidates::{Candidate, Candidates};
+use self::scan::View;
+use crate::diagnose::estimator::fit::{Fit, Gain, Held};
+use crate::diagnose::estimator::table::{Column, Layout};
+use crate::diagnose::estimator::weights::{Plain, Weighted};
 use crate::identify::pick::Pick;
 use crate::model::effects::{Effect, of_arm};
 
 /// An effect must be better than nothing by this, in units of twice a log likelihood.
 const MARGIN: f64 = 3.0;
 /// Most effects found.
-pub(super) const MOST_EFFECTS: usize = 12;
+pub(crate) const MOST_EFFECTS: usize = 12;
 /// Up to so many, exchange goes on until nothing changes, and two may become one; beyond, one
 /// revolution a step.
 const FEW_EFFECTS: usize = 4;
@@ -109,7 +114,7 @@ fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 /// Sought twice: the same place and a parameter in common.
-pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
+pub(crate) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let listed = a.effect.definition().listed().is_some();
     same(a, row, b) && (listed || row.is_some() || a.sought.iter().any(|n| b.sought.contains(n)))
 }
@@ -117,7 +122,7 @@ pub(super) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 impl World<'_> {
     /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`,
     /// the choice among its peers and among all kinds, and the odds against a rare one.
-    pub(super) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
+    pub(crate) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
         let parameters = (count + candidate.chosen) as f64;
         let kinds = of_arm().count() as f64;
         parameters * self.ln_numbers
@@ -132,7 +137,7 @@ impl World<'_> {
     }
 
     /// The columns of a candidate, from its first row on.
-    pub(super) fn columns(&self, candidate: &Candidate) -> Vec<Column> {
+    pub(crate) fn columns(&self, candidate: &Candidate) -> Vec<Column> {
         let all = candidate
             .columns
             .iter()
@@ -271,7 +276,7 @@ impl World<'_> {
     }
 
     /// Whether a person wants it; without such wishes the evidence decides.
-    pub(super) fn wanted(&self, candidate: &Candidate) -> bool {
+    pub(crate) fn wanted(&self, candidate: &Candidate) -> bool {
         let own = &candidate.effect;
         self.accepted.iter().any(|pick| pick.means(own))
     }
@@ -402,7 +407,7 @@ impl World<'_> {
 }
 
 /// The effect first without which most is lost.
-pub(super) fn by_gain(mut chosen: Vec<Chosen>) -> Vec<Chosen> {
+pub(crate) fn by_gain(mut chosen: Vec<Chosen>) -> Vec<Chosen> {
     chosen.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     chosen
 }

@@ -86,7 +86,7 @@ impl Given {
     }
 
     /// Columns of the effects times the fit's M.
-    pub(super) fn turned(&self) -> &[Column] {
+    pub(crate) fn turned(&self) -> &[Column] {
         &self.turned
     }
 
@@ -170,9 +170,9 @@ impl Kept {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fit::Held;
-    use super::super::table::{Layout, noise};
     use super::*;
+    use crate::diagnose::estimator::fit::Held;
+    use crate::diagnose::estimator::table::{Layout, noise};
 
     fn held(columns: &[Column], share: f64, sought: bool) -> Vec<Held<'_>> {
         let each = columns.iter();

@@ -1,7 +1,7 @@
 //! Every effect that the columns allow, at every joint, order and time constant it may have.
 
-use super::table::{Numbers, Stored, table_into};
 use super::waves;
+use crate::diagnose::estimator::table::{Numbers, Stored, table_into};
 use crate::identify::external::places;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
 use crate::identify::parameters::{Parameter, Subject, minimal};
@@ -178,7 +178,7 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
 }
 
 /// The smallest value of a parameter that is physical, SI.
-pub(super) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Option<f64> {
+pub(crate) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Option<f64> {
     let search = &effect.definition().search;
     if search.mass == Some(parameter) {
         let own = |tool: &&Mounted| {
@@ -274,7 +274,7 @@ impl Tried {
 }
 
 /// Largest less smallest.
-pub(super) fn range(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
         (low.min(v), high.max(v))
     });
@@ -359,7 +359,7 @@ fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
 ///
 /// Effects that only deflect are added to the model at zero, all at once; others change the
 /// geometry and are added one by one, or found in the model.
-pub(super) fn columns_of<C: Numbers>(
+pub(crate) fn columns_of<C: Numbers>(
     problem: &Problem,
     estimate: &Estimate,
     wanted: &[(Effect, Vec<usize>)],
@@ -493,13 +493,13 @@ impl Candidates {
     }
 
     /// Whether no candidate is this effect at this place.
-    pub(super) fn is_new(&self, effect: &Effect) -> bool {
+    pub(crate) fn is_new(&self, effect: &Effect) -> bool {
         let is_it = |c: &Candidate| c.effect.kind == effect.kind && c.effect.site == effect.site;
         !self.list.iter().any(is_it)
     }
 
     /// Adds waves of orders that are not in the list.
-    pub(super) fn add_waves(
+    pub(crate) fn add_waves(
         &mut self,
         problem: &Problem,
         estimate: &Estimate,

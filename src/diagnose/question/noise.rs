@@ -5,9 +5,9 @@
 //! (1941): what changes slowly cancels from one repetition to the next. N. R. Draper, H. Smith,
 //! "Applied Regression Analysis", on pure error and lack of fit.
 
-use super::chances::{chi_squared_quantile, f_tail};
-use super::fit::Fit;
-use super::table::{Column, Layout};
+use crate::diagnose::estimator::chances::{chi_squared_quantile, f_tail};
+use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::table::{Column, Layout};
 use crate::identify::measurements::Observed;
 use crate::identify::problem::{PointRef, Problem, Row};
 use std::collections::BTreeMap;

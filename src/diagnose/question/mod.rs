@@ -1,13 +1,15 @@
 //! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
 
-use super::candidates::{Candidate, Candidates, Tried, columns_of};
-use super::fit::Held;
-use super::noise::{Repeats, of_repeats};
-use super::refit::{Start, refit};
-use super::search::{Chosen, World};
-use super::table::{Column, Layout, table};
-use super::waves;
-use super::weights::Plain;
+pub mod noise;
+
+use self::noise::{Repeats, of_repeats};
+use crate::diagnose::estimator::fit::Held;
+use crate::diagnose::estimator::refit::{Start, refit};
+use crate::diagnose::estimator::table::{Column, Layout, table};
+use crate::diagnose::estimator::weights::Plain;
+use crate::diagnose::search::candidates::{Candidate, Candidates, Tried, columns_of};
+use crate::diagnose::search::waves;
+use crate::diagnose::search::{Chosen, World};
 use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::base::{BasePolicy, is_same_place};
@@ -26,7 +28,7 @@ use crate::model::profile::{ControllerModel, Profile};
 const SPARE: usize = 10;
 
 /// Least scale of residuals where nothing is known of the noise.
-pub(super) const LEAST: f64 = 1e-6;
+pub(crate) const LEAST: f64 = 1e-6;
 
 /// What is known of the arm before its effects are sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,7 +145,7 @@ fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> 
 }
 
 /// Columns that are held, and how freely.
-pub(super) fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
+pub(crate) fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
     let both = columns.iter().zip(shares);
     both.map(|(column, share)| Held {
         column,
@@ -309,7 +311,7 @@ pub fn session(
 impl Session {
     /// What a fit of everything begins with.
     #[must_use]
-    pub(super) fn start(&self) -> Start<'_> {
+    pub(crate) fn start(&self) -> Start<'_> {
         Start {
             problem: &self.problem,
             layout: &self.layout,
@@ -327,7 +329,7 @@ impl Session {
 
     /// The same with other shares: how freely what the profile has is fitted.
     #[must_use]
-    pub(super) fn world_of<'a>(
+    pub(crate) fn world_of<'a>(
         &'a self,
         used: &'a [bool],
         accepted: &'a [Pick],

@@ -3,7 +3,7 @@
 //! Effects of the data repair the analysis and are none of the robot's, but what they moved stays
 //! where it is: base, tool and zeros are those of the last row.
 
-use super::session::Session;
+use crate::diagnose::question::Session;
 use crate::geometry::Pose;
 use crate::identify::problem::Estimate;
 use crate::model::Conditions;
@@ -75,7 +75,7 @@ fn join_tool_frames(effects: &mut Vec<Effect>, tools: &[Mounted]) {
 }
 
 /// The profile with what was found, as the robot stands after the last row.
-pub(super) fn improved(profile: &Profile, session: &Session, estimate: &Estimate) -> Profile {
+pub(crate) fn improved(profile: &Profile, session: &Session, estimate: &Estimate) -> Profile {
     let mut improved = profile.clone();
     // a device that stands elsewhere, or that the profile knows of, says nothing of the robot
     let keep_base = session.elsewhere || profile.device.is_some();

@@ -2,21 +2,21 @@
 //! verdict, and the improved profile.
 
 use super::attempt::Attempt;
-use super::candidates::{Candidate, range};
-use super::diagnosis::{
+use super::poses::{Telling, telling};
+use super::whereabouts::spots;
+use super::{Judged, Standing, judge, stand};
+use crate::diagnose::diagnosis::{
     Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
-use super::improved::improved;
-use super::judgement::{Judged, Standing, judge, stand};
-use super::poses::{Telling, telling};
-use super::proof::{Proof, held_out};
-use super::refit::refit;
-use super::search::{Chosen, Scored};
-use super::session::{Trust, for_choice};
-use super::stand_ins::{StandIn, impossible, stand_ins};
-use super::table::lengths_m;
-use super::unknown::chance;
-use super::whereabouts::spots;
+use crate::diagnose::estimator::refit::refit;
+use crate::diagnose::estimator::table::lengths_m;
+use crate::diagnose::outside::chance;
+use crate::diagnose::proof::improved::improved;
+use crate::diagnose::proof::{Proof, held_out};
+use crate::diagnose::question::{Trust, for_choice};
+use crate::diagnose::search::candidates::{Candidate, range};
+use crate::diagnose::search::stand_ins::{StandIn, impossible, stand_ins};
+use crate::diagnose::search::{Chosen, Scored};
 use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
@@ -45,7 +45,7 @@ const FOLLOWED: f64 = 0.7;
 ///
 /// # Errors
 /// Joint limits that leave no room for configurations that tell alternatives apart.
-pub(super) fn conclude(
+pub(crate) fn conclude(
     profile: &Profile,
     measurements: &Measurements,
     options: &Options,
@@ -161,7 +161,7 @@ fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
 }
 
 /// A p-value with the number of tests made.
-pub(super) fn corrected(gain: f64, count: usize, peers: usize) -> f64 {
+pub(crate) fn corrected(gain: f64, count: usize, peers: usize) -> f64 {
     (chance(gain, count.max(1)) * (peers * of_arm().count()) as f64).min(1.0)
 }
 

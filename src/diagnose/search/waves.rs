@@ -8,8 +8,8 @@
 //! unevenly spaced readings, here with the weight that the joint has in each of them.
 
 use super::candidates::{Candidates, MOST_ORDERS, columns_of};
-use super::fit::Fit;
-use super::table::{Column, Layout, dot};
+use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::table::{Column, Layout, dot};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey};
@@ -37,12 +37,12 @@ fn orders() -> Vec<u32> {
 }
 
 /// How many waves there are to choose from.
-pub(super) fn places() -> usize {
+pub(crate) fn places() -> usize {
     JOINTS * orders().len()
 }
 
 /// The effect that is a wave.
-pub(super) fn wave(joint: usize, order: u32) -> Effect {
+pub(crate) fn wave(joint: usize, order: u32) -> Effect {
     let has_order = |kind: &&Kind| kind.definition().site.contains(&SiteKey::Order);
     Effect {
         kind: *(REGISTRY.iter().find(has_order)).expect("a wave is in the registry"),
@@ -102,7 +102,7 @@ impl Seen {
 
 /// Waves that the residual of a fit has and that are no candidates yet, where they are worth more
 /// than `least`.
-pub(super) fn peaks(
+pub(crate) fn peaks(
     problem: &Problem,
     estimate: &Estimate,
     layout: &Layout,
@@ -136,7 +136,7 @@ pub(super) fn peaks(
 
 /// Whether two effects are waves of one joint with orders that are next to each other in the
 /// periodogram: the same wave.
-pub(super) fn near(a: &Effect, b: &Effect) -> bool {
+pub(crate) fn near(a: &Effect, b: &Effect) -> bool {
     a.kind == b.kind
         && a.definition().site.contains(&SiteKey::Order)
         && a.site.index == b.site.index
@@ -145,7 +145,7 @@ pub(super) fn near(a: &Effect, b: &Effect) -> bool {
 
 /// The waves of the orders next to that of an effect, where it is a wave of the periodogram and
 /// they are no candidates yet.
-pub(super) fn neighbours(effect: &Effect, known: &Candidates) -> Vec<Effect> {
+pub(crate) fn neighbours(effect: &Effect, known: &Candidates) -> Vec<Effect> {
     if !effect.definition().site.contains(&SiteKey::Order) {
         return Vec::new();
     }

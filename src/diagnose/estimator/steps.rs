@@ -6,7 +6,7 @@ use super::table::{Column, Layout, add_scaled};
 
 /// Columns that begin at a row, for each first row that is tried: the later first.
 #[derive(Clone, Debug)]
-pub(super) struct Steps {
+pub(crate) struct Steps {
     /// How many columns.
     count: usize,
     /// First rows.
@@ -18,7 +18,7 @@ pub(super) struct Steps {
 
 /// Products of each column with those of the effects, from each first row on.
 #[derive(Debug)]
-pub(super) struct Cross {
+pub(crate) struct Cross {
     effects: usize,
     products: Vec<f64>,
 }
@@ -43,7 +43,7 @@ fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
 impl Steps {
     /// Of columns, seen from a fit without effects.
     #[must_use]
-    pub(super) fn of(fit: &Fit, layout: &Layout, mut columns: Vec<Column>, margin: usize) -> Self {
+    pub(crate) fn of(fit: &Fit, layout: &Layout, mut columns: Vec<Column>, margin: usize) -> Self {
         let count = columns.len();
         for column in &mut columns {
             weighted(column, fit);
@@ -95,7 +95,7 @@ impl Steps {
 
     /// Products of the columns from the k-th first row on.
     #[must_use]
-    pub(super) fn group(&self, k: usize) -> Group {
+    pub(crate) fn group(&self, k: usize) -> Group {
         let each = self.count * (self.count + 2);
         let own = &self.products[k * each..][..each];
         let (gram, rest) = own.split_at(self.count * self.count);
@@ -106,7 +106,7 @@ impl Steps {
 
     /// Products of each of its columns with those of the effects, for each first row.
     #[must_use]
-    pub(super) fn cross(
+    pub(crate) fn cross(
         &self,
         fit: &Fit,
         layout: &Layout,
@@ -140,7 +140,7 @@ impl Steps {
 impl Cross {
     /// Those of a number of columns from the k-th first row on.
     #[must_use]
-    pub(super) fn of_row(&self, k: usize, columns: usize) -> Vec<&[f64]> {
+    pub(crate) fn of_row(&self, k: usize, columns: usize) -> Vec<&[f64]> {
         let column = |i: usize| &self.products[(k * columns + i) * self.effects..][..self.effects];
         (0..columns).map(column).collect()
     }

@@ -2,12 +2,14 @@
 //! that may explain the residual. Where one of them does, or does it better than an effect that was
 //! named, the truth is not in the registry.
 
-use super::candidates::columns_of;
-use super::chances::{chi_squared_tail, normal_tail};
-use super::fit::{Fit, Gain};
-use super::functions::{Facts, Function, Registered, facts, functions};
-use super::given::{Given, Group, Kept};
-use super::table::{Column, Layout, dot};
+mod functions;
+
+use self::functions::{Facts, Function, Registered, facts, functions};
+use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
+use crate::diagnose::estimator::fit::{Fit, Gain};
+use crate::diagnose::estimator::given::{Given, Group, Kept};
+use crate::diagnose::estimator::table::{Column, Layout, dot};
+use crate::diagnose::search::candidates::columns_of;
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};

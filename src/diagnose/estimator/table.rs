@@ -121,7 +121,7 @@ pub fn table(
 }
 
 /// The same, into columns of any sort.
-pub(super) fn table_into<C: Numbers>(
+pub(crate) fn table_into<C: Numbers>(
     problem: &Problem,
     estimate: &Estimate,
     parameters: &[Parameter],
@@ -223,7 +223,7 @@ pub fn lengths_m(problem: &Problem, layout: &Layout, residual: &[f64]) -> Vec<f6
 
 /// Numbers that look random, and are the same each time.
 #[cfg(test)]
-pub(super) fn noise(seed: u64, count: usize) -> Column {
+pub(crate) fn noise(seed: u64, count: usize) -> Column {
     let mut state = seed;
     let mut next = || {
         state = state

@@ -1,12 +1,12 @@
 //! Every candidate given a model, kept at hand while the model changes.
 
 use super::candidates::Candidate;
-use super::fit::{Fit, Gain, Projection};
-use super::given::{Given, Group};
-use super::search::{Chosen, Scored, World, overlaps};
-use super::steps::{Cross, Steps};
-use super::table::Column;
-use super::weights::{Products, Weighted};
+use super::{Chosen, Scored, World, overlaps};
+use crate::diagnose::estimator::fit::{Fit, Gain, Projection};
+use crate::diagnose::estimator::given::{Given, Group};
+use crate::diagnose::estimator::steps::{Cross, Steps};
+use crate::diagnose::estimator::table::Column;
+use crate::diagnose::estimator::weights::{Products, Weighted};
 use crate::model::effects::Kind;
 use rayon::prelude::*;
 
@@ -24,7 +24,7 @@ struct Seen {
 
 /// A model with effects, and every candidate given it.
 #[derive(Debug)]
-pub(super) struct View {
+pub(crate) struct View {
     /// Products of the candidates' columns while every row counts fully.
     products: Vec<Products>,
     seen: Seen,
@@ -114,7 +114,7 @@ impl Seen {
 impl View {
     /// Without effects.
     #[must_use]
-    pub(super) fn of(world: &World) -> Self {
+    pub(crate) fn of(world: &World) -> Self {
         let columns = world.candidates.columns.par_iter();
         let products = columns.map(|c| world.plain.products(&c.column()));
         let products: Vec<Products> = products.collect();
@@ -130,7 +130,7 @@ impl View {
     }
 
     /// Turns to a model with these effects.
-    pub(super) fn show(&mut self, world: &World, chosen: &[Chosen]) {
+    pub(crate) fn show(&mut self, world: &World, chosen: &[Chosen]) {
         let same = self.shown.len() == chosen.len();
         if same && (self.shown.iter().zip(chosen)).all(|(s, c)| *s == c.columns) {
             return;
@@ -145,14 +145,14 @@ impl View {
     }
 
     /// Every candidate given a model with all of these effects, best first.
-    pub(super) fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
+    pub(crate) fn best(&mut self, world: &World, chosen: &[Chosen]) -> Vec<Scored> {
         self.show(world, chosen);
         self.scan(world, chosen, &vec![true; chosen.len()])
     }
 
     /// How much chi-squared rises without the effects that are not kept.
     #[must_use]
-    pub(super) fn loss(&self, keep: &[bool]) -> f64 {
+    pub(crate) fn loss(&self, keep: &[bool]) -> f64 {
         let given = &self.side.given;
         let all = given.kept(&vec![true; keep.len()]);
         (given.deviance(&given.kept(keep)) - given.deviance(&all)) / self.full.scale.powi(2)
@@ -160,14 +160,14 @@ impl View {
 
     /// Every candidate given those of the effects shown that are kept, best first.
     #[must_use]
-    pub(super) fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
+    pub(crate) fn scan(&self, world: &World, chosen: &[Chosen], keep: &[bool]) -> Vec<Scored> {
         self.scan_side(world, &self.side, chosen, keep)
     }
 
     /// Every candidate given other effects than those shown, with the weights and the scale of
     /// those shown.
     #[must_use]
-    pub(super) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
+    pub(crate) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
         let side = Side::of(world, (&self.seen, &self.products), &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
@@ -176,7 +176,7 @@ impl View {
     /// candidates, one for each place, and their gain and values. Values stay physical only if
     /// they are `bounded`.
     #[must_use]
-    pub(super) fn set_of(
+    pub(crate) fn set_of(
         &self,
         world: &World,
         (chosen, keep): (&[Chosen], &[bool]),
@@ -211,7 +211,7 @@ impl View {
     /// What all of a kind would gain together given the effects shown: one for each place, those
     /// at their bound left out.
     #[must_use]
-    pub(super) fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
+    pub(crate) fn all_of(&self, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Scored> {
         let list = &world.candidates.list;
         let all = vec![true; chosen.len()];
         let Some((own, gain)) = self.set_of(world, (chosen, &all), kind, true) else {
