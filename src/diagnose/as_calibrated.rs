@@ -112,6 +112,12 @@ impl Quality<'_> {
     }
 }
 
+/// Variance of a coordinate that a profile's calibration left, m², and its degrees of freedom; `None`
+/// where it does not say.
+pub(super) fn left_by_calibration(profile: &Profile) -> Option<(f64, f64)> {
+    quality_of(profile).map(|quality| (quality.variance, quality.freedom))
+}
+
 /// How well a profile's calibration knows the parameters of an estimate: which, and their
 /// covariance, SI; `None` where it does not say.
 pub(super) fn known_of(

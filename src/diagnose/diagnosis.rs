@@ -29,6 +29,8 @@ pub struct Options {
     pub accept: Vec<Pick>,
     /// Effects that are not considered.
     pub reject: Vec<Pick>,
+    /// The profile was not calibrated with these measurements.
+    pub is_new: bool,
     /// Leave out cross-validation.
     pub quick: bool,
     /// Fit the model again without each effect found, for a report that shows what it changed.
@@ -121,6 +123,8 @@ pub struct Found {
     pub found_again: (usize, usize),
     /// Where it was seen.
     pub seen: Seen,
+    /// The improved profile has it, or (of the session) stands where it left the robot.
+    pub in_profile: bool,
     /// How sure it is.
     pub standing: Standing,
     /// What it may be instead, the likeliest first.

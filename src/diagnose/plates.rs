@@ -484,6 +484,7 @@ impl One {
                 after: None,
                 found_again: (0, 0),
                 seen: Seen::default(),
+                in_profile: true,
                 standing: Standing::Possible,
                 against,
             }

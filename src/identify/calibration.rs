@@ -439,7 +439,11 @@ pub(super) fn observability_of(
         }
         singular_values(&r)
     });
-    let configurations = fit.configurations().last().map_or(0, |last| last + 1);
+    let configurations = fit
+        .configurations()
+        .into_iter()
+        .max()
+        .map_or(0, |last| last + 1);
     observability(factor.unwrap_or_default(), configurations)
 }
 

@@ -4,15 +4,22 @@ use super::contact::{Contact, ContactKind};
 use super::error::IdentifyError;
 use super::external;
 use super::line::Line;
+use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector};
 use crate::model::Conditions;
 use crate::model::effects::MOST_EXTERNAL_AXES;
 use crate::model::external::Stand;
 use crate::model::profile::Profile;
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 pub use super::fault::{MeasurementError, MeasurementFault};
 
+/// Joint angles nearer than this are those of one configuration, radians: encoders read the same pose
+/// a little otherwise each time.
+const SAME_RAD: f64 = 0.01 * DEG;
+/// Parts of a sum of angles that differs from configuration to configuration.
+const ALONG: [f64; 6] = [0.31, 0.23, 0.17, 0.13, 0.11, 0.05];
 const MOST_EXTERNAL: usize = MOST_EXTERNAL_AXES as usize;
 
 /// Columns of joint angles.
@@ -245,16 +252,42 @@ impl Measurements {
         (self, plates)
     }
 
-    /// The number of the configuration of each row: rows in sequence with the same joint angles,
-    /// and external axes at the same places, are one, from 0.
+    /// The number of the configuration of each row, from 0 by first appearance: rows with external
+    /// axes at the same places and joint angles nearer than [`SAME_RAD`] are one, whenever they were
+    /// measured.
     #[must_use]
     pub fn configurations(&self) -> Vec<usize> {
-        let mut number = 0;
+        // a sum of angles differs by no more than they do
+        let cell = |q: &[f64; 6]| {
+            let along: f64 = q.iter().zip(ALONG).map(|(q, part)| q * part).sum();
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "angles are far below 2^52 of these"
+            )]
+            let cell = (along / SAME_RAD).floor() as i64;
+            cell
+        };
+        let mut known: HashMap<i64, Vec<(usize, usize)>> = HashMap::new();
+        let mut count = 0;
         let mut all = Vec::with_capacity(self.rows.len());
-        for (i, row) in self.rows.iter().enumerate() {
-            let before = &self.rows[i.saturating_sub(1)];
-            if row.q != before.q || row.stand.bits() != before.stand.bits() {
-                number += 1;
+        for (index, row) in self.rows.iter().enumerate() {
+            let is_same = |first: usize| {
+                let first = &self.rows[first];
+                let mut angles = row.q.iter().zip(&first.q);
+                angles.all(|(a, b)| (a - b).abs() < SAME_RAD)
+                    && row.stand.bits() == first.stand.bits()
+            };
+            let own = cell(&row.q);
+            let near = (own - 1..=own + 1)
+                .filter_map(|cell| known.get(&cell))
+                .flatten();
+            let same = near
+                .filter(|(first, _)| is_same(*first))
+                .map(|(_, number)| *number);
+            let number = same.min().unwrap_or(count);
+            if number == count {
+                known.entry(own).or_default().push((index, count));
+                count += 1;
             }
             all.push(number);
         }
@@ -265,7 +298,6 @@ impl Measurements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::units::DEG;
 
     const HEADER: &str = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,";
 
@@ -345,5 +377,22 @@ mod tests {
         assert_eq!(all.rows[0].point_in_tool_m, None);
         assert_eq!(all.rows[1].point_in_tool_m, Some([0.004, 0.005, 0.006]));
         assert_eq!(all.configurations(), [0, 0]);
+    }
+
+    #[test]
+    fn a_pose_measured_again_later_is_the_same_configuration() {
+        let mut text = format!("{HEADER}x_mm,y_mm,z_mm\n");
+        // encoders read it a little otherwise, on either side of any rounding
+        for (q2, q3) in [
+            (20.0, 30.0),
+            (20.5, 29.5),
+            (20.004, 29.997),
+            (20.5, 29.502),
+            (20.0, 31.0),
+        ] {
+            text += &format!("10,{q2},{q3},0,0,0,1,2,3\n");
+        }
+        let all = Measurements::from_csv(text.as_bytes()).expect("five rows");
+        assert_eq!(all.configurations(), [0, 1, 0, 1, 2]);
     }
 }

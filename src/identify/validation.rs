@@ -423,7 +423,7 @@ fn cross_validate(
     tell: &mut dyn FnMut(usize, usize),
 ) -> Result<(usize, Quality, Quality), IdentifyError> {
     let configurations = measurements.configurations();
-    let total = configurations.last().map_or(0, |last| last + 1);
+    let total = configurations.iter().max().map_or(0, |last| last + 1);
     let count = folds.count.clamp(2, total.max(2));
     let free = measurements
         .rows

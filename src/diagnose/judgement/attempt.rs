@@ -1,8 +1,9 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be
 //! questioned.
 
+use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
-use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
+use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail};
 use crate::diagnose::estimator::fit::Fit;
 use crate::diagnose::estimator::given::{Given, Kept};
 use crate::diagnose::estimator::refit::{Refit, moved, refit};
@@ -33,9 +34,20 @@ const STRAINED: f64 = 1e-4;
 /// estimate.
 pub(crate) const LOUDER: f64 = 4.0;
 
+/// A residual beyond the noise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Louder {
+    /// So many times.
+    pub times: f64,
+    /// What says how loud the noise is, in words.
+    pub than: &'static str,
+}
+
 /// What a search on one set of assumptions found.
 pub(crate) struct Attempt {
     pub session: Session,
+    /// Rows that are used.
+    pub used: Vec<bool>,
     pub chosen: Vec<Chosen>,
     pub refit: Refit,
     /// Its estimate with what the calibration holds moved, where that is.
@@ -48,9 +60,9 @@ pub(crate) struct Attempt {
     pub outdone: Vec<(usize, Unknown)>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
-    /// The residual over the noise that is stated or repeated poses show, where that is beyond
+    /// How much louder the residual is than what is known of the noise, where that is beyond
     /// chance.
-    pub louder: Option<f64>,
+    pub louder: Option<Louder>,
     /// Noise by repeated poses given what was found, where `sigma_mm` does not state it.
     pub repeats: Option<Repeats>,
     /// Deviance and costs in common units: less is better.
@@ -64,22 +76,26 @@ impl Attempt {
         self.unknown.is_empty()
             && self.outdone.is_empty()
             && self.likeness.in_order > ALIKE
+            && self.likeness.opposite > ALIKE
             && self.likeness.in_posture > ALIKE
             && self.strained.is_none()
             && self.louder.is_none()
     }
 
+    /// Values with some of the effects found, and the same with what the calibration holds moved.
+    pub(crate) fn refitted(
+        &self,
+        profile: &Profile,
+        chosen: &[Chosen],
+    ) -> (Refit, Option<Estimate>) {
+        let (own, fit) = refit(self.session.start(), chosen, &self.used);
+        let moved = by_trust(self.trust, &self.session, profile, (&own, &fit));
+        (own, moved)
+    }
+
     /// The median of the rows' standard deviations, metres.
     pub(crate) fn sigma_m(&self) -> f64 {
-        let mut sigmas: Vec<f64> = self
-            .session
-            .problem
-            .rows
-            .iter()
-            .map(|r| r.sigma_m)
-            .collect();
-        sigmas.sort_by(f64::total_cmp);
-        sigmas[sigmas.len() / 2]
+        sigma_m(&self.session)
     }
 
     /// Its merit with residuals of this variance: less is better.
@@ -134,16 +150,53 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     (p < STRAINED).then_some(p)
 }
 
-/// The residual over the noise that is stated, or that repeated poses show, where that is beyond
-/// chance.
-fn louder(session: &Session, refit: &Refit, repeats: Option<Repeats>) -> Option<f64> {
+/// The residual over the noise that is stated, else that repeated poses show, else what the
+/// profile's calibration left, where that is beyond chance; `sigma_m` is that of the rows.
+fn louder(
+    session: &Session,
+    (refit, sigma_m): (&Refit, f64),
+    repeats: Option<Repeats>,
+    profile: &Profile,
+) -> Option<Louder> {
     let (scale, freedom) = (refit.scale, refit.freedom);
-    if session.problem.sigma_assumed {
-        let repeats = repeats?;
-        let is_louder = repeats.chance_of(scale, freedom) < normal_tail(LOUDER);
-        return is_louder.then_some(scale / repeats.scale);
+    let (chance, times, than) = if !session.problem.sigma_assumed {
+        let chance = chi_squared_tail(scale * scale * freedom, freedom);
+        (chance, scale, "the noise that sigma_mm states")
+    } else if let Some(repeats) = repeats {
+        let chance = repeats.chance_of(scale, freedom);
+        (
+            chance,
+            scale / repeats.scale,
+            "the noise that repeated poses show",
+        )
+    } else {
+        let (variance_m2, of_calibration) = left_by_calibration(profile)?;
+        let ratio = (scale * sigma_m).powi(2) / variance_m2;
+        let chance = f_tail(ratio, freedom, of_calibration);
+        (chance, ratio.sqrt(), "what the profile's calibration left")
+    };
+    (chance < normal_tail(LOUDER)).then_some(Louder { times, than })
+}
+
+/// The median of the rows' standard deviations, metres.
+fn sigma_m(session: &Session) -> f64 {
+    let rows = session.problem.rows.iter();
+    let mut sigmas: Vec<f64> = rows.map(|row| row.sigma_m).collect();
+    sigmas.sort_by(f64::total_cmp);
+    sigmas[sigmas.len() / 2]
+}
+
+/// What a calibration holds moved, where there is one.
+fn by_trust(
+    trust: Trust,
+    session: &Session,
+    profile: &Profile,
+    (refit, fit): (&Refit, &Fit),
+) -> Option<Estimate> {
+    match trust {
+        Trust::Calibrated { .. } => moved(session.start(), profile, refit, fit),
+        Trust::Nothing => None,
     }
-    (chi_squared_tail(scale * scale * freedom, freedom) < normal_tail(LOUDER)).then_some(scale)
 }
 
 /// Deviance, the information criterion's price of what is fitted freely, and what naming the
@@ -203,10 +256,7 @@ pub(crate) fn attempt(
     unknown.retain(|u| u.gain > library.cost(u.count));
     let likeness = likeness(&session.problem, &session.layout, &used, &last);
     let leverage = last.leverage(&session.layout);
-    let moved = match trust {
-        Trust::Calibrated { .. } => moved(session.start(), profile, &refit, &last),
-        Trust::Nothing => None,
-    };
+    let moved = by_trust(trust, &session, profile, (&refit, &last));
     // each fit holds a basis as large as all columns: no more of them at once than needed
     drop(last);
     let fit = session.world(&used, &options.accept).fit(&chosen);
@@ -215,11 +265,12 @@ pub(crate) fn attempt(
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)
         .and_then(|_| of_repeats(&session.problem, &session.layout, &refit.residual, &used));
-    let louder = louder(&session, &refit, repeats);
+    let louder = louder(&session, (&refit, sigma_m(&session)), repeats, profile);
     let merit = merit(&session, trust, &used, &chosen, &refit);
     Ok((
         Attempt {
             session,
+            used,
             chosen,
             refit,
             moved,

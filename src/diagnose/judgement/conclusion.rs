@@ -4,7 +4,7 @@
 use super::attempt::Attempt;
 use super::poses::{Telling, telling};
 use super::whereabouts::spots;
-use super::{Judged, Standing, judge, stand};
+use super::{Judged, Standing, is_seldom, judge, stand};
 use crate::diagnose::diagnosis::{
     Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
@@ -87,9 +87,7 @@ pub(crate) fn conclude(
         others.remove(i);
         again(&others)
     });
-    // where nothing is missing nothing is moved
-    let moved = (attempt.moved.as_ref()).filter(|_| verdict != Verdict::NothingMissing);
-    let written = moved.unwrap_or(&attempt.refit.estimate);
+    let written = written(profile, attempt, &mut found, verdict);
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
@@ -141,10 +139,45 @@ pub(crate) fn conclude(
         outliers: outliers(attempt, measurements, &residual_lengths),
         remarks,
         lengths: (present_lengths, residual_lengths),
-        profile: improved(profile, session, written),
+        profile: improved(profile, session, &written.0, &written.1),
         problem: session.problem.clone(),
         estimate: attempt.refit.estimate.clone(),
     })
+}
+
+/// The values that the improved profile gets, and effects of the session that are not sure enough
+/// for the robot to be where they left it; says of each effect whether the profile has it.
+///
+/// Where not all that was found is believed, an effect that was found again too seldom was not in
+/// the predictions that the answer rests on: the profile is without it.
+fn written(
+    profile: &Profile,
+    attempt: &Attempt,
+    found: &mut [Found],
+    verdict: Verdict,
+) -> (Estimate, Vec<Effect>) {
+    let mut unsure = Vec::new();
+    for one in found.iter_mut().filter(|f| !f.accepted) {
+        let is_improved = verdict == Verdict::Improved;
+        let of_data = one.effect.definition().of_data;
+        one.in_profile = !(is_improved && is_seldom(one));
+        if of_data && is_improved && one.standing == Standing::Possible {
+            one.in_profile = false;
+            unsure.push(one.effect.clone());
+        }
+    }
+    let is_kept = |f: &Found| f.in_profile || f.effect.definition().of_data;
+    let attempted = (attempt.refit.clone(), attempt.moved.clone());
+    let (own, moved) = if found.iter().all(is_kept) {
+        attempted
+    } else {
+        let kept = attempt.chosen.iter().zip(found.iter());
+        let kept = kept.filter(|(_, f)| is_kept(f)).map(|(c, _)| c.clone());
+        attempt.refitted(profile, &kept.collect::<Vec<_>>())
+    };
+    // where nothing is missing nothing is moved
+    let moved = moved.filter(|_| verdict != Verdict::NothingMissing);
+    (moved.unwrap_or(own.estimate), unsure)
 }
 
 /// Noise of a coordinate, where it comes from, and the residual of a coordinate, metres.
@@ -197,6 +230,7 @@ fn effects(
             after: spreads[2 + i],
             found_again: proof.again[i],
             seen,
+            in_profile: true,
             standing: Standing::Possible,
             against: Vec::new(),
         }

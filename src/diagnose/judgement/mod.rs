@@ -9,7 +9,7 @@ pub(crate) mod conclusion;
 pub mod poses;
 pub mod whereabouts;
 
-use self::attempt::{ALIKE, Attempt};
+use self::attempt::{ALIKE, Attempt, Louder};
 use crate::diagnose::diagnosis::{Alternative, Found, Verdict};
 use crate::diagnose::estimator::refit::{Beyond, Refit};
 use crate::diagnose::proof::Proof;
@@ -100,7 +100,8 @@ pub(crate) fn judge(
 ) -> Judged {
     let reasons = objections(attempt, proof, found, alternatives);
     let is_possible = !beyond(&attempt.refit).any(|beyond| is_new(attempt, beyond));
-    let is_better = proof.judged().is_some_and(|judged| judged.is_better());
+    let is_better = proof.judged().is_some_and(|judged| judged.is_better())
+        && !proof.present.is_some_and(|present| present.is_worse());
     let verdict = match (reasons.is_empty(), found.is_empty()) {
         (true, true) => Verdict::NothingMissing,
         (true, false) => Verdict::Explained,
@@ -125,9 +126,11 @@ pub(crate) fn stand(
     let series = series(attempt, found).map_or_else(Vec::new, |series| series.members);
     let is_missing = !series.is_empty()
         || attempt.likeness.in_posture < ALIKE
+        || attempt.louder.is_some()
         || !pushing(&attempt.refit).is_empty();
-    let is_changing =
-        attempt.likeness.in_order < ALIKE || attempt.unknown.first().is_some_and(|u| u.of_session);
+    let is_changing = attempt.likeness.in_order < ALIKE
+        || attempt.likeness.opposite < ALIKE
+        || attempt.unknown.first().is_some_and(|u| u.of_session);
     let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
     let unresolved: Vec<bool> = (found.iter())
         .map(|f| is_unresolved(attempt, found, f))
@@ -238,8 +241,28 @@ fn is_unresolved(attempt: &Attempt, found: &[Found], one: &Found) -> bool {
     others.any(|f| (periods(attempt, f) - own).abs() < 1.0)
 }
 
+/// Joints with waves that cannot be distinguished in the ranges of their angles, one sentence for
+/// each.
+fn unresolved(attempt: &Attempt, found: &[Found]) -> Vec<String> {
+    let of_joint = |joint: usize| {
+        let own = |f: &&Found| !f.accepted && f.effect.site.index == joint;
+        let own = found.iter().filter(own);
+        let own: Vec<&Found> = own.filter(|f| is_unresolved(attempt, found, f)).collect();
+        let orders = own.iter().map(|f| f.effect.site.periods().to_string());
+        let orders = orders.collect::<Vec<_>>().join(", ");
+        (own.len() > 1).then(|| {
+            format!(
+                "waves of joint {} of orders {orders} cannot be distinguished in the range of its \
+                 angle: one of an order between them is as likely",
+                joint + 1
+            )
+        })
+    };
+    (0..JOINTS).filter_map(of_joint).collect()
+}
+
 /// Found again in fewer than half of the parts of the measurements.
-fn is_seldom(found: &Found) -> bool {
+pub(crate) fn is_seldom(found: &Found) -> bool {
     let (times, of) = found.found_again;
     2 * times < of
 }
@@ -263,6 +286,12 @@ fn objections(
         reasons.push(format!(
             "rows left out are predicted worse with what was found: {:.3} → {:.3} mm",
             judged.start.mean, judged.found.mean
+        ));
+    }
+    if let Some(present) = proof.present.filter(|p| !found.is_empty() && p.is_worse()) {
+        reasons.push(format!(
+            "rows left out are predicted worse than by the profile as it is: {:.3} → {:.3} mm",
+            present.start.mean, present.found.mean
         ));
     }
     for one in found.iter().filter(|f| !f.accepted && is_seldom(f)) {
@@ -294,6 +323,7 @@ fn objections(
         }
     }
     reasons.extend(outdone(attempt, found));
+    reasons.extend(unresolved(attempt, found));
     if let Some(series) = series(attempt, found) {
         reasons.push(format!(
             "{} effects at joint {} are functions of its angle alone: together they may imitate \
@@ -321,6 +351,13 @@ fn objections(
             attempt.likeness.in_order
         ));
     }
+    if attempt.likeness.opposite < ALIKE {
+        reasons.push(format!(
+            "rows one after another miss opposite to one another (p = {:.1e}): something changes \
+             from row to row",
+            attempt.likeness.opposite
+        ));
+    }
     if attempt.likeness.in_posture < ALIKE {
         reasons.push(format!(
             "like postures miss alike (p = {:.1e}): the model lacks something",
@@ -340,15 +377,8 @@ fn objections(
             attempt.refit.freedom
         ));
     }
-    if let Some(scale) = attempt.louder {
-        let source = if attempt.session.problem.sigma_assumed {
-            "repeated poses show"
-        } else {
-            "sigma_mm states"
-        };
-        reasons.push(format!(
-            "the residual is {scale:.2} times the noise that {source}"
-        ));
+    if let Some(Louder { times, than }) = attempt.louder {
+        reasons.push(format!("the residual is {times:.2} times {than}"));
     }
     reasons
 }

@@ -310,6 +310,8 @@ impl Library {
 pub struct Likeness {
     /// Rows one after another.
     pub in_order: f64,
+    /// The same of opposite ones.
+    pub opposite: f64,
     /// Rows of like posture.
     pub in_posture: f64,
 }
@@ -329,7 +331,8 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
             .map(|i| (x[i].0 - y[i].0).powi(2) + (x[i].1 - y[i].1).powi(2))
             .sum::<f64>()
     };
-    let tail = |pairs: &[(usize, usize)]| {
+    // in standard deviations
+    let mean_product = |pairs: &[(usize, usize)]| {
         let (mut sum, mut squares) = (0.0, 0.0);
         for (a, b) in pairs {
             let (x, y) = (part(*a), part(*b));
@@ -339,12 +342,9 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
                 squares += product * product;
             }
         }
-        if squares > 0.0 {
-            normal_tail(sum / squares.sqrt())
-        } else {
-            1.0
-        }
+        (squares > 0.0).then(|| sum / squares.sqrt())
     };
+    let tail = |product: Option<f64>| product.map_or(1.0, normal_tail);
     let same = |a: usize, b: usize| problem.rows[a].q == problem.rows[b].q;
     let in_order: Vec<_> = rows
         .windows(2)
@@ -366,9 +366,11 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
         .collect();
     once.sort_unstable();
     once.dedup();
+    let along = mean_product(&in_order);
     Likeness {
-        in_order: tail(&in_order),
-        in_posture: tail(&once),
+        in_order: tail(along),
+        opposite: tail(along.map(|product| -product)),
+        in_posture: tail(mean_product(&once)),
     }
 }
 

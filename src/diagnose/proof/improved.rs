@@ -74,13 +74,25 @@ fn join_tool_frames(effects: &mut Vec<Effect>, tools: &[Mounted]) {
     });
 }
 
-/// The profile with what was found, as the robot stands after the last row.
-pub(crate) fn improved(profile: &Profile, session: &Session, estimate: &Estimate) -> Profile {
+/// The profile with what was found, as the robot stands after the last row; what an `unsure` effect
+/// of the session moved is not.
+pub(crate) fn improved(
+    profile: &Profile,
+    session: &Session,
+    estimate: &Estimate,
+    unsure: &[Effect],
+) -> Profile {
     let mut improved = profile.clone();
     // a device that stands elsewhere, or that the profile knows of, says nothing of the robot
     let keep_base = session.elsewhere || profile.device.is_some();
     let mut effects = estimate.effects.clone();
-    let moved = moved(&effects, session.problem.rows.len());
+    let sure = effects
+        .iter()
+        .filter(|e| !unsure.iter().any(|u| u.same_place(e)));
+    let moved = moved(
+        &sure.cloned().collect::<Vec<_>>(),
+        session.problem.rows.len(),
+    );
     effects.retain(|e| !(e.definition().of_data || keep_base && e.kind == Kind::BaseFrame));
     let world_from_base = Pose::from_xyz_rxryrz(moved.world) * estimate.world_from_base;
     if keep_base {

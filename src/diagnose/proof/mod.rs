@@ -89,6 +89,9 @@ pub(crate) struct Proof {
     /// Everything that the profile has fitted again without the rows left out, without and with
     /// the effects found.
     pub equal: Option<Compared>,
+    /// The profile as it is, against all this, where it was not calibrated with these measurements:
+    /// no answer may be worse.
+    pub present: Option<Compared>,
     /// For each effect, in how many parts it was found again, and of how many.
     pub again: Vec<(usize, usize)>,
 }
@@ -100,6 +103,7 @@ impl Proof {
             lengths: vec![Vec::new(); 2 + effects],
             profile: None,
             equal: None,
+            present: None,
             again: vec![(0, 0); effects],
         }
     }
@@ -129,7 +133,11 @@ fn parts(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
         return vec![validate];
     }
     let configurations = measurements.configurations();
-    let last = configurations.last().copied().unwrap_or(0) + 1;
+    let last = configurations
+        .iter()
+        .max()
+        .map_or(0, |last| last + 1)
+        .max(1);
     let each = if last >= MANY_CONFIGURATIONS {
         BLOCKS
     } else {
@@ -243,7 +251,11 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         Trust::Calibrated { .. } => Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false),
         Trust::Nothing => None,
     };
+    let present = (options.is_new)
+        .then(|| Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false))
+        .flatten();
     Proof {
+        present,
         lengths,
         profile,
         equal: Compared::of(&equal[0], &equal[1], &of_rows, true),

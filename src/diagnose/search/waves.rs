@@ -26,6 +26,12 @@ const HIGHEST: u32 = 320;
 /// Peaks of a joint that are looked at.
 const PEAKS: usize = 3;
 
+/// Orders between two of the periodogram that a peak is refined by.
+const FINE: u32 = 100;
+/// A wave between orders gains so much more than that of the next order, to be it: the price of a
+/// value chosen, with strong evidence (R. E. Kass, A. E. Raftery, "Bayes factors" (1995)).
+const BETWEEN: f64 = 10.0;
+
 /// Every order of the periodogram, in the registry's count, ascending.
 fn orders() -> Vec<u32> {
     let one = SiteKey::Order.one();
@@ -127,7 +133,18 @@ pub(crate) fn peaks(
         let mut found: Vec<usize> = (0..orders.len()).filter(is_peak).collect();
         found.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
         found.truncate(PEAKS);
-        found.into_iter().map(|k| wave(joint, orders[k])).collect()
+        let between = |k: usize| {
+            let least = orders[k.saturating_sub(1)];
+            let most = orders[(k + 1).min(orders.len() - 1)];
+            let step = (SiteKey::Order.one() / FINE).max(1);
+            let fine = (least..=most).step_by(step as usize);
+            let gain = |order: u32| seen.gain(wave(0, order).site.periods(), variance);
+            let all = fine.map(|order| (gain(order), order));
+            let best = all.max_by(|a, b| a.0.total_cmp(&b.0));
+            best.filter(|(gain, _)| *gain > gains[k] + BETWEEN)
+                .map_or(orders[k], |(_, order)| order)
+        };
+        found.into_iter().map(|k| wave(joint, between(k))).collect()
     };
     let found: Vec<Vec<Effect>> = (0..JOINTS).into_par_iter().map(of_joint).collect();
     let all = found.into_iter().flatten();

@@ -90,6 +90,8 @@ pub struct FoundEffect {
     pub after: Option<SpreadMm>,
     /// Whether it is of the session and not of the robot.
     pub of_data: bool,
+    /// Whether the improved profile has it, or (of the session) stands where it left the robot.
+    pub in_profile: bool,
     /// `certain`, `likely` or `possible`.
     pub standing: &'static str,
     /// What it may be instead, the likeliest first.
@@ -115,6 +117,11 @@ impl From<&engine::Found> for FoundEffect {
             (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
         });
         let (found_again, found_again_of) = f.found_again;
+        let profile = match (f.in_profile, definition.of_data) {
+            (true, _) => "",
+            (false, false) => " It is found again too seldom: the profile is without it.",
+            (false, true) => " It is not sure enough: the profile does not follow it.",
+        };
         Self {
             effect: (&f.effect).into(),
             sigma: sigma.collect(),
@@ -129,6 +136,7 @@ impl From<&engine::Found> for FoundEffect {
             before: f.before.map(Into::into),
             after: f.after.map(Into::into),
             of_data: definition.of_data,
+            in_profile: f.in_profile,
             standing: f.standing.id(),
             against: (f.against.iter())
                 .map(|a| Against {
@@ -136,7 +144,7 @@ impl From<&engine::Found> for FoundEffect {
                     odds: a.odds,
                 })
                 .collect(),
-            sentence: f.effect.sentence(&f.seen),
+            sentence: f.effect.sentence(&f.seen) + profile,
         }
     }
 }

@@ -293,6 +293,17 @@ fn check_accepted(found: &Found, pick: &Pick) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether a profile says that it was calibrated with other measurements than these.
+fn is_new(file: &ProfileFile, sha256: &[String]) -> bool {
+    let provenance = file.profile.provenance.as_ref();
+    let used = provenance.and_then(|own| own.get("measurements_sha256")?.as_array());
+    used.is_some_and(|used| {
+        !used
+            .iter()
+            .any(|one| sha256.iter().any(|own| *one == **own))
+    })
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -312,7 +323,10 @@ pub fn diagnose(
         ..
     } = measurements;
     let (tool, plates) = of_the_arm(all, &name)?;
-    let of_arm = of_arm(options);
+    let of_arm = Options {
+        is_new: is_new(file, &sha256),
+        ..of_arm(options)
+    };
     let d = search(&file.profile, &tool, &of_arm, hear)
         .map_err(|error| identify_failure(&name, &error))?;
     for pick in &of_arm.accept {
