@@ -220,6 +220,16 @@ pub enum Fault {
         /// The effect.
         label: String,
     },
+    /// Two tools whose names programs do not distinguish.
+    #[error(
+        "tools `{other}` and `{name}` are one name: case, blanks and leading zeros do not count"
+    )]
+    SameTool {
+        /// The name.
+        name: String,
+        /// The one before.
+        other: String,
+    },
     /// A mass beyond what the robot carries.
     #[error("mass_kg of tool `{tool}` is {found}; robot.payload_kg is {payload}")]
     BeyondPayload {
@@ -322,6 +332,7 @@ impl ProfileError {
                 out"
                 .into()
             }
+            Fault::SameTool { .. } => "leave one of them out, or rename it".into(),
             Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or \
                 robot.payload_kg"
                 .into(),

@@ -6,7 +6,7 @@ use super::shape;
 use super::{DevicePlace, Fault, Profile, ProfileError, Reasons, ToolOfProfile, is_tiny};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Vector};
-use crate::model::effects::{Effect, Need};
+use crate::model::effects::{Effect, Need, same_tool};
 use crate::model::external::ExternalAxes;
 use crate::model::shape::{Form, LinkShape};
 use crate::model::{Body, Coupling, JointSense, Link, Mechanism};
@@ -55,8 +55,12 @@ impl Profile {
             });
         }
         let shapes = shapes(&file.shapes)?;
-        let mut tools = BTreeMap::new();
+        let mut tools: BTreeMap<String, ToolOfProfile> = BTreeMap::new();
         for (name, tool) in file.tools {
+            if let Some(other) = tools.keys().find(|other| same_tool(other, &name)) {
+                let other: String = other.clone();
+                return Err(Fault::SameTool { name, other }.at(tool.frame.defined));
+            }
             let load = match (tool.mass_kg, tool.cog_mm) {
                 (Some(kg), cog) => {
                     if let Some(payload) = payload_kg.filter(|most| kg.value.0 > *most) {

@@ -259,6 +259,8 @@ fn tools_and_frames_in_other_units_are_faults_with_their_place() {
         fault(frame("100", "721") + "}"),
         Fault::EndlessAngle { .. }
     ));
+    let twice = frame("100", "0") + "}\n  T: " + &frame("90", "0") + "}";
+    assert!(matches!(fault(twice), Fault::SameTool { .. }));
     let heavy = frame("100", "0") + ", mass_kg: 5.1}";
     assert!(matches!(fault(heavy), Fault::BeyondPayload { .. }));
 }
