@@ -33,7 +33,7 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
         // who writes metres into the text has not taken them for millimetres
         let of_text = ground.program.tools[motion.tool].flange_from_tool.is_some();
         let may_be_metres = !(of_text && ground.language.is_in_metres());
-        if may_be_metres && is_tiny(&tool.flange_from_tool) {
+        if may_be_metres && is_tiny(&tool.flange_from_tool.translation) {
             let off = tool.flange_from_tool.translation;
             let largest = off.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
             let message = format!(

@@ -291,10 +291,10 @@ impl Profile {
     }
 }
 
-/// Whether a tool is off the flange, and by less than a millimetre in each coordinate: metres are
+/// Whether a point is off the origin, and by less than a millimetre in each coordinate: metres are
 /// meant.
-pub(crate) fn is_tiny(flange_from_tool: &Pose) -> bool {
-    let off = flange_from_tool.translation.map(f64::abs);
+pub(crate) fn is_tiny(point_m: &Vector) -> bool {
+    let off = point_m.map(f64::abs);
     off.iter().all(|m| *m < TINY_M) && off.iter().any(|m| *m > NO_LENGTH_M)
 }
 
