@@ -188,6 +188,7 @@ impl Walk {
             has_numbers,
         )?;
         plausibility::units(&ground, Severity::Warning, &mut findings);
+        plausibility::names(&ground, &mut findings);
         plausibility::models(&ground, &mut findings);
         let walk_options = WalkOptions {
             start_joints: options.start_joints,

@@ -303,6 +303,7 @@ fn with(
         ground.move_part(offset);
     }
     plausibility::units(&ground, Severity::Error, &mut findings);
+    plausibility::names(&ground, &mut findings);
     plausibility::models(&ground, &mut findings);
     let limits = Limits::new(&ground, options.max_shift);
     let job = Job {

@@ -150,7 +150,7 @@ pub(super) fn begin(problem: &Problem, estimate: &mut Estimate, start: &Start) {
         for parameter in &problem.parameters {
             if let Subject::Effect(slot) = parameter.subject {
                 let effect = &mut estimate.effects[slot.effect];
-                let mine = effect.site.tool.as_ref().is_none_or(|name| name == tool);
+                let mine = effect.site.is_of_tool(tool);
                 if effect.kind == Kind::ToolFrame && mine {
                     effect.parameters[slot.parameter] = deviation[slot.parameter];
                 }

@@ -416,9 +416,8 @@ pub(super) fn sights(
         );
         let carrier = names.iter().position(|k| *k == key).unwrap_or_else(|| {
             let point = given.or_else(|| row.point.is_none().then_some([0.0; 3]));
-            let real = profile.effects.iter().find(|e| {
-                e.kind == Kind::ToolFrame && e.site.tool.as_ref().is_none_or(|t| *t == key.0)
-            });
+            let mut effects = profile.effects.iter();
+            let real = effects.find(|e| e.kind == Kind::ToolFrame && e.site.is_of_tool(&key.0));
             let real = real.map_or(Pose::identity(), |e| Pose::from_xyz_rxryrz(e.parameters));
             carriers.push(point.map(|p| (mounted.flange_from_tool * real).transform(p)));
             names.push(key);

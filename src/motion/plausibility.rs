@@ -1,11 +1,14 @@
 //! Units that cannot be meant: tools of tenths of a millimetre, masses that no robot of this kind
-//! carries; models that give no finite pose.
+//! carries; tools that profile and program call otherwise; models that give no finite pose.
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::model::Conditions;
-use crate::model::profile::is_tiny;
+use crate::model::effects::{Effect, same_tool};
+use crate::model::profile::{ToolOfProfile, is_tiny};
+use crate::nearest;
+use crate::program::Move;
 
 /// The way out where a number is not finite.
 pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in the effects, masses \
@@ -30,7 +33,7 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
         // who writes metres into the text has not taken them for millimetres
         let of_text = ground.program.tools[motion.tool].flange_from_tool.is_some();
         let may_be_metres = !(of_text && ground.language.is_in_metres());
-        if may_be_metres && is_tiny(&tool.flange_from_tool) {
+        if may_be_metres && is_tiny(&tool.flange_from_tool.translation) {
             let off = tool.flange_from_tool.translation;
             let largest = off.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
             let message = format!(
@@ -64,6 +67,87 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
             ));
         }
     }
+}
+
+/// What the profile says of tools by name, and that no move gets: masses of other names, each at
+/// the first move whose tool has none, and effects of names that neither a move nor a tool of the
+/// profile has.
+pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
+    let (profile, program) = (ground.profile, ground.program);
+    let mut used: Vec<(&str, &Move)> = Vec::new();
+    let mut seen = vec![false; program.tools.len()];
+    for motion in &program.moves {
+        let Some(tool) = &ground.setting.tools[motion.tool] else {
+            continue;
+        };
+        if std::mem::replace(&mut seen[motion.tool], true) {
+            continue;
+        }
+        // as effects see it: the command line may give the profile's tool for it
+        used.push((&tool.name, motion));
+        if tool.load.is_none() {
+            findings.extend(unknown_load(
+                ground,
+                &program.tools[motion.tool].name,
+                motion,
+            ));
+        }
+    }
+    let Some((_, first)) = used.first() else {
+        return;
+    };
+    for effect in &profile.effects {
+        let Some(name) = effect.site.tool.as_deref() else {
+            continue;
+        };
+        let of_kind = |other: &&Effect| other.kind == effect.kind;
+        let alike: Vec<&Effect> = profile.effects.iter().filter(of_kind).collect();
+        let lacks = |(used, _): &(&str, &Move)| alike.iter().all(|e| !e.site.is_of_tool(used));
+        let is_used = used.iter().any(|(used, _)| same_tool(used, name));
+        if effect.is_zero() || is_used || profile.tool(name).is_some() || !used.iter().any(lacks) {
+            continue;
+        }
+        let names = used
+            .iter()
+            .map(|(name, _)| *name)
+            .filter(|name| !name.is_empty());
+        let names: Vec<&str> = names.collect();
+        let message = format!(
+            "`{}` of tool `{name}` applies to no move, and the profile has no tool of this name",
+            effect.definition().id
+        );
+        let mut hint = nearest::hint(name, "tools of the program", names);
+        hint.push_str("; correct `tool` of the effect, or leave `tool` out for every tool");
+        findings.push(ground.at_move("effect-unused", Severity::Warning, first, message, &hint));
+    }
+}
+
+/// A tool counts as weightless, and the profile has masses of tools of other names.
+fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
+    let profile = ground.profile;
+    let heavy = |(_, tool): &(&String, &ToolOfProfile)| tool.load.is_some_and(|(kg, _)| kg > 0.0);
+    let heavy = profile.tools.iter().filter(heavy);
+    let heavy: Vec<&str> = heavy.map(|(name, _)| name.as_str()).collect();
+    let bends = |effect: &Effect| !effect.is_zero() && effect.definition().needs_masses();
+    let sags = profile.real_effects().iter().any(bends);
+    // who names it in the profile and gives no mass means none
+    if heavy.is_empty() || !sags || profile.tool(name).is_some() {
+        return None;
+    }
+    let named = if name.is_empty() {
+        "the tool of this move".into()
+    } else {
+        format!("tool `{name}`")
+    };
+    let message = format!(
+        "neither the program files nor the profile give the mass of {named}: it counts as 0 kg; \
+         the profile has the masses of: {}",
+        heavy.join(", ")
+    );
+    let hint = "call the tool in the profile as the program does (docs/formats.md has the name in \
+        each language)";
+    let (id, severity) = ("load-unknown", Severity::Warning);
+    Some(ground.at_move(id, severity, motion, message, hint))
 }
 
 /// Tools with which the arm's models give no finite pose, each at the first move that has it.

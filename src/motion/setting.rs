@@ -137,6 +137,10 @@ impl GivenError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Unused { .. } => "names are as the program writes them; leave the option out",
+            Self::Defined { what: "tool", .. } => {
+                "leave the option out, or correct the value in the file; its mass is that of the \
+                 profile's tool of this name: rename the tool in the profile"
+            }
             Self::Defined { .. } | Self::Needless { .. } => {
                 "leave the option out, or correct the value in the file"
             }

@@ -13,6 +13,8 @@ const MOST_LINKS: usize = 2_000;
 /// with four digits write 1.571 for a right angle, 2.04e-4 off, and none of 348 files of makers
 /// means an angle so near to one.
 const ROUNDED_RAD: f64 = 3e-4;
+/// No joint has a limit beyond this: ten revolutions.
+const MOST_LIMIT_RAD: f64 = 3600.0 * DEG;
 /// Names that a flange has by convention, best first.
 const FLANGES: [&str; 4] = ["tool0", "fanuc_flange", "flange", "ee_link"];
 /// Names of links where controllers count from, best first, and whose convention that is.
@@ -556,6 +558,12 @@ fn turning(
         return Err(number(
             "the range of the limit",
             format!("{min_rad} to {max_rad}"),
+        ));
+    }
+    if min_rad.abs().max(max_rad.abs()) > MOST_LIMIT_RAD {
+        return Err(number(
+            "the range of the limit",
+            format!("{min_rad} to {max_rad} rad; limits look like degrees"),
         ));
     }
     Ok(UrdfJoint {

@@ -181,10 +181,7 @@ fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
 pub(crate) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Option<f64> {
     let search = &effect.definition().search;
     if search.mass == Some(parameter) {
-        let own = |tool: &&Mounted| {
-            let name = effect.site.tool.as_ref();
-            name.is_none_or(|name| *name == tool.name)
-        };
+        let own = |tool: &&Mounted| effect.site.is_of_tool(&tool.name);
         let masses = problem.tools.iter().filter(own);
         let masses = masses.map(|tool| tool.load.map_or(0.0, |(mass, _)| mass));
         return masses.reduce(f64::min).map(|mass| -mass);

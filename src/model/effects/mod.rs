@@ -283,7 +283,34 @@ pub struct Site {
     pub tool: Option<String>,
 }
 
+/// Whether two names are of one tool. Most languages fold case, and controllers and people write
+/// `TOOL_DATA[1]`, `tool_data[ 01 ]`, `1` and `01`: ASCII case, blanks, and zeros that lead a
+/// number at the start or in brackets are nothing.
+pub(crate) fn same_tool(a: &str, b: &str) -> bool {
+    a == b || plain_tool(a) == plain_tool(b)
+}
+
+fn plain_tool(name: &str) -> String {
+    let letters = name.chars().filter(|c| !c.is_whitespace());
+    let mut letters = letters.map(|c| c.to_ascii_lowercase()).peekable();
+    let mut plain = String::with_capacity(name.len());
+    while let Some(letter) = letters.next() {
+        let leads = plain.is_empty() || plain.ends_with('[');
+        let goes_on = letters.peek().is_some_and(char::is_ascii_digit);
+        if !(letter == '0' && leads && goes_on) {
+            plain.push(letter);
+        }
+    }
+    plain
+}
+
 impl Site {
+    /// Whether it belongs to the tool of this name.
+    #[must_use]
+    pub fn is_of_tool(&self, name: &str) -> bool {
+        self.tool.as_ref().is_none_or(|tool| same_tool(tool, name))
+    }
+
     /// The period along a rail, metres.
     #[must_use]
     pub fn period_m(&self) -> f64 {
@@ -395,6 +422,33 @@ impl<S: Scalar> Deflection<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_one_tool_differ_in_case_blanks_and_leading_zeros_alone() {
+        for (a, b) in [
+            ("TOOL_DATA[1]", "tool_data[ 01 ]"),
+            ("RDKTool", "rdkTool"),
+            ("1", "01"),
+            ("0", "00"),
+        ] {
+            assert!(same_tool(a, b), "{a} {b}");
+        }
+        for (a, b) in [
+            ("TOOL_DATA[1]", "TOOL_DATA[10]"),
+            ("gun", "gun1"),
+            ("gun1", "gun01"),
+            ("1", "0"),
+            ("10", "1"),
+        ] {
+            assert!(!same_tool(a, b), "{a} {b}");
+        }
+        let of = |tool: Option<&str>| Site {
+            tool: tool.map(Into::into),
+            ..Site::default()
+        };
+        assert!(of(None).is_of_tool("gun") && of(Some("GUN")).is_of_tool("gun"));
+        assert!(!of(Some("gum")).is_of_tool("gun"));
+    }
 
     #[test]
     fn an_effect_that_does_not_read_angles_is_the_same_at_all() {

@@ -40,7 +40,7 @@ impl Equation for PayloadError {
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
-        if site.tool.as_ref().is_none_or(|tool| *tool == geometry.tool_name) {
+        if site.is_of_tool(&geometry.tool_name) {
             let (mass, cog) = geometry.load.unwrap_or((S::zero(), [S::zero(); 3]));
             geometry.load = Some((mass + p[0], add(cog, [p[1], p[2], p[3]])));
         }

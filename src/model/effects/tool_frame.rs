@@ -31,7 +31,7 @@ impl Equation for ToolFrame {
     };
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
-        if site.tool.as_ref().is_none_or(|tool| *tool == geometry.tool_name) {
+        if site.is_of_tool(&geometry.tool_name) {
             geometry.flange_from_tool = geometry.flange_from_tool * Pose::from_xyz_rxryrz(*p);
         }
     }

@@ -220,6 +220,16 @@ pub enum Fault {
         /// The effect.
         label: String,
     },
+    /// Two tools whose names programs do not distinguish.
+    #[error(
+        "tools `{other}` and `{name}` are one name: case, blanks and leading zeros do not count"
+    )]
+    SameTool {
+        /// The name.
+        name: String,
+        /// The one before.
+        other: String,
+    },
     /// A mass beyond what the robot carries.
     #[error("mass_kg of tool `{tool}` is {found}; robot.payload_kg is {payload}")]
     BeyondPayload {
@@ -240,6 +250,27 @@ pub enum Fault {
         tool: String,
         /// Its largest coordinate, mm.
         largest_mm: f64,
+    },
+    /// A centre of gravity in another unit.
+    #[error(
+        "cog_mm of {of} is {largest_mm} mm at most in each coordinate; below 1 mm it is 0, or in \
+         metres"
+    )]
+    TinyCog {
+        /// Of what.
+        of: String,
+        /// The largest coordinate, mm.
+        largest_mm: f64,
+    },
+    /// Gravity in another unit.
+    #[error("gravity_m_s2 has a length of {found} m/s²; on Earth it is from {low} to {high}")]
+    Gravity {
+        /// Its length.
+        found: f64,
+        /// Smallest.
+        low: f64,
+        /// Largest.
+        high: f64,
     },
     /// An angle of a frame in another unit than degrees.
     #[error("{key} is {found}; a frame has at most {limit} deg")]
@@ -322,12 +353,21 @@ impl ProfileError {
                 out"
                 .into()
             }
+            Fault::SameTool { .. } => "leave one of them out, or rename it".into(),
             Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or \
                 robot.payload_kg"
                 .into(),
             Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange \
                 itself"
                 .into(),
+            Fault::TinyCog { .. } => "lengths are in mm: 0.1 m is 100; write 0 for none".into(),
+            Fault::Gravity { .. } => "it is in m/s², not in g: [0, 0, -9.81] of a robot on the \
+                floor, [0, 0, 9.81] of one on the ceiling in its own frame"
+                .into(),
+            Fault::OutOfRange { key, .. } if key.ends_with("_deg") => {
+                "angles are in degrees".into()
+            }
+            Fault::OutOfRange { key, .. } if key.ends_with("_mm") => "lengths are in mm".into(),
             Fault::EndlessAngle { .. } => "angles are in degrees, between -360 and 360".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::UpAlong => "give `up` across the rail: for a lift [1, 0, 0]".into(),

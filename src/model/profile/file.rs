@@ -51,8 +51,9 @@ pub struct ProfileFile {
     #[serde(default)]
     pub external_axes: super::external::ExternalFile,
     /// Gravity in the world.
-    #[serde(default = "earth")]
-    pub gravity_m_s2: [Number; 3],
+    #[serde(default = "unsaid_earth")]
+    #[schemars(with = "[Number; 3]", default = "earth")]
+    pub gravity_m_s2: Spanned<[Number; 3]>,
     /// Tools by name.
     #[serde(default)]
     pub tools: BTreeMap<String, ToolFile>,
@@ -81,6 +82,14 @@ pub struct Tables {
     /// How angles of an orientation turn, as `--euler` has it.
     #[serde(default)]
     pub euler: Option<String>,
+}
+
+fn unsaid_earth() -> Spanned<[Number; 3]> {
+    Spanned::new(
+        earth(),
+        serde_yaml::Location::UNKNOWN,
+        serde_yaml::Location::UNKNOWN,
+    )
 }
 
 pub(super) fn earth() -> [Number; 3] {

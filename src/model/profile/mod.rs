@@ -32,7 +32,7 @@ pub(crate) use text::flow_tool;
 pub use text::{Comments, made};
 pub use write::{WriteError, rewritten};
 
-use super::effects::{Effect, Kind};
+use super::effects::{Effect, Kind, same_tool};
 use super::external::{Carried, ExternalAxes, Stand};
 use super::shape::LinkShape;
 use super::{Body, Conditions, Geometry, Link, Mechanism, Model};
@@ -190,12 +190,16 @@ impl Profile {
         file::schema::<ProfileFile>(FORMAT)
     }
 
-    /// The tool of this name ready to be mounted.
+    /// The tool of this name ready to be mounted. Case, blanks and leading zeros of numbers do not
+    /// count.
     #[must_use]
     pub fn tool(&self, name: &str) -> Option<Mounted> {
-        let tool = self.tools.get(name)?;
+        let (name, tool) = self
+            .tools
+            .get_key_value(name)
+            .or_else(|| self.tools.iter().find(|(of, _)| same_tool(of, name)))?;
         Some(Mounted {
-            name: name.into(),
+            name: name.clone(),
             flange_from_tool: tool.flange_from_tool,
             load: tool.load,
         })
@@ -287,10 +291,10 @@ impl Profile {
     }
 }
 
-/// Whether a tool is off the flange, and by less than a millimetre in each coordinate: metres are
+/// Whether a point is off the origin, and by less than a millimetre in each coordinate: metres are
 /// meant.
-pub(crate) fn is_tiny(flange_from_tool: &Pose) -> bool {
-    let off = flange_from_tool.translation.map(f64::abs);
+pub(crate) fn is_tiny(point_m: &Vector) -> bool {
+    let off = point_m.map(f64::abs);
     off.iter().all(|m| *m < TINY_M) && off.iter().any(|m| *m > NO_LENGTH_M)
 }
 

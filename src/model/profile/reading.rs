@@ -5,8 +5,8 @@ use super::file::{self, ControllerModel, FORMAT, Number, PoseFile, ProfileFile};
 use super::shape;
 use super::{DevicePlace, Fault, Profile, ProfileError, Reasons, ToolOfProfile, is_tiny};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::geometry::{Pose, Quaternion, Vector};
-use crate::model::effects::{Effect, Need};
+use crate::geometry::{Pose, Quaternion, Vector, norm};
+use crate::model::effects::{Effect, Need, same_tool};
 use crate::model::external::ExternalAxes;
 use crate::model::shape::{Form, LinkShape};
 use crate::model::{Body, Coupling, JointSense, Link, Mechanism};
@@ -15,6 +15,12 @@ use std::collections::BTreeMap;
 
 /// How far a quaternion's length may be from 1.
 const UNIT_TOLERANCE: f64 = 1e-3;
+/// Gravity on Earth, m/s².
+const GRAVITY_M_S2: [f64; 2] = [9.7, 9.9];
+/// No joint has limits beyond these: ten revolutions.
+const MOST_LIMIT_DEG: f64 = 3600.0;
+/// No arm or tool is longer.
+const MOST_MM: f64 = 20_000.0;
 /// No frame is rotated by more: two whole revolutions.
 const MOST_ANGLE_DEG: f64 = 720.0;
 
@@ -54,9 +60,29 @@ impl Profile {
                 cog_m: metres(body.cog_mm),
             });
         }
+        // a wrist's own may be near its axes, those of all links are not
+        let farthest = bodies
+            .iter()
+            .flat_map(|body| body.cog_m)
+            .fold(0.0, |most: f64, m| most.max(m.abs()));
+        if let Some(first) = file
+            .bodies
+            .first()
+            .filter(|_| is_tiny(&[farthest, 0.0, 0.0]))
+        {
+            return Err(Fault::TinyCog {
+                of: "all bodies".into(),
+                largest_mm: mm_from_m(farthest),
+            }
+            .at(first.defined));
+        }
         let shapes = shapes(&file.shapes)?;
-        let mut tools = BTreeMap::new();
+        let mut tools: BTreeMap<String, ToolOfProfile> = BTreeMap::new();
         for (name, tool) in file.tools {
+            if let Some(other) = tools.keys().find(|other| same_tool(other, &name)) {
+                let other: String = other.clone();
+                return Err(Fault::SameTool { name, other }.at(tool.frame.defined));
+            }
             let load = match (tool.mass_kg, tool.cog_mm) {
                 (Some(kg), cog) => {
                     if let Some(payload) = payload_kg.filter(|most| kg.value.0 > *most) {
@@ -77,7 +103,23 @@ impl Profile {
             };
             let flange_from_tool = pose(&tool.frame)?;
             check_angles(&tool.frame)?;
-            if is_tiny(&flange_from_tool) {
+            let frame = &tool.frame.value;
+            for (key, length) in [
+                ("x_mm", frame.x_mm),
+                ("y_mm", frame.y_mm),
+                ("z_mm", frame.z_mm),
+            ] {
+                within(key, length, MOST_MM, tool.frame.defined)?;
+            }
+            if let Some((_, cog_m)) = load.filter(|(_, cog_m)| is_tiny(cog_m)) {
+                let largest = cog_m.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
+                return Err(Fault::TinyCog {
+                    of: format!("tool `{name}`"),
+                    largest_mm: mm_from_m(largest),
+                }
+                .at(tool.frame.defined));
+            }
+            if is_tiny(&flange_from_tool.translation) {
                 let largest = flange_from_tool
                     .translation
                     .iter()
@@ -139,7 +181,7 @@ impl Profile {
                 .map_or(Ok(Pose::identity()), pose)?,
             bodies,
             shapes,
-            gravity_m_s2: file.gravity_m_s2.map(|n| n.0),
+            gravity_m_s2: gravity(&file.gravity_m_s2)?,
             tools,
             points: file
                 .points
@@ -188,6 +230,31 @@ fn shapes(entries: &[Spanned<shape::LinkShapeFile>]) -> Result<Vec<LinkShape>, P
     entries.iter().map(read).collect()
 }
 
+/// Gravity as the file has it: that of the Earth in any direction, or none.
+fn gravity(file: &Spanned<[Number; 3]>) -> Result<Vector, ProfileError> {
+    let gravity = file.value.map(|n| n.0);
+    let [low, high] = GRAVITY_M_S2;
+    let found = norm(gravity);
+    if found != 0.0 && !(low..=high).contains(&found) {
+        return Err(Fault::Gravity { found, low, high }.at(file.defined));
+    }
+    Ok(gravity)
+}
+
+/// A number of a key that may not be beyond a limit in either direction.
+fn within(key: &'static str, number: Number, most: f64, at: Location) -> Result<(), ProfileError> {
+    if number.0.abs() > most {
+        return Err(Fault::OutOfRange {
+            key,
+            found: number.0,
+            low: -most,
+            high: most,
+        }
+        .at(at));
+    }
+    Ok(())
+}
+
 pub(super) fn metres(mm: [Number; 3]) -> Vector {
     mm.map(|n| m_from_mm(n.0))
 }
@@ -234,6 +301,10 @@ fn rows(
             }
             .at(at));
         }
+        within("min_deg", joint.min_deg, MOST_LIMIT_DEG, at)?;
+        within("max_deg", joint.max_deg, MOST_LIMIT_DEG, at)?;
+        // the d of nearly parallel axes may be any
+        within("a_mm", joint.a_mm, MOST_MM, at)?;
         let link = Link {
             alpha_rad: joint.alpha_deg.0 * DEG,
             a_m: m_from_mm(joint.a_mm.0),

@@ -259,6 +259,51 @@ fn tools_and_frames_in_other_units_are_faults_with_their_place() {
         fault(frame("100", "721") + "}"),
         Fault::EndlessAngle { .. }
     ));
+    let twice = frame("100", "0") + "}\n  T: " + &frame("90", "0") + "}";
+    assert!(matches!(fault(twice), Fault::SameTool { .. }));
     let heavy = frame("100", "0") + ", mass_kg: 5.1}";
     assert!(matches!(fault(heavy), Fault::BeyondPayload { .. }));
+}
+
+#[test]
+fn numbers_of_the_chain_in_other_units_are_faults() {
+    let changed = |old: &str, new: &str| {
+        assert!(UR5.contains(old), "{old}");
+        Profile::from_yaml(&UR5.replacen(old, new, 1))
+    };
+    let gravity = "gravity_m_s2: [0, 0, -9.81]";
+    for good in [
+        "[0, 0, 9.81]",
+        "[9.81, 0, 0]",
+        "[0, 6.94, -6.94]",
+        "[0, 0, 0]",
+    ] {
+        let profile = changed(gravity, &format!("gravity_m_s2: {good}"));
+        assert!(profile.is_ok(), "{good}: {profile:?}");
+    }
+    for bad in ["[0, 0, -1]", "[0, 0, -9810]", "[0, 9.81, -9.81]"] {
+        let error = changed(gravity, &format!("gravity_m_s2: {bad}")).expect_err(bad);
+        assert!(
+            matches!(error.fault, Fault::Gravity { .. }),
+            "{bad}: {error}"
+        );
+        assert!(error.line > 0 && error.hint().contains("m/s²"), "{bad}");
+    }
+    let limits = changed("max_deg: 360", "max_deg: 9190").expect_err("limits");
+    assert!(matches!(
+        limits.fault,
+        Fault::OutOfRange { key: "max_deg", .. }
+    ));
+    assert!(limits.hint().contains("degrees"));
+    let tools = |tool: &str| changed("tools: {}\n", &format!("tools:\n  t: {tool}\n"));
+    let frame = |z: &str| {
+        format!("{{frame: {{x_mm: 0, y_mm: 0, z_mm: {z}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}")
+    };
+    let far = tools(&(frame("1e9") + "}")).expect_err("far").fault;
+    assert!(matches!(far, Fault::OutOfRange { key: "z_mm", .. }));
+    let metres = frame("100") + ", mass_kg: 2, cog_mm: [0, 0, 0.08]}";
+    let metres = tools(&metres).expect_err("metres").fault;
+    assert!(matches!(metres, Fault::TinyCog { .. }));
+    let none = frame("100") + ", mass_kg: 2, cog_mm: [0, 0, 0]}";
+    assert!(tools(&none).is_ok());
 }

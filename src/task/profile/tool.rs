@@ -50,7 +50,7 @@ pub fn tool(text: &str) -> Result<(String, ToolOfProfile), Failure> {
     }
     let [x, y, z] = [*x, *y, *z].map(m_from_mm);
     let flange_from_tool = Pose::from_xyz_rxryrz([x, y, z, rx * DEG, ry * DEG, rz * DEG]);
-    if is_tiny(&flange_from_tool) {
+    if is_tiny(&flange_from_tool.translation) {
         return Err(refused(
             "it is less than 1 mm off the flange in each coordinate: lengths are in mm".into(),
         ));
@@ -69,6 +69,13 @@ pub fn tool(text: &str) -> Result<(String, ToolOfProfile), Failure> {
     if let Some((kg, cog)) = load {
         if kg < 0.0 {
             return Err(refused(format!("its mass is {kg} kg")));
+        }
+        if is_tiny(&cog) {
+            return Err(refused(
+                "its centre of gravity is less than 1 mm from the flange in each coordinate: \
+                 lengths are in mm"
+                    .into(),
+            ));
         }
         if norm(cog) > MOST_M {
             return Err(refused(format!(
@@ -114,6 +121,7 @@ mod tests {
             ("t=0,0,150,0,0,1000", "720 deg"),
             ("t=0,0,150,0,0,0,-1", "-1 kg"),
             ("t=0,0,150,0,0,0,1,0,0,15000", "10 m"),
+            ("t=0,0,150,0,0,0,1,0,0,0.08", "less than 1 mm"),
         ] {
             let error = tool(text).expect_err(text);
             assert!(error.message.contains(says), "{text}: {}", error.message);

@@ -212,6 +212,63 @@ fn other_units_are_questioned() {
 }
 
 #[test]
+fn names_of_tools_are_read_in_any_case_and_others_are_reported() {
+    let effect = |tool: &str| {
+        let entry = format!("  effects:\n    - {{effect: tool_frame, tool: {tool}, x_mm: 0.5}}\n");
+        changed(THESIS, "  effects:\n", &entry)
+    };
+    let deburr = text(DEBURR);
+    let of = |tool: &str| compensated("a.mod", &deburr, &effect(tool), &[]);
+    let numbers = |written: Option<String>| {
+        let written = written.expect("a program");
+        let lines = written.lines().filter(|line| line.contains("MoveL [["));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (status, said, right) = of("rdkTool");
+    assert!(status == 0 && !said.contains("effect-unused"), "{said}");
+    let (status, said, upper) = of("RDKTOOL");
+    assert!(status == 0 && !said.contains("effect-unused"), "{said}");
+    let (status, said, wrong) = of("rdkTol");
+    assert_eq!(status, 0, "{said}");
+    for word in [
+        "effect-unused",
+        "tool_frame",
+        "`rdkTol`",
+        "did you mean `rdkTool`?",
+    ] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    let right = numbers(right);
+    assert!(!right.is_empty());
+    assert_eq!(right, numbers(upper));
+    assert_ne!(right, numbers(wrong));
+    // a tool of the profile that this program has not
+    let (status, said, _) = of("artifact");
+    assert!(status == 0 && !said.contains("effect-unused"), "{said}");
+}
+
+#[test]
+fn a_mass_that_the_profile_has_under_another_name_is_reported() {
+    let seal = text("programs/fanuc/olp/in/seal.ls");
+    let profile = changed(
+        "programs/fanuc/profile.yaml",
+        "\n  \"1\": {",
+        "\n  gripper: {",
+    );
+    let with = |tool: &str| {
+        let more = ["--tool", tool, "--frame", "4=1400,350,-200,0,0,-15"];
+        compensated("seal.ls", &seal, &profile, &more)
+    };
+    let (status, said, _) = with("1=85,0,420,0,30,0");
+    assert_eq!(status, 0, "{said}");
+    for word in ["load-unknown", "tool `1`", "0 kg", "gripper"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    let (status, said, _) = with("1=gripper");
+    assert!(status == 0 && !said.contains("load-unknown"), "{said}");
+}
+
+#[test]
 fn loads_beyond_the_payload_are_errors() {
     let robot = "robot: {manufacturer";
     let limited = changed(THESIS, robot, "robot: {payload_kg: 2.7, manufacturer");
