@@ -7,7 +7,7 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, add, norm, scale};
 use crate::register::RegisterError;
 use crate::register::features::{self, FeatureError, Round, compensated, noise_of};
-use crate::register::frames::{TouchedPlane, points_and_planes};
+use crate::register::frames::{TouchedPlane, weighted_points_and_planes};
 use crate::register::kabsch::{Fit, kabsch, noise_m};
 use crate::register::robust::{self, robust};
 use crate::task::Failure;
@@ -49,14 +49,14 @@ pub(super) fn register(
         findings.push(warning("unmatched-ids", &to.name, message));
     }
     let radius = options.probe_radius_m;
-    let (mut touched, mut planes, mut plane_ids) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut touched, mut planes, mut on_planes) = (Vec::new(), Vec::new(), Vec::new());
     let mut features = Vec::new();
     for pair in &pairs {
         match pair.from.feature {
             Feature::Point => touched.push(point(pair, radius, &to.name)?),
             Feature::Plane => {
                 planes.push(plane(pair, &from.name)?);
-                plane_ids.push(pair.from.id.as_str());
+                on_planes.extend(touches_of(pair));
             }
             Feature::Sphere | Feature::Hole => {
                 let (centre, feature) = round(pair, radius, &to.name, &mut findings)?;
@@ -68,10 +68,9 @@ pub(super) fn register(
     let (motion, scale) = if planes.is_empty() {
         by_points(&touched, options, &mut findings, &to.name)?
     } else {
-        (
-            by_planes(&touched, &planes, &plane_ids, options, &to.name)?,
-            None,
-        )
+        let planes = (planes.as_slice(), on_planes.as_slice());
+        let motion = by_planes(&touched, planes, options, &mut findings, &to.name)?;
+        (motion, None)
     };
     Ok(Registration {
         findings,
@@ -83,38 +82,58 @@ pub(super) fn register(
 
 fn by_planes(
     touched: &[Touched],
-    planes: &[TouchedPlane],
-    ids: &[&str],
+    (planes, on_planes): (&[TouchedPlane], &[Touched]),
     options: &Options,
+    findings: &mut Vec<Finding>,
     name: &str,
 ) -> Result<Motion, Failure> {
     if options.robust {
         return Err(Failure::new("--robust takes points only, no planes"));
     }
     let points: Vec<_> = touched.iter().map(|t| (t.from_m, t.to_m)).collect();
-    let fit = points_and_planes(&points, planes, options.probe_radius_m, options.sigma_m)
-        .map_err(|error| Failure::new(format!("{name}: {error}")))?;
+    let all: Vec<&Touched> = touched.iter().chain(on_planes).collect();
+    let (mut weights, absolute) = weights(&all, name)?;
+    let mut given = options.sigma_m;
+    if let (true, Some(weights)) = (absolute, &mut weights) {
+        // relative to the surest row, so that deviations stay lengths
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        weights.iter_mut().for_each(|w| *w /= most);
+        given = Some(1.0 / most.sqrt());
+    }
+    let radius = options.probe_radius_m;
+    let fit = weighted_points_and_planes(&points, planes, weights.as_deref(), radius, given)
+        .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
+    if fit.others > 0 {
+        let message = format!(
+            "{} other poses fit as well: the planes are taken as faces of a convex corner, of which \
+             no touch lies outside of another face",
+            fit.others
+        );
+        findings.push(
+            Finding::of_file("convex-corner", Severity::Note, name, message)
+                .hint("a point off the planes settles it"),
+        );
+    }
     let mut rows: Vec<Residual> = touched
         .iter()
         .zip(&fit.points_m)
         .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
         .collect();
     let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
-    for ((id, residuals), plane) in ids.iter().zip(&fit.planes_m).zip(planes) {
+    let mut ids = on_planes.iter().map(|touch| &touch.id);
+    for (residuals, plane) in fit.planes_m.iter().zip(planes) {
         let normal = fit.to_from_from.rotation * plane.normal;
-        for (k, along) in residuals.iter().enumerate() {
+        for (along, id) in residuals.iter().zip(&mut ids) {
             sum += along * along;
-            rows.push(Residual::new(
-                &format!("{id}/{}", k + 1),
-                scale(*along, normal),
-            ));
+            rows.push(Residual::new(id, scale(*along, normal)));
         }
     }
     Ok(Motion {
         method: "points and planes",
         to_from_from: fit.to_from_from,
-        sigma_m: Some(fit.sigma_m),
-        sigma_given: options.sigma_m.is_some(),
+        // reported for a row of weight one, which is no length where the weights are 1/σ²
+        sigma_m: (!absolute).then_some(fit.sigma_m),
+        sigma_given: given.is_some(),
         covariance: Some(fit.covariance),
         rmsd_m: Some((sum / rows.len() as f64).sqrt()),
         points: rows,
@@ -129,7 +148,7 @@ fn by_points(
 ) -> Result<(Motion, Option<Scale>), Failure> {
     let from: Vec<Vector> = touched.iter().map(|t| t.from_m).collect();
     let to: Vec<Vector> = touched.iter().map(|t| t.to_m).collect();
-    let (weights, absolute) = weights(touched, name)?;
+    let (weights, absolute) = weights(&touched.iter().collect::<Vec<_>>(), name)?;
     // weights are 1/σ² in 1/m²: at weight one the deviation is one metre
     let given = if absolute { Some(1.0) } else { options.sigma_m };
     let named =
@@ -245,7 +264,7 @@ fn suspect(
 }
 
 /// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.
-fn weights(touched: &[Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
+fn weights(touched: &[&Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
     let sigmas = touched.iter().filter(|t| t.variance_m2.is_some()).count();
     let relative = touched.iter().filter(|t| t.weight.is_some()).count();
     if sigmas > 0 && relative > 0 {
@@ -286,16 +305,31 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
             }
         }
     }
-    let variances = [from.sigma_m, to.sigma_m].map(|s| s.map(|s| s * s));
-    let variance_m2 = match variances {
-        [None, None] => None,
-        [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
-    };
     Ok(Touched {
         id: from.id.clone(),
         from_m,
         to_m,
-        variance_m2,
+        variance_m2: variance_of([from.sigma_m, to.sigma_m]),
+        weight: to.weight.or(from.weight),
+    })
+}
+
+/// The variance of a difference of which one or both deviations are known.
+fn variance_of(sigmas_m: [Option<f64>; 2]) -> Option<f64> {
+    match sigmas_m.map(|s| s.map(|s| s * s)) {
+        [None, None] => None,
+        [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
+    }
+}
+
+/// The touches of a plane.
+fn touches_of(pair: &Pair) -> impl Iterator<Item = Touched> {
+    let from = pair.from;
+    pair.to.iter().enumerate().map(move |(k, to)| Touched {
+        id: format!("{}/{}", from.id, k + 1),
+        from_m: from.point_m,
+        to_m: to.point_m,
+        variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
     })
 }
@@ -363,8 +397,17 @@ fn round(
         id: id.clone(),
         from_m: pair.from.point_m,
         to_m: fit.centre_m,
-        variance_m2: None,
-        weight: pair.from.weight,
+        variance_m2: variance_of([pair.from.sigma_m, centre_sigma_m(pair, &fit)]),
+        weight: pair.from.weight.or(pair.to[0].weight),
     };
     Ok((touched, feature))
+}
+
+/// The deviation of a coordinate of a fitted centre, from those of its touches: the root mean
+/// square of the three.
+fn centre_sigma_m(pair: &Pair, fit: &Round) -> Option<f64> {
+    let variances = pair.to.iter().map(|row| row.sigma_m.map(|s| s * s));
+    let sum: f64 = variances.sum::<Option<f64>>()?;
+    let trace: f64 = (0..3).map(|k| fit.centre_covariance[k][k]).sum();
+    Some((trace / 3.0 * sum / pair.to.len() as f64).sqrt())
 }
