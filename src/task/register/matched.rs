@@ -21,6 +21,15 @@ const SUSPECT_OF_FIVE: f64 = 8.0;
 const FEWEST_SUSPECTED: usize = 5;
 /// A scale that differs from 1 by more than this and its uncertainty is a finding.
 const SCALE: f64 = 2e-5;
+/// Points that the best motion leaves farther from their partners than this part of their spread do
+/// not belong together.
+const UNLIKE: f64 = 0.05;
+/// Shifts of rows that are tried.
+const FARTHEST_SHIFT: usize = 100;
+/// Residuals beyond this factor of what is stated contradict it,
+const SIGMA_FACTOR: f64 = 1.5;
+/// and beyond so many standard deviations of chance.
+const SIGMA_CHANCE: f64 = 4.0;
 /// Linear thermal expansion of steel and of aluminium, 1/K.
 const EXPANSION: [f64; 2] = [11.5e-6, 23.0e-6];
 
@@ -176,9 +185,23 @@ fn by_points(
         );
         findings.push(warning("bad-touch", name, message));
     }
+    let spread_m = (fit.from_spread_m2 / total_weight(used, touched.len())).sqrt();
+    let sets = Sets {
+        from: &from,
+        to: &to,
+        name,
+    };
+    let times = given.map(|given| noise_m(&residuals, used) / given);
+    let contradicted = times.and_then(|times| other_sigma(times, fit.count, name));
+    let mut explained = false;
     if !options.robust {
-        suspect(touched, &from, &to, weights, given, findings, name);
+        let quiet = contradicted.is_some();
+        explained = suspect(touched, &sets, weights, given, spread_m, quiet, findings);
     }
+    if !explained {
+        sets.refuse_unlike(&fit, used, spread_m)?;
+    }
+    findings.extend(contradicted);
     if exact {
         findings.push(Finding::of_file(
             "few-points",
@@ -189,7 +212,8 @@ fn by_points(
     }
     let scale = Scale {
         value: fit.scale,
-        sigma: fit.scale_sigma(sigma),
+        // a stated deviation that the residuals contradict makes no scale sure
+        sigma: fit.scale_sigma(sigma * times.unwrap_or(1.0).max(1.0)),
     };
     findings.extend(other_scale(&scale, touched.len(), name));
     let mut rows: Vec<Residual> = touched
@@ -230,21 +254,137 @@ fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
     })
 }
 
-/// Without --robust: a point that the others contradict is reported, not left out.
+fn total_weight(weights: Option<&[f64]>, count: usize) -> f64 {
+    weights.map_or(count as f64, |w| w.iter().sum())
+}
+
+/// A stated deviation that the residuals contradict, by χ² of 3 n − 6.
+fn other_sigma(times: f64, points: usize, name: &str) -> Option<Finding> {
+    // Wilson and Hilferty: the cube root of χ²/ν is nearly normal
+    let freedom = 3.0 * points as f64 - 6.0;
+    let spread = 2.0 / (9.0 * freedom);
+    let chance = |sign: f64| {
+        let root = 1.0 - spread + sign * SIGMA_CHANCE * spread.sqrt();
+        root.max(0.0).powf(1.5)
+    };
+    let (least, most) = (
+        chance(-1.0).min(SIGMA_FACTOR.recip()),
+        chance(1.0).max(SIGMA_FACTOR),
+    );
+    if times > most {
+        let message = format!(
+            "residuals are {times:.1} times the stated standard deviations (limit {most:.1}): these \
+             are too small, or the points are not those of FROM; the uncertainties here come from \
+             what is stated"
+        );
+        let hint = "sigma_mm is one standard deviation of a coordinate in mm; without it the noise \
+                    comes from the residuals";
+        return Some(warning("sigma-small", name, message).hint(hint));
+    }
+    (times < least).then(|| {
+        let message = format!(
+            "residuals are {times:.3} times the stated standard deviations (limit {least:.3}): \
+             these are too large"
+        );
+        let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";
+        warning("sigma-large", name, message).hint(hint)
+    })
+}
+
+/// Matched points of two files.
+struct Sets<'a> {
+    from: &'a [Vector],
+    to: &'a [Vector],
+    name: &'a str,
+}
+
+impl Sets<'_> {
+    /// Refuses points that no motion and no change of size lays on their partners.
+    fn refuse_unlike(&self, fit: &Fit, used: Option<&[f64]>, spread_m: f64) -> Result<(), Failure> {
+        let limit_m = UNLIKE * spread_m;
+        let rmsd_m = fit.rmsd_m(self.from, self.to, used);
+        if rmsd_m <= limit_m {
+            return Ok(());
+        }
+        // another size is a finding of its own
+        let total = total_weight(used, self.from.len());
+        let of_size = (fit.scale - 1.0).powi(2) * fit.from_spread_m2 / total;
+        if rmsd_m.powi(2) - of_size <= limit_m.powi(2) {
+            return Ok(());
+        }
+        let message = format!(
+            "{}: the points do not lie as those of FROM: the best motion leaves {:.3} mm root mean \
+             square (limit {:.3} mm, 5 % of their spread)",
+            self.name,
+            mm_from_m(rmsd_m),
+            mm_from_m(limit_m)
+        );
+        Err(Failure::with_hint(message, self.order(limit_m)))
+    }
+
+    /// The order of rows in which they fit.
+    fn order(&self, limit_m: f64) -> String {
+        let n = self.from.len();
+        let left_m = |from: &[Vector], to: &[Vector]| {
+            let fit = kabsch(from, to, None).ok()?;
+            Some(fit.rmsd_m(from, to, None)).filter(|left| *left <= limit_m)
+        };
+        let turned: Vec<Vector> = self.to.iter().rev().copied().collect();
+        let mut found: Vec<(f64, String)> = Vec::new();
+        let reversed = left_m(self.from, &turned);
+        found.extend(reversed.map(|left| (left, "in the reverse order".to_owned())));
+        // so many are left that they do not fit by chance
+        for by in 1..=(n / 2).min(FARTHEST_SHIFT).min(n.saturating_sub(4)) {
+            let rest = n - by;
+            let shifts = [
+                (&self.from[..rest], &self.to[by..], "later"),
+                (&self.from[by..], &self.to[..rest], "earlier"),
+            ];
+            for (from, to, whither) in shifts {
+                let left = left_m(from, to);
+                found.extend(left.map(|left| (left, format!("{by} row(s) {whither}"))));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.first().map_or_else(
+            || "do the rows of both files belong together? a column id in both matches them".into(),
+            |(left, order)| {
+                format!(
+                    "with the rows of {} taken {order} they fit to {:.3} mm: put them in the order \
+                     of FROM, or give both files a column id",
+                    self.name,
+                    mm_from_m(*left)
+                )
+            },
+        )
+    }
+}
+
+/// Without --robust: a point that the others contradict is reported, not left out. Whether the
+/// others fit.
 fn suspect(
     touched: &[Touched],
-    from: &[Vector],
-    to: &[Vector],
+    sets: &Sets,
     weights: Option<&[f64]>,
     given: Option<f64>,
+    spread_m: f64,
+    sigma_contradicted: bool,
     findings: &mut Vec<Finding>,
-    name: &str,
-) {
+) -> bool {
     if touched.len() > 2000 {
-        return;
+        return false;
     }
-    let Ok(found) = robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) else {
-        return;
+    let Sets { from, to, name } = *sets;
+    let found = match robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) {
+        Ok(found) => found,
+        Err(error @ RegisterError::NoAgreement { .. }) => {
+            if !sigma_contradicted {
+                let finding = warning("no-agreement", name, error.to_string());
+                findings.push(finding.hint(error.hint()));
+            }
+            return false;
+        }
+        Err(_) => return false,
     };
     let (enough, hint) = if touched.len() < robust::FEWEST {
         (SUSPECT_OF_FIVE, "touch it again; --robust needs six points")
@@ -261,6 +401,8 @@ fn suspect(
         );
         findings.push(warning("suspect-touch", name, message).hint(hint));
     }
+    let left_m = found.fit.rmsd_m(from, to, Some(&found.weights));
+    !found.rejected.is_empty() && left_m <= UNLIKE * spread_m
 }
 
 /// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.

@@ -11,8 +11,8 @@ fn registered(folder: &Path, arguments: &[&str]) -> (i32, Value, String) {
     let words: Vec<String> = arguments
         .iter()
         .map(|word| match Path::new(word).extension() {
-            Some(_) => path(word),
-            None => (*word).to_owned(),
+            Some(ending) if ending == "csv" => path(word),
+            _ => (*word).to_owned(),
         })
         .collect();
     let mut all: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -208,4 +208,107 @@ fn datums_of_touches_are_named_and_normals_are_of_all_or_of_none() {
         status == 2 && reported.contains("3 of 6 touches have a normal"),
         "{status} {reported}"
     );
+}
+
+const EIGHT: [[f64; 3]; 8] = [
+    [-238.39, -120.91, 307.11],
+    [-408.08, 60.06, 264.28],
+    [-312.1, -266.91, 37.48],
+    [157.43, 37.36, -24.97],
+    [-67.37, 101.58, 111.39],
+    [133.18, 280.46, 241.53],
+    [-108.38, -187.65, 72.98],
+    [11.07, 234.73, 287.78],
+];
+/// What one coordinate of each is off by, mm.
+const OFF: [[f64; 3]; 8] = [
+    [0.9, -1.1, 0.4],
+    [-1.3, 0.2, 1.2],
+    [0.3, 1.4, -0.8],
+    [-0.7, -0.5, 1.0],
+    [1.2, 0.8, -1.1],
+    [-0.2, -1.3, -0.6],
+    [1.1, 0.6, 0.9],
+    [-1.0, 0.1, -1.2],
+];
+
+/// The eight points moved, each off by so many times [`OFF`].
+fn measured(times: f64) -> Vec<[f64; 3]> {
+    let one = |(p, off): (&[f64; 3], &[f64; 3])| {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|k| p[k] + times * off[k]);
+        [100.0 - y, 50.0 + x, 20.0 + z]
+    };
+    EIGHT.iter().zip(&OFF).map(one).collect()
+}
+
+fn points(rows: &[[f64; 3]]) -> String {
+    rows.iter()
+        .fold(String::from("x_mm,y_mm,z_mm\n"), |text, [x, y, z]| {
+            format!("{text}{x:.4},{y:.4},{z:.4}\n")
+        })
+}
+
+#[test]
+fn rows_in_another_order_are_refused_and_the_order_is_named() {
+    let folder = scratch();
+    let at = folder.path();
+    write(at, "from.csv", &points(&EIGHT));
+    let good = measured(0.01);
+    let mut reversed = good.clone();
+    reversed.reverse();
+    let mut shifted = good.clone();
+    shifted.rotate_right(1);
+    let mut mixed = good.clone();
+    mixed.swap(0, 5);
+    mixed.swap(1, 3);
+    mixed.swap(2, 7);
+    mixed.swap(4, 6);
+    for (rows, words) in [
+        (&reversed, "in the reverse order"),
+        (&shifted, "1 row(s) later"),
+        (&mixed, "do the rows of both files belong together"),
+    ] {
+        write(at, "to.csv", &points(rows));
+        for more in [&[][..], &["--robust"]] {
+            let mut words_of = vec!["register", "from.csv", "to.csv"];
+            words_of.extend(more);
+            let (status, _, reported) = registered(at, &words_of);
+            assert_eq!(status, 2, "{more:?} {reported}");
+            // --robust may see first that no motion has a majority
+            if more.is_empty() {
+                assert!(reported.contains(words), "{reported}");
+            }
+        }
+    }
+    // one bad touch among good ones is named, not refused
+    let mut bad = good.clone();
+    bad[3][2] += 150.0;
+    write(at, "to.csv", &points(&bad));
+    let (status, report, reported) = registered(at, &["register", "from.csv", "to.csv"]);
+    assert_eq!(status, 0, "{reported}");
+    assert!(has(&report, "suspect-touch"), "{report}");
+}
+
+#[test]
+fn a_stated_deviation_that_the_residuals_contradict_is_said() {
+    let folder = scratch();
+    let at = folder.path();
+    write(at, "from.csv", &points(&EIGHT));
+    write(at, "to.csv", &points(&measured(1.0)));
+    for (sigma, small, large) in [
+        ("0.01", true, false),
+        ("1", false, false),
+        ("100", false, true),
+    ] {
+        let words = ["register", "from.csv", "to.csv", "--sigma-mm", sigma];
+        let (status, report, reported) = registered(at, &words);
+        assert_eq!(status, 0, "{reported}");
+        assert_eq!(has(&report, "sigma-small"), small, "{sigma}: {report}");
+        assert_eq!(has(&report, "sigma-large"), large, "{sigma}: {report}");
+        if small {
+            let scale = report["scale"]["sigma"].as_f64().expect("a number");
+            // 1 mm over the root of eight squared arms of 370 mm
+            assert!((5e-4..2e-3).contains(&scale), "{scale}");
+        }
+    }
 }
