@@ -190,7 +190,7 @@ pub const TABLE: &[Kind] = &[
     row("relative-move", Error, "a relative move from a position that the text does not give", "move to a target with its own numbers", &["compensate", "check"], &["krl", "fanuc", "inform", "kawasaki"]).was(&["incremental-move"]),
     row("rounding", Error, "the decimals that the file can hold leave the tool more than 0.01 mm or 0.01 deg off its wanted pose; a warning of targets in joints", "--decimals 4 writes more, where the controller takes them", &["compensate"], &[]),
     row("run-time-position", Note, "a move goes to where the robot itself was; that is right as it is", "it stays as it is", &["compensate", "check"], &[]),
-    row("scale", Warning, "TO is larger or smaller than FROM", "other units, or a part that is warmer or colder than its drawing", &["register"], &[]),
+    row("scale", Warning, "TO is larger or smaller than FROM; `handeye`: the board than the camera was given", "other units, or a part that is warmer or colder than its drawing; `handeye`: measure the board's squares", &["register", "handeye"], &[]),
     row("search-move", Error, "a search decides where the move ends", "move to a target that the files declare with numbers", &["compensate", "check"], &["inform", "kawasaki"]),
     row("second-robot", Error, "the move has a target for a second robot", "compensate the jobs of each robot alone", &["compensate", "check"], &["inform"]),
     row("seen-before", Warning, "the profile was calibrated with these rows: its error on them is too small", "mark rows `validate` in the column `set` before calibrating, measure others, or use --folds", &["validate"], &[]),

@@ -1,6 +1,7 @@
 //! Input that fits more than one answer, or none: said, not guessed.
 
 use crate::support::{run, scratch};
+use poseshift::geometry::{Pose, norm};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
@@ -311,4 +312,76 @@ fn a_stated_deviation_that_the_residuals_contradict_is_said() {
             assert!((5e-4..2e-3).contains(&scale), "{scale}");
         }
     }
+}
+
+fn boards(poses: &[Pose]) -> String {
+    let mut text = String::from("x_mm,y_mm,z_mm,qw,qx,qy,qz\n");
+    for pose in poses {
+        let [x, y, z] = pose.translation.map(|v| v * 1e3);
+        let [qw, qx, qy, qz] = pose.rotation.quaternion().0;
+        writeln!(text, "{x},{y},{z},{qw},{qx},{qy},{qz}").expect("text");
+    }
+    text
+}
+
+#[test]
+fn an_inverted_board_is_one_of_the_readings_that_fit() {
+    let folder = scratch();
+    let at = folder.path();
+    let robot = super::poses("tests/data/register/robot.csv");
+    let board = super::poses("tests/data/register/board.csv");
+    write(at, "robot.csv", &boards(&robot));
+    write(at, "board.csv", &boards(&board));
+    let words = [
+        "handeye",
+        "robot.csv",
+        "board.csv",
+        "--setup",
+        "eye-in-hand",
+    ];
+    let (status, report, reported) = registered(at, &words);
+    assert_eq!(status, 0, "{reported}");
+    assert!(!has(&report, "scale"), "{report}");
+    let camera = ["x_mm", "y_mm", "z_mm"].map(|k| report["camera"][k].as_f64().expect("mm"));
+    let inverted: Vec<Pose> = board.iter().map(Pose::inverse).collect();
+    write(at, "board.csv", &boards(&inverted));
+    let (status, _, reported) = registered(at, &words);
+    assert_eq!(status, 2, "{reported}");
+    let reading = format!("camera_from_board; {:.0} mm from the flange)", norm(camera));
+    for word in [
+        "other --setup",
+        "ROBOT inverted",
+        "BOARD inverted",
+        &reading,
+    ] {
+        assert!(reported.contains(word), "{word}: {reported}");
+    }
+}
+
+#[test]
+fn a_board_of_another_size_is_found() {
+    let folder = scratch();
+    let at = folder.path();
+    let robot = super::poses("tests/data/register/robot.csv");
+    let board: Vec<Pose> = super::poses("tests/data/register/board.csv")
+        .into_iter()
+        .map(|pose| Pose {
+            translation: pose.translation.map(|v| 1.02 * v),
+            ..pose
+        })
+        .collect();
+    write(at, "robot.csv", &boards(&robot));
+    write(at, "board.csv", &boards(&board));
+    let words = [
+        "handeye",
+        "robot.csv",
+        "board.csv",
+        "--setup",
+        "eye-in-hand",
+    ];
+    let (status, report, reported) = registered(at, &words);
+    assert_eq!(status, 0, "{reported}");
+    assert!(has(&report, "scale"), "{report}");
+    // 1 / 1.02
+    assert!(report.to_string().contains("times 0.980"), "{report}");
 }
