@@ -129,6 +129,15 @@ fn by_planes(
         .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
         .collect();
     let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
+    if let Some(given) = given {
+        let lefts = fit.points_m.iter().map(|r| norm(*r).powi(2));
+        let lefts = lefts.chain(fit.planes_m.iter().flatten().map(|along| along * along));
+        let weight = |i: usize| weights.as_ref().map_or(1.0, |w| w[i]);
+        let whole: f64 = lefts.enumerate().map(|(i, left)| weight(i) * left).sum();
+        let freedom = (3 * touched.len() + on_planes.len()).saturating_sub(6);
+        let times = (whole / freedom.max(1) as f64).sqrt() / given;
+        findings.extend(other_sigma(times, freedom, name));
+    }
     let mut ids = on_planes.iter().map(|touch| &touch.id);
     for (residuals, plane) in fit.planes_m.iter().zip(planes) {
         let normal = fit.to_from_from.rotation * plane.normal;
@@ -192,7 +201,7 @@ fn by_points(
         name,
     };
     let times = given.map(|given| noise_m(&residuals, used) / given);
-    let contradicted = times.and_then(|times| other_sigma(times, fit.count, name));
+    let contradicted = times.and_then(|times| other_sigma(times, 3 * fit.count - 6, name));
     let mut explained = false;
     if !options.robust {
         let quiet = contradicted.is_some();
@@ -258,11 +267,10 @@ fn total_weight(weights: Option<&[f64]>, count: usize) -> f64 {
     weights.map_or(count as f64, |w| w.iter().sum())
 }
 
-/// A stated deviation that the residuals contradict, by χ² of 3 n − 6.
-fn other_sigma(times: f64, points: usize, name: &str) -> Option<Finding> {
+/// A stated deviation that the residuals contradict, by χ² of as many degrees of freedom.
+fn other_sigma(times: f64, freedom: usize, name: &str) -> Option<Finding> {
     // Wilson and Hilferty: the cube root of χ²/ν is nearly normal
-    let freedom = 3.0 * points as f64 - 6.0;
-    let spread = 2.0 / (9.0 * freedom);
+    let spread = 2.0 / (9.0 * freedom.max(1) as f64);
     let chance = |sign: f64| {
         let root = 1.0 - spread + sign * SIGMA_CHANCE * spread.sqrt();
         root.max(0.0).powf(1.5)
