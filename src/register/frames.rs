@@ -56,9 +56,37 @@ pub enum FrameError {
         /// Ratio of singular values.
         smallest: f64,
     },
+    /// Several motions that fit alike.
+    #[error(
+        "another pose fits as well: the part turned by {apart_deg:.2} deg (it leaves \
+         {other_mm:.4} mm root mean square, the best {best_mm:.4} mm)"
+    )]
+    Ambiguous {
+        /// Rotation between both, degrees.
+        apart_deg: f64,
+        /// What the other one leaves, mm.
+        other_mm: f64,
+        /// What the best one leaves, mm.
+        best_mm: f64,
+    },
     /// The points alone are at fault.
     #[error(transparent)]
     Points(#[from] RegisterError),
+}
+
+impl FrameError {
+    /// The way out; empty where the message says it all.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Ambiguous { .. } => {
+                "a plane's touches do not show its outer side: touch a point off the planes and \
+                 off their lines of intersection, too"
+            }
+            Self::Points(error) => error.hint(),
+            _ => "",
+        }
+    }
 }
 
 fn unit(
@@ -237,82 +265,118 @@ pub struct FeatureFit {
     pub sigma_m: f64,
     /// Covariance of the motion.
     pub covariance: PoseCovariance,
+    /// How many other poses fit as well but put touches of a plane outside of another: the planes
+    /// are taken as faces of a convex corner.
+    pub others: usize,
 }
+
+/// Form of a good face and noise of a good probe, metres: poses that differ by less fit
+/// alike.
+const FORM_M: f64 = 1e-5;
+/// A pose that leaves more than the best by this many standard deviations does not fit.
+const APART: f64 = 5.0;
+/// A start whose squared directions are off by this much more than the best one's has a normal
+/// inverted.
+const START: f64 = 1.0;
 
 /// Fits the motion that carries nominal points to measured ones and nominal planes to their
 /// touches, all with the same standard deviation: Gauss–Newton on `T p − q` and `n·(T⁻¹ q − p) − r`
 /// from a closed-form start.
 ///
+/// A plane fitted to touches has no outer side, so that several motions may fit alike. Of these the
+/// one is taken under which no touch lies outside of another plane (a convex corner).
+///
 /// # Errors
-/// If a plane cannot be fitted or points and planes together leave a motion free; the motion is
-/// named.
+/// If a plane cannot be fitted or points and planes together leave a motion free (it is named), or
+/// if several motions fit and the rule of the convex corner does not leave one.
 pub fn points_and_planes(
     points: &[(Vector, Vector)],
     planes: &[TouchedPlane],
     probe_radius_m: f64,
     sigma_m: Option<f64>,
 ) -> Result<FeatureFit, FrameError> {
-    let mut pose = start(points, planes, probe_radius_m)?;
+    weighted_points_and_planes(points, planes, None, probe_radius_m, sigma_m)
+}
+
+/// The same with weights 1/σ² in any unit: one a point, then one a touch, in order.
+///
+/// # Errors
+/// As [`points_and_planes`]; a weight that is negative or no number.
+///
+/// # Panics
+/// If there are fewer weights than points and touches.
+pub(crate) fn weighted_points_and_planes(
+    points: &[(Vector, Vector)],
+    planes: &[TouchedPlane],
+    weights: Option<&[f64]>,
+    probe_radius_m: f64,
+    sigma_m: Option<f64>,
+) -> Result<FeatureFit, FrameError> {
+    let is_good = |w: &f64| w.is_finite() && *w >= 0.0;
+    if let Some(at) = weights.and_then(|w| w.iter().position(|w| !is_good(w))) {
+        return Err(RegisterError::Weight { row: at + 1 }.into());
+    }
     let touches: usize = planes.iter().map(|p| p.touches_m.len()).sum();
     let rows = 3 * points.len() + touches;
-    let mut jacobian = DMatrix::zeros(rows.max(6), 6);
-    let mut left = DVector::zeros(rows.max(6));
-    let centre = measured_centre(points, planes);
-    let reach = spread(points, planes, centre);
-    for _ in 0..30 {
-        let mut row = 0;
-        for (p, q) in points {
-            let at = pose.transform(*p);
-            let arm = crossing(sub(at, centre));
-            for k in 0..3 {
-                left[row] = at[k] - q[k];
-                for j in 0..3 {
-                    jacobian[(row, j)] = -arm[(k, j)] / reach;
-                    jacobian[(row, 3 + j)] = f64::from(u8::from(j == k));
-                }
-                row += 1;
-            }
-        }
-        for plane in planes {
-            let normal = pose.rotation * plane.normal;
-            let on = pose.transform(plane.point_m);
-            for q in &plane.touches_m {
-                left[row] = dot(normal, sub(*q, on)) - probe_radius_m;
-                let turn = cross(sub(*q, centre), normal);
-                for j in 0..3 {
-                    jacobian[(row, j)] = -turn[j] / reach;
-                    jacobian[(row, 3 + j)] = -normal[j];
-                }
-                row += 1;
-            }
-        }
-        let svd = linear::svd(&jacobian);
-        refuse_free(&svd)?;
-        let along = svd.left.transpose() * -&left;
-        let step = &svd.right * along.component_div(&svd.values);
-        let turn = [step[0], step[1], step[2]].map(|v| v / reach);
-        let shift = [step[3], step[4], step[5]];
-        let back = sub(pose.translation, centre);
-        let turned = Rotation::from_vector(turn);
-        pose = Pose {
-            rotation: turned * pose.rotation,
-            translation: add(add(centre, shift), turned * back),
-        };
-        if norm(turn) < 1e-14 && norm(shift) < 1e-14 {
-            break;
+    let roots: Vec<f64> = (0..points.len() + touches)
+        .flat_map(|i| {
+            let root = weights.map_or(1.0, |w| w[i]).sqrt();
+            std::iter::repeat_n(root, if i < points.len() { 3 } else { 1 })
+        })
+        .collect();
+    let problem = Problem {
+        points,
+        planes,
+        roots: &roots,
+        probe_radius_m,
+        centre: measured_centre(points, planes),
+    };
+    let mut fits = Vec::new();
+    let mut failed = None;
+    for start in starts(points, planes, probe_radius_m)? {
+        match problem.refined(start) {
+            Ok(fit) => fits.push(fit),
+            Err(error) => failed = failed.or(Some(error)),
         }
     }
+    fits.sort_by(|a, b| a.left.norm_squared().total_cmp(&b.left.norm_squared()));
+    let Some(best) = fits.first() else {
+        return Err(failed.unwrap_or(FrameError::Free {
+            motion: "the directions of the features are all parallel".into(),
+            smallest: 0.0,
+        }));
+    };
     #[allow(clippy::cast_precision_loss)]
     let freedom = (rows as f64 - 6.0).max(1.0);
-    let sigma = sigma_m.unwrap_or((left.norm_squared() / freedom).sqrt());
-    let svd = linear::svd(&jacobian);
+    let of = |fit: &Refined| sigma_m.unwrap_or((fit.left.norm_squared() / freedom).sqrt());
+    let noise = of(best).max(FORM_M);
+    let limit = best.left.norm_squared() + (APART * noise).powi(2);
+    let mut alike: Vec<Refined> = Vec::new();
+    for fit in fits {
+        let known = alike.iter().any(|a| a.apart_rad(&fit) < NEAR_LINE);
+        if !known && fit.left.norm_squared() <= limit {
+            alike.push(fit);
+        }
+    }
+    let found = alike.len();
+    if found > 1 {
+        let error = ambiguous(&alike, rows);
+        alike.retain(|fit| problem.is_convex(&fit.pose, APART * noise));
+        if alike.len() != 1 {
+            return Err(error);
+        }
+    }
+    let fit = alike.swap_remove(0);
+    let sigma = of(&fit);
+    let reach = spread(points, planes, problem.centre);
     let scaled = Matrix6::from_fn(|i, j| {
         let value: f64 = (0..6)
-            .map(|k| svd.right[(i, k)] * svd.right[(j, k)] / svd.values[k].powi(2))
+            .map(|k| fit.svd.right[(i, k)] * fit.svd.right[(j, k)] / fit.svd.values[k].powi(2))
             .sum();
         let unit = |i: usize| if i < 3 { 1.0 / reach } else { 1.0 };
         value * unit(i) * unit(j) * sigma * sigma
     });
+    let pose = fit.pose;
     let points_m = points
         .iter()
         .map(|(p, q)| sub(*q, pose.transform(*p)))
@@ -329,8 +393,122 @@ pub fn points_and_planes(
         points_m,
         planes_m: planes_m.collect(),
         sigma_m: sigma,
-        covariance: PoseCovariance::new(centre, &scaled),
+        covariance: PoseCovariance::new(problem.centre, &scaled),
+        others: found - 1,
     })
+}
+
+/// The two best of several that fit alike.
+fn ambiguous(alike: &[Refined], rows: usize) -> FrameError {
+    #[allow(clippy::cast_precision_loss)]
+    let left_mm = |fit: &Refined| mm_from_m((fit.left.norm_squared() / rows as f64).sqrt());
+    FrameError::Ambiguous {
+        apart_deg: alike[0].apart_rad(&alike[1]).to_degrees(),
+        other_mm: left_mm(&alike[1]),
+        best_mm: left_mm(&alike[0]),
+    }
+}
+
+/// Points and planes with the roots of their weights, row by row.
+struct Problem<'a> {
+    points: &'a [(Vector, Vector)],
+    planes: &'a [TouchedPlane],
+    roots: &'a [f64],
+    probe_radius_m: f64,
+    centre: Vector,
+}
+
+/// A motion that fits best near its start.
+struct Refined {
+    pose: Pose,
+    left: DVector<f64>,
+    svd: linear::Svd,
+}
+
+impl Refined {
+    fn apart_rad(&self, other: &Self) -> f64 {
+        (self.pose.rotation * other.pose.rotation.transpose()).angle()
+    }
+}
+
+impl Problem<'_> {
+    /// What a pose leaves, and its derivative.
+    fn linearised(&self, pose: &Pose, reach: f64) -> (DVector<f64>, DMatrix<f64>) {
+        let rows = self.roots.len().max(6);
+        let mut jacobian = DMatrix::zeros(rows, 6);
+        let mut left = DVector::zeros(rows);
+        let mut row = 0;
+        for (p, q) in self.points {
+            let at = pose.transform(*p);
+            let arm = crossing(sub(at, self.centre));
+            for k in 0..3 {
+                left[row] = at[k] - q[k];
+                for j in 0..3 {
+                    jacobian[(row, j)] = -arm[(k, j)] / reach;
+                    jacobian[(row, 3 + j)] = f64::from(u8::from(j == k));
+                }
+                row += 1;
+            }
+        }
+        for plane in self.planes {
+            let normal = pose.rotation * plane.normal;
+            let on = pose.transform(plane.point_m);
+            for q in &plane.touches_m {
+                left[row] = dot(normal, sub(*q, on)) - self.probe_radius_m;
+                let turn = cross(sub(*q, self.centre), normal);
+                for j in 0..3 {
+                    jacobian[(row, j)] = -turn[j] / reach;
+                    jacobian[(row, 3 + j)] = -normal[j];
+                }
+                row += 1;
+            }
+        }
+        for (row, root) in self.roots.iter().enumerate() {
+            left[row] *= root;
+            jacobian.row_mut(row).scale_mut(*root);
+        }
+        (left, jacobian)
+    }
+
+    fn refined(&self, start: Pose) -> Result<Refined, FrameError> {
+        let mut pose = start;
+        let reach = spread(self.points, self.planes, self.centre);
+        let mut steps = 0;
+        loop {
+            let (left, jacobian) = self.linearised(&pose, reach);
+            let svd = linear::svd(&jacobian);
+            refuse_free(&svd)?;
+            let along = svd.left.transpose() * -&left;
+            let step = &svd.right * along.component_div(&svd.values);
+            let turn = [step[0], step[1], step[2]].map(|v| v / reach);
+            let shift = [step[3], step[4], step[5]];
+            steps += 1;
+            if steps > 30 || norm(turn) < 1e-14 && norm(shift) < 1e-14 {
+                return Ok(Refined { pose, left, svd });
+            }
+            let back = sub(pose.translation, self.centre);
+            let turned = Rotation::from_vector(turn);
+            pose = Pose {
+                rotation: turned * pose.rotation,
+                translation: add(add(self.centre, shift), turned * back),
+            };
+        }
+    }
+
+    /// Whether no touch of a plane lies outside of another one.
+    fn is_convex(&self, pose: &Pose, slack_m: f64) -> bool {
+        let from_to = pose.inverse();
+        self.planes.iter().enumerate().all(|(i, plane)| {
+            let mut touches = plane.touches_m.iter().map(|q| from_to.transform(*q));
+            touches.all(|q| {
+                let mut others = self.planes.iter().enumerate().filter(|(j, _)| *j != i);
+                others.all(|(_, other)| {
+                    let outside = dot(other.normal, sub(q, other.point_m));
+                    outside <= self.probe_radius_m + slack_m
+                })
+            })
+        })
+    }
 }
 
 fn measured_centre(points: &[(Vector, Vector)], planes: &[TouchedPlane]) -> Vector {
@@ -371,16 +549,16 @@ fn refuse_free(svd: &linear::Svd) -> Result<(), FrameError> {
     })
 }
 
-/// Rotation from matched directions (normals, and points from their centre), translation by least
-/// squares.
-fn start(
+/// Rotations from matched directions (normals, and points from their centre), translations by least
+/// squares: one for each choice of the fitted normals' signs that goes together.
+fn starts(
     points: &[(Vector, Vector)],
     planes: &[TouchedPlane],
     probe_radius_m: f64,
-) -> Result<Pose, FrameError> {
+) -> Result<Vec<Pose>, FrameError> {
     if planes.is_empty() {
         let (from, to): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
-        return Ok(kabsch(&from, &to, None)?.to_from_from);
+        return Ok(vec![kabsch(&from, &to, None)?.to_from_from]);
     }
     let mut fitted = Vec::new();
     for plane in planes {
@@ -390,21 +568,15 @@ fn start(
         })?;
         fitted.push(fit);
     }
-    // the fitted normals' signs are open: the choice that fits best
     let signs = 1_usize << fitted.len().min(10);
-    let mut best: Option<(f64, Pose)> = None;
-    for sign in 0..signs {
-        let Some((cost, pose)) = start_with(points, planes, &fitted, sign, probe_radius_m) else {
-            continue;
-        };
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, pose));
-        }
-    }
-    best.map(|(_, pose)| pose).ok_or(FrameError::Free {
-        motion: "the directions of the features are all parallel".into(),
-        smallest: 0.0,
-    })
+    let found: Vec<(f64, Pose)> = (0..signs)
+        .filter_map(|sign| start_with(points, planes, &fitted, sign, probe_radius_m))
+        .collect();
+    let least = found
+        .iter()
+        .fold(f64::INFINITY, |l, (cost, _)| l.min(*cost));
+    let near = found.into_iter().filter(|(cost, _)| *cost <= least + START);
+    Ok(near.map(|(_, pose)| pose).collect())
 }
 
 fn start_with(

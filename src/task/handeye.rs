@@ -167,6 +167,7 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
     let mut findings = Vec::new();
     findings.extend(weak_rotation(&problem, names[0]));
     findings.extend(outliers(&refined, names[0]));
+    findings.extend(other_scale(&refined, names[1]));
     findings.extend(corners.as_ref().and_then(|c| not_accepted(c, names[0])));
     let frame = Frame {
         to_from_from: *camera,
@@ -245,6 +246,28 @@ fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
         );
         Finding::of_file("weak-rotation", Severity::Warning, name, message)
             .hint("add poses that tilt the flange in another direction")
+    })
+}
+
+/// A board's scale that differs from 1 by less is its making and the lens.
+const SCALE: f64 = 1e-3;
+/// A scale is off beyond so many standard deviations.
+const SCALE_CHANCE: f64 = 5.0;
+
+/// A board whose squares are of another size than the camera was given.
+fn other_scale(refined: &Refined, name: &str) -> Option<Finding> {
+    let sigma = refined.board_scale_sigma?;
+    let off = refined.board_scale - 1.0;
+    let enough = refined.rows.len() >= FEWEST_JUDGED;
+    (enough && off.abs() > SCALE && off.abs() > SCALE_CHANCE * sigma).then(|| {
+        let message = format!(
+            "BOARD's positions times {:.5} (\u{b1} {sigma:.5}) fit better: its squares are larger or \
+             smaller than the camera was given by {:+.2} %",
+            refined.board_scale,
+            off * 100.0
+        );
+        Finding::of_file("scale", Severity::Warning, name, message)
+            .hint("measure the board's squares, and see the camera's focal length")
     })
 }
 

@@ -166,15 +166,20 @@ impl Row<'_> {
                 (_, None) => format!("column {column}: `{text}` is not a finite number"),
                 _ => format!("column {column}: `{text}` is beyond \u{b1}{LARGEST:e}"),
             };
-            Failure::at(
-                self.table.source,
-                self.line,
-                self.column_of(column),
-                Some(text.len()),
-                message,
-                "",
-            )
+            self.failure_in(column, message)
         })
+    }
+
+    /// A failure at a cell of this row.
+    pub(super) fn failure_in(&self, column: &str, message: String) -> Failure {
+        Failure::at(
+            self.table.source,
+            self.line,
+            self.column_of(column),
+            self.text(column).map(str::len).or(Some(0)),
+            message,
+            "",
+        )
     }
 
     /// Finite numbers in required columns.

@@ -151,7 +151,7 @@ pub enum HandEyeError {
         /// Root mean square distance left, mm.
         left_mm: f64,
         /// What fits better.
-        advice: &'static str,
+        advice: String,
     },
     /// A closed form has no solution.
     #[error("the {method} method has no solution for these poses")]
@@ -282,38 +282,37 @@ impl HandEye {
     }
 
     /// What else the files may hold, by what fits.
-    fn advice(&self) -> &'static str {
-        let inverse = |poses: &[Pose]| poses.iter().map(Pose::inverse).collect::<Vec<_>>();
-        let (a, b) = (inverse(&self.a), inverse(&self.b));
-        let cases = [
-            (
-                &a,
-                &self.b,
-                "with the other --setup, or ROBOT holding flange_from_base, it fits",
-            ),
-            (
-                &self.a,
-                &b,
-                "with BOARD inverted (board_from_camera given for camera_from_board) it fits",
-            ),
-            (&a, &b, "with the other --setup and BOARD inverted it fits"),
-        ];
-        for (a, b, advice) in cases {
-            let other = Self {
-                a: a.clone(),
-                b: b.clone(),
-                motions: motions(a, b),
-                ..self.clone()
-            };
-            if other.refine().is_ok_and(|r| r.rotation_rad < GROSS_RAD) {
-                return advice;
-            }
-        }
-        TOGETHER
+    ///
+    /// `A⁻¹ X B = Y` is `A Y B⁻¹ = X`: where ROBOT's poses inverted fit, BOARD's inverted fit as
+    /// well, with X and Y in each other's place.
+    fn advice(&self) -> String {
+        let a: Vec<Pose> = self.a.iter().map(Pose::inverse).collect();
+        let other = Self {
+            motions: motions(&a, &self.b),
+            a,
+            ..self.clone()
+        };
+        let fit = other.refine().ok();
+        let Some(fit) = fit.filter(|fit| fit.rotation_rad < GROSS_RAD) else {
+            return TOGETHER.to_owned();
+        };
+        let (holder, other_holder) = match self.setup {
+            Setup::EyeInHand => ("flange", "base"),
+            Setup::EyeToHand => ("base", "flange"),
+        };
+        let away_mm = |pose: &Pose| norm(pose.translation) * 1e3;
+        let (camera, board) = (away_mm(&fit.camera), away_mm(&fit.board));
+        format!(
+            "it fits with the other --setup (the camera {camera:.0} mm from the {other_holder}), \
+             with ROBOT inverted (flange_from_base given for base_from_flange; {camera:.0} mm from \
+             the {holder}), or with BOARD inverted (board_from_camera given for camera_from_board; \
+             {board:.0} mm from the {holder}); the poses do not say which: see where the camera \
+             stands"
+        )
     }
 
     /// In which unit the positions may be, by what fits.
-    fn unit_advice(&self, left_m: f64) -> &'static str {
+    fn unit_advice(&self, left_m: f64) -> String {
         let cases = [
             (
                 1e3,
@@ -352,7 +351,7 @@ impl HandEye {
         let case = cases
             .into_iter()
             .find(|(robot, board, _)| fits(*robot, *board));
-        case.map_or(TOGETHER, |(_, _, advice)| advice)
+        case.map_or(TOGETHER, |(_, _, advice)| advice).to_owned()
     }
 }
 

@@ -42,6 +42,11 @@ pub struct Refined {
     pub rotation_rad: f64,
     /// Root mean square distance left, metres.
     pub distance_m: f64,
+    /// By what BOARD's positions would fit better: 1 where the board's squares are as large as the
+    /// camera was given.
+    pub board_scale: f64,
+    /// Its standard uncertainty; none of fewer than four rows.
+    pub board_scale_sigma: Option<f64>,
     /// Steps until it stood still.
     pub steps: usize,
     /// Each row.
@@ -172,7 +177,10 @@ fn finish(
         let block = Matrix6::from_fn(|i, j| covariance[(at + i, at + j)]);
         along_world(&block, pose)
     };
+    let (board_scale, board_scale_sigma) = board_scale(a, b, &camera, &back, &covariance, sigma);
     Refined {
+        board_scale,
+        board_scale_sigma,
         camera_covariance: part(0, &camera),
         board_covariance: part(6, &board),
         camera,
@@ -184,6 +192,44 @@ fn finish(
         steps,
         rows,
     }
+}
+
+/// A factor of BOARD's positions as a thirteenth unknown, from the fit of the twelve: with the
+/// derivative `g` of a residual by it, `1 − Σ gᵀ W r / (Σ gᵀ W g − hᵀ C h)`, `h = Σ Jᵀ W g`.
+/// Positions alone weigh in it: rotations have no length.
+fn board_scale(
+    a: &[Pose],
+    b: &[Pose],
+    camera: &Pose,
+    board_back: &Pose,
+    covariance: &SMatrix<f64, 12, 12>,
+    sigma: [f64; 2],
+) -> (f64, Option<f64>) {
+    let weight = 1.0 / (sigma[1] * sigma[1]);
+    let (mut gr, mut gg, mut rr) = (0.0, 0.0, 0.0);
+    let mut h = SVector::<f64, 12>::zeros();
+    for (a, b) in a.iter().zip(b) {
+        let (left, jacobian) = residual(a, b, camera, board_back);
+        let turn = (*board_back * *a * *camera).rotation;
+        let g = turn * b.translation;
+        for k in 0..3 {
+            gr += weight * g[k] * left[3 + k];
+            gg += weight * g[k] * g[k];
+            rr += weight * left[3 + k] * left[3 + k];
+            h += jacobian.row(3 + k).transpose() * (weight * g[k]);
+        }
+    }
+    let information = gg - (h.transpose() * covariance * h)[(0, 0)];
+    // where all is taken by the other unknowns, nothing is left but rounding
+    if a.len() < 4 || information.is_nan() || information <= 1e-9 * gg {
+        return (1.0, None);
+    }
+    let off = -gr / information;
+    // seven unknowns of positions
+    #[allow(clippy::cast_precision_loss)]
+    let freedom = (3 * a.len() - 7) as f64;
+    let noise = ((rr - gr * gr / information).max(0.0) / freedom).sqrt();
+    (1.0 + off, Some(noise / information.sqrt()))
 }
 
 /// A covariance of small motions behind a pose, expressed along the axes of the frame that the pose

@@ -30,15 +30,19 @@ pub(super) fn construct(
         None => row.point_m,
     };
     let touches: Vec<Vector> = table.rows.iter().map(touch).collect();
-    let datums: Vec<Option<usize>> = table.rows.iter().map(datum).collect();
-    let has_normals = table.rows.iter().all(|row| row.normal.is_some());
+    let datums = match kind {
+        Construction::ThreePoints => Vec::new(),
+        Construction::ThreeTwoOne => datums(table)?,
+    };
+    let normals = table.rows.iter().filter(|row| row.normal.is_some()).count();
+    let has_normals = normals == table.rows.len();
     let build = |points: &[Vector]| -> Result<Pose, FrameError> {
         match kind {
             Construction::ThreePoints => three_points([points[0], points[1], points[2]]),
             Construction::ThreeTwoOne => {
                 let mut sets = [const { Vec::new() }; 3];
-                for (index, (point, datum)) in points.iter().zip(&datums).enumerate() {
-                    sets[datum.unwrap_or_else(|| BY_ORDER[index.min(5)])].push(*point);
+                for (point, datum) in points.iter().zip(&datums) {
+                    sets[*datum].push(*point);
                 }
                 let [primary_m, secondary_m, tertiary_m] = sets;
                 let datums = Datums {
@@ -65,10 +69,10 @@ pub(super) fn construct(
                     .into(),
             ));
         }
-        Construction::ThreeTwoOne if datums.iter().any(Option::is_none) && count != 6 => {
+        Construction::ThreeTwoOne if radius > 0.0 && normals > 0 && !has_normals => {
             return Err(fail(format!(
-                "{count} touches without a column datum (1, 2 or 3); in order they must be 3 + 2 + \
-                 1"
+                "{normals} of {count} touches have a normal nx,ny,nz: --probe-radius-mm needs that \
+                 of all, or of none, then the datums give the directions"
             )));
         }
         _ => {}
@@ -95,11 +99,23 @@ pub(super) fn construct(
     Ok(Registration::new("part", &table.name, motion, options))
 }
 
-fn datum(row: &PointRow) -> Option<usize> {
-    match row.datum.as_deref() {
-        Some("1") => Some(0),
-        Some("2") => Some(1),
-        Some("3") => Some(2),
-        _ => None,
+/// The datum of each touch: of the column, or where it is not there or empty by the order.
+fn datums(table: &Points) -> Result<Vec<usize>, Failure> {
+    let count = table.rows.len();
+    let filled = table.rows.iter().filter(|row| row.datum.is_some()).count();
+    let fail = |message: String| Err(Failure::new(format!("{}: {message}", table.name)));
+    match filled {
+        0 if count == BY_ORDER.len() => Ok(BY_ORDER.to_vec()),
+        0 => fail(format!(
+            "{count} touches without a column datum (1, 2 or 3); in order they must be 3 + 2 + 1"
+        )),
+        _ if filled < count => fail(format!(
+            "{filled} of {count} touches have a datum (1, 2 or 3): it is needed of all, or of none \
+             in the order 3 + 2 + 1"
+        )),
+        _ => {
+            let cells = table.rows.iter().filter_map(|row| row.datum.clone());
+            cells.collect()
+        }
     }
 }

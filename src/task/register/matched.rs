@@ -7,7 +7,7 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, add, norm, scale};
 use crate::register::RegisterError;
 use crate::register::features::{self, FeatureError, Round, compensated, noise_of};
-use crate::register::frames::{TouchedPlane, points_and_planes};
+use crate::register::frames::{TouchedPlane, weighted_points_and_planes};
 use crate::register::kabsch::{Fit, kabsch, noise_m};
 use crate::register::robust::{self, robust};
 use crate::task::Failure;
@@ -21,6 +21,15 @@ const SUSPECT_OF_FIVE: f64 = 8.0;
 const FEWEST_SUSPECTED: usize = 5;
 /// A scale that differs from 1 by more than this and its uncertainty is a finding.
 const SCALE: f64 = 2e-5;
+/// Points that the best motion leaves farther from their partners than this part of their spread do
+/// not belong together.
+const UNLIKE: f64 = 0.05;
+/// Shifts of rows that are tried.
+const FARTHEST_SHIFT: usize = 100;
+/// Residuals beyond this factor of what is stated contradict it,
+const SIGMA_FACTOR: f64 = 1.5;
+/// and beyond so many standard deviations of chance.
+const SIGMA_CHANCE: f64 = 4.0;
 /// Linear thermal expansion of steel and of aluminium, 1/K.
 const EXPANSION: [f64; 2] = [11.5e-6, 23.0e-6];
 
@@ -49,14 +58,14 @@ pub(super) fn register(
         findings.push(warning("unmatched-ids", &to.name, message));
     }
     let radius = options.probe_radius_m;
-    let (mut touched, mut planes, mut plane_ids) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut touched, mut planes, mut on_planes) = (Vec::new(), Vec::new(), Vec::new());
     let mut features = Vec::new();
     for pair in &pairs {
         match pair.from.feature {
             Feature::Point => touched.push(point(pair, radius, &to.name)?),
             Feature::Plane => {
                 planes.push(plane(pair, &from.name)?);
-                plane_ids.push(pair.from.id.as_str());
+                on_planes.extend(touches_of(pair));
             }
             Feature::Sphere | Feature::Hole => {
                 let (centre, feature) = round(pair, radius, &to.name, &mut findings)?;
@@ -68,10 +77,9 @@ pub(super) fn register(
     let (motion, scale) = if planes.is_empty() {
         by_points(&touched, options, &mut findings, &to.name)?
     } else {
-        (
-            by_planes(&touched, &planes, &plane_ids, options, &to.name)?,
-            None,
-        )
+        let planes = (planes.as_slice(), on_planes.as_slice());
+        let motion = by_planes(&touched, planes, options, &mut findings, &to.name)?;
+        (motion, None)
     };
     Ok(Registration {
         findings,
@@ -83,38 +91,67 @@ pub(super) fn register(
 
 fn by_planes(
     touched: &[Touched],
-    planes: &[TouchedPlane],
-    ids: &[&str],
+    (planes, on_planes): (&[TouchedPlane], &[Touched]),
     options: &Options,
+    findings: &mut Vec<Finding>,
     name: &str,
 ) -> Result<Motion, Failure> {
     if options.robust {
         return Err(Failure::new("--robust takes points only, no planes"));
     }
     let points: Vec<_> = touched.iter().map(|t| (t.from_m, t.to_m)).collect();
-    let fit = points_and_planes(&points, planes, options.probe_radius_m, options.sigma_m)
-        .map_err(|error| Failure::new(format!("{name}: {error}")))?;
+    let all: Vec<&Touched> = touched.iter().chain(on_planes).collect();
+    let (mut weights, absolute) = weights(&all, name)?;
+    let mut given = options.sigma_m;
+    if let (true, Some(weights)) = (absolute, &mut weights) {
+        // relative to the surest row, so that deviations stay lengths
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        weights.iter_mut().for_each(|w| *w /= most);
+        given = Some(1.0 / most.sqrt());
+    }
+    let radius = options.probe_radius_m;
+    let fit = weighted_points_and_planes(&points, planes, weights.as_deref(), radius, given)
+        .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
+    if fit.others > 0 {
+        let message = format!(
+            "{} other poses fit as well: the planes are taken as faces of a convex corner, of which \
+             no touch lies outside of another face",
+            fit.others
+        );
+        findings.push(
+            Finding::of_file("convex-corner", Severity::Note, name, message)
+                .hint("a point off the planes settles it"),
+        );
+    }
     let mut rows: Vec<Residual> = touched
         .iter()
         .zip(&fit.points_m)
         .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
         .collect();
     let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
-    for ((id, residuals), plane) in ids.iter().zip(&fit.planes_m).zip(planes) {
+    if let Some(given) = given {
+        let lefts = fit.points_m.iter().map(|r| norm(*r).powi(2));
+        let lefts = lefts.chain(fit.planes_m.iter().flatten().map(|along| along * along));
+        let weight = |i: usize| weights.as_ref().map_or(1.0, |w| w[i]);
+        let whole: f64 = lefts.enumerate().map(|(i, left)| weight(i) * left).sum();
+        let freedom = (3 * touched.len() + on_planes.len()).saturating_sub(6);
+        let times = (whole / freedom.max(1) as f64).sqrt() / given;
+        findings.extend(other_sigma(times, freedom, name));
+    }
+    let mut ids = on_planes.iter().map(|touch| &touch.id);
+    for (residuals, plane) in fit.planes_m.iter().zip(planes) {
         let normal = fit.to_from_from.rotation * plane.normal;
-        for (k, along) in residuals.iter().enumerate() {
+        for (along, id) in residuals.iter().zip(&mut ids) {
             sum += along * along;
-            rows.push(Residual::new(
-                &format!("{id}/{}", k + 1),
-                scale(*along, normal),
-            ));
+            rows.push(Residual::new(id, scale(*along, normal)));
         }
     }
     Ok(Motion {
         method: "points and planes",
         to_from_from: fit.to_from_from,
-        sigma_m: Some(fit.sigma_m),
-        sigma_given: options.sigma_m.is_some(),
+        // reported for a row of weight one, which is no length where the weights are 1/σ²
+        sigma_m: (!absolute).then_some(fit.sigma_m),
+        sigma_given: given.is_some(),
         covariance: Some(fit.covariance),
         rmsd_m: Some((sum / rows.len() as f64).sqrt()),
         points: rows,
@@ -129,7 +166,7 @@ fn by_points(
 ) -> Result<(Motion, Option<Scale>), Failure> {
     let from: Vec<Vector> = touched.iter().map(|t| t.from_m).collect();
     let to: Vec<Vector> = touched.iter().map(|t| t.to_m).collect();
-    let (weights, absolute) = weights(touched, name)?;
+    let (weights, absolute) = weights(&touched.iter().collect::<Vec<_>>(), name)?;
     // weights are 1/σ² in 1/m²: at weight one the deviation is one metre
     let given = if absolute { Some(1.0) } else { options.sigma_m };
     let named =
@@ -157,9 +194,23 @@ fn by_points(
         );
         findings.push(warning("bad-touch", name, message));
     }
+    let spread_m = (fit.from_spread_m2 / total_weight(used, touched.len())).sqrt();
+    let sets = Sets {
+        from: &from,
+        to: &to,
+        name,
+    };
+    let times = given.map(|given| noise_m(&residuals, used) / given);
+    let contradicted = times.and_then(|times| other_sigma(times, 3 * fit.count - 6, name));
+    let mut explained = false;
     if !options.robust {
-        suspect(touched, &from, &to, weights, given, findings, name);
+        let quiet = contradicted.is_some();
+        explained = suspect(touched, &sets, weights, given, spread_m, quiet, findings);
     }
+    if !explained {
+        sets.refuse_unlike(&fit, used, spread_m)?;
+    }
+    findings.extend(contradicted);
     if exact {
         findings.push(Finding::of_file(
             "few-points",
@@ -170,7 +221,8 @@ fn by_points(
     }
     let scale = Scale {
         value: fit.scale,
-        sigma: fit.scale_sigma(sigma),
+        // a stated deviation that the residuals contradict makes no scale sure
+        sigma: fit.scale_sigma(sigma * times.unwrap_or(1.0).max(1.0)),
     };
     findings.extend(other_scale(&scale, touched.len(), name));
     let mut rows: Vec<Residual> = touched
@@ -211,21 +263,136 @@ fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
     })
 }
 
-/// Without --robust: a point that the others contradict is reported, not left out.
+fn total_weight(weights: Option<&[f64]>, count: usize) -> f64 {
+    weights.map_or(count as f64, |w| w.iter().sum())
+}
+
+/// A stated deviation that the residuals contradict, by χ² of as many degrees of freedom.
+fn other_sigma(times: f64, freedom: usize, name: &str) -> Option<Finding> {
+    // Wilson and Hilferty: the cube root of χ²/ν is nearly normal
+    let spread = 2.0 / (9.0 * freedom.max(1) as f64);
+    let chance = |sign: f64| {
+        let root = 1.0 - spread + sign * SIGMA_CHANCE * spread.sqrt();
+        root.max(0.0).powf(1.5)
+    };
+    let (least, most) = (
+        chance(-1.0).min(SIGMA_FACTOR.recip()),
+        chance(1.0).max(SIGMA_FACTOR),
+    );
+    if times > most {
+        let message = format!(
+            "residuals are {times:.1} times the stated standard deviations (limit {most:.1}): these \
+             are too small, or the points are not those of FROM; the uncertainties here come from \
+             what is stated"
+        );
+        let hint = "sigma_mm is one standard deviation of a coordinate in mm; without it the noise \
+                    comes from the residuals";
+        return Some(warning("sigma-small", name, message).hint(hint));
+    }
+    (times < least).then(|| {
+        let message = format!(
+            "residuals are {times:.3} times the stated standard deviations (limit {least:.3}): \
+             these are too large"
+        );
+        let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";
+        warning("sigma-large", name, message).hint(hint)
+    })
+}
+
+/// Matched points of two files.
+struct Sets<'a> {
+    from: &'a [Vector],
+    to: &'a [Vector],
+    name: &'a str,
+}
+
+impl Sets<'_> {
+    /// Refuses points that no motion and no change of size lays on their partners.
+    fn refuse_unlike(&self, fit: &Fit, used: Option<&[f64]>, spread_m: f64) -> Result<(), Failure> {
+        let limit_m = UNLIKE * spread_m;
+        let rmsd_m = fit.rmsd_m(self.from, self.to, used);
+        if rmsd_m <= limit_m {
+            return Ok(());
+        }
+        // another size is a finding of its own
+        let total = total_weight(used, self.from.len());
+        let of_size = (fit.scale - 1.0).powi(2) * fit.from_spread_m2 / total;
+        if rmsd_m.powi(2) - of_size <= limit_m.powi(2) {
+            return Ok(());
+        }
+        let message = format!(
+            "{}: the points do not lie as those of FROM: the best motion leaves {:.3} mm root mean \
+             square (limit {:.3} mm, 5 % of their spread)",
+            self.name,
+            mm_from_m(rmsd_m),
+            mm_from_m(limit_m)
+        );
+        Err(Failure::with_hint(message, self.order(limit_m)))
+    }
+
+    /// The order of rows in which they fit.
+    fn order(&self, limit_m: f64) -> String {
+        let n = self.from.len();
+        let left_m = |from: &[Vector], to: &[Vector]| {
+            let fit = kabsch(from, to, None).ok()?;
+            Some(fit.rmsd_m(from, to, None)).filter(|left| *left <= limit_m)
+        };
+        let turned: Vec<Vector> = self.to.iter().rev().copied().collect();
+        let mut found: Vec<(f64, String)> = Vec::new();
+        let reversed = left_m(self.from, &turned);
+        found.extend(reversed.map(|left| (left, "in the reverse order".to_owned())));
+        // so many are left that they do not fit by chance
+        for by in 1..=(n / 2).min(FARTHEST_SHIFT).min(n.saturating_sub(4)) {
+            let rest = n - by;
+            let shifts = [
+                (&self.from[..rest], &self.to[by..], "later"),
+                (&self.from[by..], &self.to[..rest], "earlier"),
+            ];
+            for (from, to, whither) in shifts {
+                let left = left_m(from, to);
+                found.extend(left.map(|left| (left, format!("{by} row(s) {whither}"))));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.first().map_or_else(
+            || "do the rows of both files belong together? a column id in both matches them".into(),
+            |(left, order)| {
+                format!(
+                    "with the rows of {} taken {order} they fit to {:.3} mm: put them in the order \
+                     of FROM, or give both files a column id",
+                    self.name,
+                    mm_from_m(*left)
+                )
+            },
+        )
+    }
+}
+
+/// Without --robust: a point that the others contradict is reported, not left out. Whether the
+/// others fit.
 fn suspect(
     touched: &[Touched],
-    from: &[Vector],
-    to: &[Vector],
+    sets: &Sets,
     weights: Option<&[f64]>,
     given: Option<f64>,
+    spread_m: f64,
+    sigma_contradicted: bool,
     findings: &mut Vec<Finding>,
-    name: &str,
-) {
+) -> bool {
     if touched.len() > 2000 {
-        return;
+        return false;
     }
-    let Ok(found) = robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) else {
-        return;
+    let Sets { from, to, name } = *sets;
+    let found = match robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) {
+        Ok(found) => found,
+        Err(error @ RegisterError::NoAgreement { .. }) => {
+            if !sigma_contradicted {
+                let finding = warning("no-agreement", name, error.to_string());
+                findings.push(finding.hint(error.hint()));
+            }
+            return false;
+        }
+        Err(_) => return false,
     };
     let (enough, hint) = if touched.len() < robust::FEWEST {
         (SUSPECT_OF_FIVE, "touch it again; --robust needs six points")
@@ -242,10 +409,12 @@ fn suspect(
         );
         findings.push(warning("suspect-touch", name, message).hint(hint));
     }
+    let left_m = found.fit.rmsd_m(from, to, Some(&found.weights));
+    !found.rejected.is_empty() && left_m <= UNLIKE * spread_m
 }
 
 /// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.
-fn weights(touched: &[Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
+fn weights(touched: &[&Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
     let sigmas = touched.iter().filter(|t| t.variance_m2.is_some()).count();
     let relative = touched.iter().filter(|t| t.weight.is_some()).count();
     if sigmas > 0 && relative > 0 {
@@ -286,16 +455,31 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
             }
         }
     }
-    let variances = [from.sigma_m, to.sigma_m].map(|s| s.map(|s| s * s));
-    let variance_m2 = match variances {
-        [None, None] => None,
-        [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
-    };
     Ok(Touched {
         id: from.id.clone(),
         from_m,
         to_m,
-        variance_m2,
+        variance_m2: variance_of([from.sigma_m, to.sigma_m]),
+        weight: to.weight.or(from.weight),
+    })
+}
+
+/// The variance of a difference of which one or both deviations are known.
+fn variance_of(sigmas_m: [Option<f64>; 2]) -> Option<f64> {
+    match sigmas_m.map(|s| s.map(|s| s * s)) {
+        [None, None] => None,
+        [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
+    }
+}
+
+/// The touches of a plane.
+fn touches_of(pair: &Pair) -> impl Iterator<Item = Touched> {
+    let from = pair.from;
+    pair.to.iter().enumerate().map(move |(k, to)| Touched {
+        id: format!("{}/{}", from.id, k + 1),
+        from_m: from.point_m,
+        to_m: to.point_m,
+        variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
     })
 }
@@ -363,8 +547,17 @@ fn round(
         id: id.clone(),
         from_m: pair.from.point_m,
         to_m: fit.centre_m,
-        variance_m2: None,
-        weight: pair.from.weight,
+        variance_m2: variance_of([pair.from.sigma_m, centre_sigma_m(pair, &fit)]),
+        weight: pair.from.weight.or(pair.to[0].weight),
     };
     Ok((touched, feature))
+}
+
+/// The deviation of a coordinate of a fitted centre, from those of its touches: the root mean
+/// square of the three.
+fn centre_sigma_m(pair: &Pair, fit: &Round) -> Option<f64> {
+    let variances = pair.to.iter().map(|row| row.sigma_m.map(|s| s * s));
+    let sum: f64 = variances.sum::<Option<f64>>()?;
+    let trace: f64 = (0..3).map(|k| fit.centre_covariance[k][k]).sum();
+    Some((trace / 3.0 * sum / pair.to.len() as f64).sqrt())
 }

@@ -4,7 +4,7 @@ use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, norm, scale};
 use crate::program::Source;
 use crate::task::failure::Failure;
-use crate::task::table::Table;
+use crate::task::table::{Row, Table};
 use std::collections::BTreeMap;
 
 /// Columns of a position.
@@ -31,7 +31,8 @@ pub(crate) struct PointRow {
     pub radius_m: Option<f64>,
     pub sigma_m: Option<f64>,
     pub weight: Option<f64>,
-    pub datum: Option<String>,
+    /// The datum touched, from 0, or what stands in its cell instead: read for a 3-2-1 frame only.
+    pub datum: Option<Result<usize, Failure>>,
 }
 
 /// A table of points.
@@ -95,7 +96,7 @@ impl Points {
                 radius_m: number_in(radius)?.map(m_from_mm),
                 sigma_m: sigma_mm.map(m_from_mm),
                 weight: number_in(weight)?,
-                datum: row.text("datum").map(str::to_owned),
+                datum: filled("datum").then(|| datum(&row)),
             });
         }
         Ok(Self {
@@ -109,6 +110,18 @@ impl Points {
     pub(crate) fn positions(&self) -> Vec<Vector> {
         self.rows.iter().map(|row| row.point_m).collect()
     }
+}
+
+/// The datum that a cell names, from 0.
+fn datum(row: &Row) -> Result<usize, Failure> {
+    let number = row.number("datum")?;
+    let known = [1.0, 2.0, 3.0].iter().position(|datum| *datum == number);
+    known.ok_or_else(|| {
+        let message = format!(
+            "column datum: {number} is not 1 (primary), 2 (secondary) or 3 (tertiary datum)"
+        );
+        row.failure_in("datum", message)
+    })
 }
 
 /// A row of FROM and the rows of TO that measure it.

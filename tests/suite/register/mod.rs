@@ -2,6 +2,7 @@
 
 mod camera;
 mod commands;
+mod mistakes;
 mod oracle;
 mod part;
 mod procedure;
