@@ -357,7 +357,7 @@ mod tests {
         });
         profile.quality = Some(whole.clone());
         assert!(quality_of(&profile).is_ok());
-        // the third changes with the first, against the second, and these two together: no numbers do
+        // the third goes with the first and against the second, which go together
         let odd = json!([[1.0], [0.9, 1.0], [0.9, -0.9, 1.0]]);
         for (pointer, value, key) in [
             (
