@@ -49,7 +49,8 @@ fn measured(count: usize) -> Measurements {
                 .map(|j| random.between(j.min_rad, j.max_rad)),
             stand: Stand::default(),
             plate: None,
-            conditions: None,
+            direction: None,
+            force_n: [0.0; 3],
         })
         .collect();
     let session = Session {

@@ -404,7 +404,6 @@ pub(crate) fn simulate(
         interval_s,
         seed,
     };
-    let said = direction.is_some() || force_n.is_some();
     let directions = each("direction", direction.as_ref(), q.len())?;
     let forces = each("force_n", force_n.as_ref(), q.len())?;
     let commands: Vec<Command> = q
@@ -414,11 +413,8 @@ pub(crate) fn simulate(
             q: *q,
             stand: Stand::default(),
             plate: None,
-            conditions: said.then(|| Conditions {
-                direction: directions.as_ref().map_or([0.0; 6], |all| all[i]),
-                force_n: forces.as_ref().map_or([0.0; 3], |all| all[i]),
-                ..Conditions::default()
-            }),
+            direction: directions.as_ref().map(|all| all[i]),
+            force_n: forces.as_ref().map_or([0.0; 3], |all| all[i]),
         })
         .collect();
     let file = &*profile.file;

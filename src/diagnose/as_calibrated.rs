@@ -33,6 +33,8 @@ const STEP: f64 = 1e-6;
 const UNKNOWN: f64 = 1.0;
 /// Of a joint's effect a smaller part is not seen: frames that are fitted take it up.
 const LEAST_SEEN: f64 = 1e-5;
+/// Of a variance, rounding.
+const ROUNDED: f64 = 1e-6;
 
 /// The answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,34 +69,95 @@ struct Quality<'a> {
     covariance: Vec<Vec<f64>>,
 }
 
+/// Why a profile and rows do not say whether the arm is as it was calibrated.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unsaid {
+    /// The profile does not say how well its arm was calibrated.
+    #[error("does not say how well its arm was calibrated")]
+    NoQuality,
+    /// A key of the block `quality` is missing, or is no such number.
+    #[error("calibration.quality: {key} is missing, or not {wanted}")]
+    Key {
+        /// Which key.
+        key: String,
+        /// What it has to be.
+        wanted: &'static str,
+    },
+    /// Too few numbers for the frames that are fitted to them.
+    #[error("{rows} rows are too few for the frames that are fitted to them")]
+    TooFew {
+        /// How many.
+        rows: usize,
+    },
+}
+
 /// From the block `quality` of a profile.
-fn quality_of(profile: &Profile) -> Option<Quality<'_>> {
-    let quality = profile.quality.as_ref()?;
+fn quality_of(profile: &Profile) -> Result<Quality<'_>, Unsaid> {
+    let quality = profile.quality.as_ref().ok_or(Unsaid::NoQuality)?;
+    let wrong = |key: &str, wanted| Unsaid::Key {
+        key: key.to_owned(),
+        wanted,
+    };
     let (kind, coordinates) = match quality["after"]["position"] {
         Value::Object(_) => ("position", 3.0),
         _ => ("range", 1.0),
     };
-    let number = |key: &str| quality["after"][kind][key].as_f64();
-    let (n, rms_m) = (number("n")?, m_from_mm(number("rms_mm")?));
-    let freedom = quality["degrees_of_freedom"].as_f64()?;
-    let parameters = quality["parameters"].as_array()?;
+    let above_0 = |value: &Value, key: &str| {
+        let number = value.as_f64().filter(|number| *number > 0.0);
+        number.ok_or_else(|| wrong(key, "a number above 0"))
+    };
+    let of_errors = |key: &str| {
+        let named = format!("after.{kind}.{key}");
+        above_0(&quality["after"][kind][key], &named)
+    };
+    let (n, rms_m) = (of_errors("n")?, m_from_mm(of_errors("rms_mm")?));
+    let freedom = above_0(&quality["degrees_of_freedom"], "degrees_of_freedom")?;
+    let no_list = wrong("parameters", "a list with the key of each");
+    let Some(parameters) = quality["parameters"].as_array() else {
+        return Err(no_list);
+    };
     let names = parameters.iter().map(|p| p["key"].as_str());
-    let rows = quality["covariance_lower_triangle"].as_array()?;
+    let triangle = "covariance_lower_triangle";
+    let rows = quality[triangle].as_array();
     let row = |row: &Value| row.as_array()?.iter().map(Value::as_f64).collect();
     // orientations count among the numbers, and not here
     let part = freedom / (freedom + parameters.len() as f64);
     let found = Quality {
         variance: rms_m * rms_m / coordinates / part,
         freedom: part * n * coordinates,
-        names: names.collect::<Option<_>>()?,
-        covariance: rows.iter().map(row).collect::<Option<_>>()?,
+        names: names.collect::<Option<_>>().ok_or(no_list)?,
+        covariance: (rows.and_then(|rows| rows.iter().map(row).collect()))
+            .ok_or_else(|| wrong(triangle, "rows of numbers"))?,
     };
+    if found.freedom < 1.0 {
+        return Err(wrong(
+            "degrees_of_freedom",
+            "so large that the coordinates have one",
+        ));
+    }
     let is_whole = found.covariance.len() == found.names.len()
         && (found.covariance.iter().zip(1..)).all(|(row, width)| row.len() == width);
-    (is_whole && found.variance > 0.0 && found.freedom >= 1.0).then_some(found)
+    if !is_whole || !found.is_covariance() {
+        return Err(wrong(
+            triangle,
+            "a covariance of the parameters (positive semi-definite)",
+        ));
+    }
+    Ok(found)
 }
 
 impl Quality<'_> {
+    /// Whether the matrix is positive semi-definite, up to rounding.
+    fn is_covariance(&self) -> bool {
+        let sigma = |i: usize| self.covariance[i][i].max(f64::MIN_POSITIVE).sqrt();
+        let count = self.names.len();
+        let correlation = DMatrix::from_fn(count, count, |i, j| {
+            let own = self.covariance[i.max(j)][i.min(j)] / sigma(i) / sigma(j);
+            if i == j { own + ROUNDED } else { own }
+        });
+        correlation.cholesky().is_some()
+    }
+
     /// The parameters that an estimate has, too, and their covariance, SI.
     fn of_estimate(&self, estimate: &Estimate) -> (Vec<Subject>, DMatrix<f64>) {
         let known: Vec<(usize, Subject, f64)> = (self.names.iter().enumerate())
@@ -124,7 +187,8 @@ pub(super) fn known_of(
     profile: &Profile,
     estimate: &Estimate,
 ) -> Option<(Vec<Subject>, DMatrix<f64>)> {
-    quality_of(profile).map(|quality| quality.of_estimate(estimate))
+    let quality = quality_of(profile).ok()?;
+    Some(quality.of_estimate(estimate))
 }
 
 /// Gaps of the coordinates of positions and distances, metres.
@@ -233,21 +297,27 @@ fn visible(limit: f64, a: f64, b: f64) -> f64 {
     high
 }
 
-/// Whether the rows judged are those of an arm as the profile's calibration left it; `None` where
-/// the profile does not say how well that is, or too few numbers were measured.
-#[must_use]
-pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrated> {
+/// Whether the rows judged are those of an arm as the profile's calibration left it.
+///
+/// # Errors
+/// The profile does not say how well that is, or too few numbers were measured.
+pub fn as_calibrated(profile: &Profile, found: &Validation) -> Result<AsCalibrated, Unsaid> {
     let quality = quality_of(profile)?;
     let (problem, estimate) = (&found.problem, &found.estimate);
     let gaps = gaps(problem, estimate);
-    let expected = Expected::of(found, &quality)?;
+    let too_few = Unsaid::TooFew {
+        rows: problem.rows.len(),
+    };
+    let Some(expected) = Expected::of(found, &quality) else {
+        return Err(too_few);
+    };
     let fitted = match found.refit {
         Refit::Judged => problem.parameters.len(),
         Refit::No | Refit::Others => 0,
     };
     let numbers = gaps.len() as f64 - fitted as f64;
     if numbers < 1.0 {
-        return None;
+        return Err(too_few);
     }
     let ratio = expected.size(&gaps) / numbers / quality.variance;
     let limit = f_quantile(1.0 - SIGNIFICANCE, numbers, quality.freedom);
@@ -263,7 +333,7 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
         let is_seen = seen > LEAST_SEEN * whole.norm_squared();
         is_seen.then(|| (noncentrality / seen).sqrt())
     });
-    Some(AsCalibrated {
+    Ok(AsCalibrated {
         is_so: ratio <= limit,
         rms_m: (gaps.norm_squared() / rows).sqrt(),
         ratio,
@@ -272,4 +342,51 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Option<AsCalibrat
         sees_m: (noncentrality / rows / expected.mean()).sqrt(),
         sees_rad,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_block_that_does_not_say_how_well_names_its_key() {
+        let text = include_str!("../../robots/abb_irb120_thesis.yaml");
+        let mut profile = Profile::from_yaml(text).expect("a shipped profile");
+        assert_eq!(quality_of(&profile).err(), Some(Unsaid::NoQuality));
+        let keys = ["x_mm", "y_mm", "z_mm"].map(|key| json!({"key": format!("base_frame {key}")}));
+        let whole = json!({
+            "after": {"position": {"n": 20, "rms_mm": 0.1}},
+            "degrees_of_freedom": 57,
+            "parameters": keys,
+            "covariance_lower_triangle": [[1.0], [0.9, 1.0], [0.9, 0.9, 1.0]],
+        });
+        profile.quality = Some(whole.clone());
+        assert!(quality_of(&profile).is_ok());
+        // the third goes with the first and against the second, which go together
+        let odd = json!([[1.0], [0.9, 1.0], [0.9, -0.9, 1.0]]);
+        for (pointer, value, key) in [
+            (
+                "/after/position/rms_mm",
+                json!(0.0),
+                "after.position.rms_mm",
+            ),
+            ("/degrees_of_freedom", json!(null), "degrees_of_freedom"),
+            (
+                "/covariance_lower_triangle",
+                odd,
+                "covariance_lower_triangle",
+            ),
+        ] {
+            let mut changed = whole.clone();
+            *changed.pointer_mut(pointer).expect("it is there") = value;
+            profile.quality = Some(changed);
+            let said = quality_of(&profile).err().map(|why| why.to_string());
+            let said = said.unwrap_or_default();
+            assert!(
+                said.contains(&format!("quality: {key} is missing")),
+                "{said}"
+            );
+        }
+    }
 }

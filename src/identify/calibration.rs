@@ -362,6 +362,7 @@ pub(super) fn identify(
         &problem,
         &after_misses,
         &frames_only_misses,
+        uncertainty.degrees_of_freedom,
     )?);
     remarks.extend(plausibility::check_values(
         &solution.parameters,

@@ -336,7 +336,8 @@ mod tests {
                 q: [0.0; 6].map(|_: f64| random.between(-1.5, 1.5)),
                 stand: Stand::default(),
                 plate: None,
-                conditions: None,
+                direction: None,
+                force_n: [0.0; 3],
             })
             .collect();
         let points = [

@@ -65,9 +65,10 @@ pub struct Command {
     pub stand: Stand,
     /// Index of the positioner on whose plate the points are; else they are on the tool.
     pub plate: Option<usize>,
-    /// Directions and force; directions are those from the configuration before where they are not
-    /// given.
-    pub conditions: Option<Conditions>,
+    /// From which side each joint comes; from the configuration before where it is not given.
+    pub direction: Option<[f64; 6]>,
+    /// Force of the process on the tool, newtons, as in [`Conditions`].
+    pub force_n: Vector,
 }
 
 /// From which side a joint or axis comes: −1, 0, or +1.
@@ -108,13 +109,14 @@ pub fn simulate(
         named.collect::<Vec<_>>()
     };
     for (i, command) in commands.iter().enumerate() {
-        let mut conditions = command.conditions.unwrap_or_else(|| {
-            let before = &commands[i.saturating_sub(1)].q;
-            Conditions {
-                direction: std::array::from_fn(|j| side(before[j], command.q[j])),
-                ..Conditions::default()
-            }
-        });
+        let mut conditions = Conditions {
+            direction: command.direction.unwrap_or_else(|| {
+                let before = &commands[i.saturating_sub(1)].q;
+                std::array::from_fn(|j| side(before[j], command.q[j]))
+            }),
+            force_n: command.force_n,
+            ..Conditions::default()
+        };
         let mut stand = command.stand.clone();
         if stand.directions.is_empty() {
             let before = &commands[i.saturating_sub(1)].stand.values;

@@ -57,7 +57,8 @@ impl Document for Poses {
 /// are used where the table has them: without these the base stands at home.
 ///
 /// # Errors
-/// A table without joints; a tool that the profile does not have.
+/// A table without joints, or with some of the columns of directions or forces only; a tool that
+/// the profile does not have.
 pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<Poses, Failure> {
     fk_telling(profile, joints, options, &mut |_, _| ())
 }
@@ -83,12 +84,9 @@ pub fn fk_telling(
     };
     let profile = &profile.profile;
     let columns = track_columns(&profile.external);
-    let is_carried = columns.iter().any(|column| table.has(column));
-    if is_carried {
-        table.require(&columns)?;
-    }
-    let has = |columns: &[&str]| is_real && columns.iter().all(|c| table.has(c));
-    let (directions, forces) = (has(&DIRECTION_COLUMNS), has(&FORCE_COLUMNS));
+    let is_carried = table.group(&columns)?;
+    let directions = is_real && table.group(&DIRECTION_COLUMNS)?;
+    let forces = is_real && table.group(&FORCE_COLUMNS)?;
     let pose = |(number, row): (usize, super::table::Row)| {
         let mut conditions = Conditions::default();
         if directions {

@@ -11,7 +11,6 @@ use crate::identify::measurements::{
     Measurements, Observed, POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
 use crate::identify::simulate::{Command, Device, Session, simulate as measure};
-use crate::model::Conditions;
 use crate::model::external::{Listed, Stand};
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
@@ -42,7 +41,8 @@ const STEPS: [f64; 3] = [-1.0, 0.0, 1.0];
 /// frame of the profile's device.
 ///
 /// # Errors
-/// A table without joints, or with directions of some of them only; a tool that the profile does not have.
+/// A table without joints, or with some of the columns of directions or forces only; a tool that
+/// the profile does not have.
 pub fn simulate(
     file: &ProfileFile,
     joints: &Source,
@@ -54,40 +54,41 @@ pub fn simulate(
     if !table.has("on") {
         table.require(&JOINTS)?;
     }
-    let directions = DIRECTION_COLUMNS.iter().any(|c| table.has(c));
-    if directions {
-        table.require(&DIRECTION_COLUMNS)?;
-    }
-    let forces = FORCE_COLUMNS.iter().all(|c| table.has(c));
+    let directions = table.group(&DIRECTION_COLUMNS)?;
+    let forces = table.group(&FORCE_COLUMNS)?;
     let command = |row: Row| {
-        let mut conditions = Conditions::default();
         let plate = plate(&file.profile, &row)?;
         if plate.is_some() {
             return Ok(Command {
                 q: [0.0; 6],
                 stand: stand(&file.profile, &row)?,
                 plate,
-                conditions: None,
+                direction: None,
+                force_n: [0.0; 3],
             });
         }
         table.require(&JOINTS)?;
+        let mut direction = None;
         if directions {
-            conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
-            let steps = conditions.direction.iter().zip(DIRECTION_COLUMNS);
-            if let Some((step, column)) = steps.into_iter().find(|(d, _)| !STEPS.contains(*d)) {
+            let given: [f64; 6] = row.numbers(DIRECTION_COLUMNS)?;
+            let mut steps = given.iter().zip(DIRECTION_COLUMNS);
+            if let Some((step, column)) = steps.find(|(d, _)| !STEPS.contains(*d)) {
                 return Err(row.failure(format!(
                     "column {column}: {step} is no direction: -1, 0 or 1"
                 )));
             }
+            direction = Some(given);
         }
+        let mut force_n = [0.0; 3];
         if forces {
-            conditions.force_n = row.numbers(FORCE_COLUMNS)?;
+            force_n = row.numbers(FORCE_COLUMNS)?;
         }
         Ok(Command {
             q: row.joints()?,
             stand: stand(&file.profile, &row)?,
             plate,
-            conditions: (directions || forces).then_some(conditions),
+            direction,
+            force_n,
         })
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;

@@ -117,6 +117,18 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Whether it has these columns: all of them or none.
+    ///
+    /// # Errors
+    /// It has some of them, or one twice.
+    pub(super) fn group(&self, columns: &[&str]) -> Result<bool, Failure> {
+        let any = columns.iter().any(|column| self.has(column));
+        if any {
+            self.require(columns)?;
+        }
+        Ok(any)
+    }
+
     /// The rows in the order of the file; `tell` hears how many of how many are done.
     pub(super) fn rows_telling<'t>(
         &'t self,

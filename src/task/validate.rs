@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, WorstRow, findings};
 use super::profile_file::ProfileFile;
-use crate::diagnose::as_calibrated::{self as standing, as_calibrated};
+use crate::diagnose::as_calibrated::{self as standing, Unsaid, as_calibrated};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
@@ -405,20 +405,21 @@ fn of_found(
 /// Whether the arm errs as it did when it was calibrated.
 fn standing_of(file: &ProfileFile, found: &Found) -> Result<AsCalibrated, Failure> {
     let name = &file.name;
-    match as_calibrated(&file.profile, found) {
-        Some(standing) => Ok(AsCalibrated::of(&standing)),
-        None if file.profile.quality.is_some() => Err(Failure::with_hint(
-            format!(
-                "{} rows are too few for the frames that are fitted to them",
-                found.problem.rows.len()
-            ),
+    let standing = as_calibrated(&file.profile, found).map_err(|unsaid| match unsaid {
+        Unsaid::TooFew { .. } => Failure::with_hint(
+            unsaid.to_string(),
             "measure more poses, or leave --refit-frames out where the device stands as it did",
-        )),
-        None => Err(Failure::with_hint(
-            format!("{name} does not say how well its arm was calibrated"),
+        ),
+        Unsaid::Key { .. } => Failure::with_hint(
+            format!("{name}: {unsaid}"),
+            "`calibrate` writes that block: take it as it was written, or calibrate again",
+        ),
+        Unsaid::NoQuality => Failure::with_hint(
+            format!("{name} {unsaid}"),
             "`calibrate` writes that into the profile, under quality",
-        )),
-    }
+        ),
+    })?;
+    Ok(AsCalibrated::of(&standing))
 }
 
 fn too_few(name: &str, error: &IdentifyError) -> Failure {

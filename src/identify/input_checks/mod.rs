@@ -61,9 +61,18 @@ fn suspicious(message: String, hint: &str) -> IdentifyError {
     }
 }
 
-/// Residuals that are so many times their stated standard deviations.
-fn sigma(times: f64) -> Option<Remark> {
-    if times > SIGMA_FACTOR {
+/// A standard normal number is beyond this on one side once in a thousand times.
+const RARELY: f64 = 3.09;
+
+/// Residuals that are so many times their stated standard deviations, by their degrees of freedom;
+/// reported where the right deviations give such a number rarely.
+///
+/// # Source
+/// E. B. Wilson, M. M. Hilferty, *PNAS* 17 (1931) 684, for the quantiles of chi-squared.
+fn sigma(times: f64, freedom: f64) -> Option<Remark> {
+    let part = 2.0 / (9.0 * freedom);
+    let quantile = |z: f64| (1.0 - part + z * part.sqrt()).max(0.0).powi(3).sqrt();
+    if times > SIGMA_FACTOR.max(quantile(RARELY)) {
         let message = format!(
             "residuals are {times:.1} times the stated standard deviations: they are too small by \
              that, or the model misses something"
@@ -76,7 +85,7 @@ fn sigma(times: f64) -> Option<Remark> {
         };
         return Some(remark("sigma-small", WHOLE_FILE, message, hint));
     }
-    (times < SIGMA_FACTOR.recip()).then(|| {
+    (times < SIGMA_FACTOR.recip().min(quantile(-RARELY))).then(|| {
         let message = format!(
             "residuals are {times:.3} times the stated standard deviations: they are too large by \
              a factor of {:.0}",
@@ -85,4 +94,22 @@ fn sigma(times: f64) -> Option<Remark> {
         let hint = "sigma_mm is one standard deviation of a coordinate in mm, not in micrometres";
         remark("sigma-large", WHOLE_FILE, message, hint)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_degrees_of_freedom_say_little_of_stated_deviations() {
+        let id = |times, freedom| sigma(times, freedom).map(|remark| remark.id);
+        // chi-squared of 5 is below 0.21 once in a thousand times: 0.205 of the deviation
+        assert_eq!(id(0.25, 5.0), None);
+        assert_eq!(id(0.15, 5.0), Some("sigma-large"));
+        assert_eq!(id(0.25, 60.0), Some("sigma-large"));
+        // of 1 it is above 10.8 as rarely: 3.29 of the deviation
+        assert_eq!(id(3.2, 1.0), None);
+        assert_eq!(id(3.2, 60.0), Some("sigma-small"));
+        assert_eq!(id(3.5, f64::INFINITY), Some("sigma-small"));
+    }
 }

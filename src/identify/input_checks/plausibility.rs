@@ -54,6 +54,7 @@ pub(crate) fn check_fit(
     problem: &Problem,
     after: &[Miss],
     frames_only: &[Miss],
+    degrees_of_freedom: usize,
 ) -> Result<Vec<Remark>, IdentifyError> {
     let length = |misses: &[Miss]| usual(misses.iter().map(|miss| miss.length_m)).unwrap_or(0.0);
     let (missed, frames) = (length(after), length(frames_only));
@@ -96,7 +97,12 @@ pub(crate) fn check_fit(
         ));
     }
     let times = times_sigma(after).filter(|_| !problem.sigma_assumed);
-    remarks.extend(times.and_then(sigma));
+    // what parameters take up is missing in the residuals of few rows
+    let numbers: usize = problem.rows.iter().map(|row| row.observed.count()).sum();
+    let freedom = degrees_of_freedom as f64;
+    let taken = (numbers as f64 / freedom).max(1.0).sqrt();
+    let times = times.filter(|_| degrees_of_freedom > 0);
+    remarks.extend(times.and_then(|times| sigma(times * taken, freedom)));
     Ok(remarks)
 }
 

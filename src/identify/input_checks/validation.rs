@@ -106,6 +106,10 @@ pub(crate) fn after(
         };
         remarks.push(remark("worse-than-nominal", WHOLE_FILE, message, hint));
     }
-    remarks.extend(normalised.filter(|_| moved.is_none()).and_then(sigma));
+    remarks.extend(
+        normalised
+            .filter(|_| moved.is_none())
+            .and_then(|times| sigma(times, f64::INFINITY)),
+    );
     remarks
 }

@@ -27,6 +27,12 @@ pub enum Fault {
         /// What the parser says.
         message: String,
     },
+    /// Statistics of a calibration that are none.
+    #[error("calibration.quality: {message}")]
+    Quality {
+        /// Which key, and what is wrong with it.
+        message: String,
+    },
     /// Not a profile, or of another version.
     #[error("format is `{found}`; this program reads `{reads}`")]
     Format {
@@ -325,7 +331,12 @@ impl ProfileError {
                 reads: super::FORMAT,
                 ..
             } => "`poseshift profile schema` prints the format".into(),
-            Fault::Yaml { message } => {
+            Fault::Quality { message } if !message.starts_with("unknown field") => {
+                "`calibrate` writes this block: take it from the file as it was written, or leave \
+                 it out"
+                    .into()
+            }
+            Fault::Yaml { message } | Fault::Quality { message } => {
                 let formats = "docs/formats.md and `poseshift profile schema` describe the formats";
                 // the parser names a key that it does not know, and then those it knows
                 let rest = message.strip_prefix("unknown field `");

@@ -300,7 +300,8 @@ pub struct CalibrationFile {
     pub world_from_device: Option<DeviceFile>,
     /// Statistics of the fit.
     #[serde(default)]
-    pub quality: Option<serde_json::Value>,
+    #[schemars(with = "Option<serde_json::Value>")]
+    pub quality: Option<Spanned<serde_json::Value>>,
     /// Where the calibration comes from.
     #[serde(default)]
     pub provenance: Option<serde_json::Value>,

@@ -7,6 +7,7 @@ mod error;
 pub(crate) mod external;
 pub(crate) mod file;
 mod makers;
+mod quality;
 mod reading;
 mod rewrite;
 pub(crate) mod shape;

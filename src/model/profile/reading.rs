@@ -197,11 +197,19 @@ impl Profile {
                 .as_ref()
                 .map(DevicePlace::from_file)
                 .transpose()?,
-            quality: file.calibration.quality,
+            quality: file.calibration.quality.map(quality).transpose()?,
             provenance: file.calibration.provenance,
             external,
         };
         Ok(profile)
+    }
+}
+
+/// A block `quality` that may be believed.
+fn quality(block: Spanned<serde_json::Value>) -> Result<serde_json::Value, ProfileError> {
+    match super::quality::fault(&block.value) {
+        Some(message) => Err(Fault::Quality { message }.at(block.defined)),
+        None => Ok(block.value),
     }
 }
 

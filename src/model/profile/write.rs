@@ -323,7 +323,8 @@ mod tests {
             },
             parameters: [1e-9; MOST_PARAMETERS],
         });
-        profile.quality = Some(json!({"mean_mm": 0.1, "matrix": [[1.0, 2.5e-12], [0.0, 1.0]]}));
+        profile.quality =
+            Some(json!({"sigma_factor": 0.1, "track_mm": [[1.0, 2.5e-12], [0.0, 1.0]]}));
         let out = rewritten(text, &profile).expect("a plain layout");
         assert!(out.contains("# Bodies: the thesis."));
         assert!(out.contains("max_deg: 165, speed_deg_s: 250}"));

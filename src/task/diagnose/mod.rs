@@ -304,6 +304,33 @@ fn is_new(file: &ProfileFile, sha256: &[String]) -> bool {
     })
 }
 
+/// What is accepted is not rejected, too.
+fn refuse_both(accept: &[Pick], reject: &[Pick]) -> Result<(), Failure> {
+    let is_within = |accepted: &Pick, rejected: &Pick| {
+        let (places, wider) = (&accepted.places, &rejected.places);
+        accepted.kind.is_some()
+            && !accepted.together
+            && (rejected.key.is_none() || rejected.key == accepted.key)
+            && accepted.kind == rejected.kind
+            && wider.len() <= places.len()
+            && wider
+                .iter()
+                .zip(places)
+                .all(|(all, own)| all.0 <= own.0 && own.1 <= all.1)
+    };
+    let mut both = accept
+        .iter()
+        .filter(|own| reject.iter().any(|other| is_within(own, other)));
+    match both.next().and_then(|own| own.kind) {
+        None => Ok(()),
+        Some(kind) => Err(Failure::with_hint(
+            format!("--accept and --reject both hold `{}`", kind.definition().id),
+            "leave one of the two out, or name its joint: `--accept backlash:3 --reject \
+             backlash:2`",
+        )),
+    }
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -322,6 +349,7 @@ pub fn diagnose(
         findings: mut read,
         ..
     } = measurements;
+    refuse_both(&options.accept, &options.reject)?;
     let (tool, plates) = of_the_arm(all, &name)?;
     let of_arm = Options {
         is_new: is_new(file, &sha256),
@@ -568,4 +596,38 @@ fn absorbed(d: &Found) -> Vec<&'static str> {
         }
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::effects::Kind;
+
+    #[test]
+    fn what_is_accepted_is_not_rejected_too() {
+        let backlash = |places: &[(u32, u32)]| Pick {
+            kind: Some(Kind::Backlash),
+            places: places.to_vec(),
+            key: None,
+            together: false,
+        };
+        let (all, third) = (backlash(&[]), backlash(&[(3, 3)]));
+        let said = refuse_both(std::slice::from_ref(&third), std::slice::from_ref(&all));
+        let message = said.expect_err("a contradiction").message;
+        assert!(message.contains("both hold `backlash`"), "{message}");
+        // all but one joint, another joint, and one of what a word means together
+        let word = Pick {
+            together: true,
+            ..third.clone()
+        };
+        for (accept, reject) in [
+            (&all, &third),
+            (&third, &backlash(&[(2, 2)])),
+            (&word, &all),
+        ] {
+            assert!(
+                refuse_both(std::slice::from_ref(accept), std::slice::from_ref(reject)).is_ok()
+            );
+        }
+    }
 }

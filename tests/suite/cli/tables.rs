@@ -227,6 +227,50 @@ fn rows_behind_windows_line_ends_and_directions_that_are_none_are_named() {
 }
 
 #[test]
+fn some_of_the_columns_of_a_force_or_of_directions_are_refused() {
+    let folder = scratch();
+    let file = folder.path().join("q.csv");
+    let path = file.to_str().expect("UTF-8");
+    let joints = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
+    for command in ["fk", "simulate"] {
+        for (column, missing) in [("fz_n", "fx_n, fy_n"), ("dir2", "dir1, dir3, dir4")] {
+            let text = format!("{joints},{column}\n1,2,3,4,5,6,1\n");
+            std::fs::write(&file, text).expect("scratch");
+            let reported = refused(&[command, "--profile", PROFILE, "--joints", path]);
+            let named = format!("columns are missing: {missing}");
+            assert!(reported.contains(&named), "{command}: {reported}");
+        }
+    }
+    // the controller's model knows neither: what it does not use it does not ask for
+    std::fs::write(&file, format!("{joints},fz_n\n1,2,3,4,5,6,1\n")).expect("scratch");
+    let model = ["--model", "controller"];
+    stdout(&[&["fk", "--profile", PROFILE, "--joints", path][..], &model].concat());
+}
+
+#[test]
+fn forces_of_zero_leave_the_directions_to_the_order_of_the_rows() {
+    let folder = scratch();
+    let file = folder.path().join("q.csv");
+    let path = file.to_str().expect("UTF-8");
+    let measured = |force: [&str; 2]| -> Vec<Vec<String>> {
+        let [columns, zeros] = force;
+        let joints = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
+        let rows = format!("1,2,3,4,5,6{zeros}\n2,1,4,3,6,6{zeros}\n");
+        std::fs::write(&file, format!("{joints}{columns}\n{rows}")).expect("scratch");
+        let text = stdout(&["simulate", "--profile", PROFILE, "--joints", path]);
+        let cells = |line: &str| line.split(',').take(16).map(str::to_owned).collect();
+        text.lines().map(cells).collect()
+    };
+    let (without, with) = (measured(["", ""]), measured([",fx_n,fy_n,fz_n", ",0,0,0"]));
+    assert_eq!(
+        without[0][10..],
+        ["dir1", "dir2", "dir3", "dir4", "dir5", "dir6"]
+    );
+    assert_eq!(without[2][10..], ["1", "-1", "1", "-1", "1", "0"]);
+    assert_eq!(without, with);
+}
+
+#[test]
 fn a_plan_of_too_few_configurations_names_its_own_options() {
     let profile = repository("robots/abb_irb120.yaml");
     let profile = profile.to_str().expect("UTF-8");

@@ -87,7 +87,8 @@ pub(super) fn commands(random: &mut StdRng, profile: &Profile, count: usize) -> 
         q: random_joints(random, profile),
         stand: Stand::default(),
         plate: None,
-        conditions: None,
+        direction: None,
+        force_n: [0.0; 3],
     };
     (0..count).map(one).collect()
 }

@@ -300,7 +300,8 @@ fn measurements_that_tell_nothing_of_the_arm_elsewhere_are_reported() {
             q: std::array::from_fn(|i| 0.4 + 0.02 * (c.q[i] - all[0].q[i])),
             stand: c.stand.clone(),
             plate: None,
-            conditions: None,
+            direction: None,
+            force_n: [0.0; 3],
         })
         .collect();
     let seen = measure(&truth, &narrow, &session());
