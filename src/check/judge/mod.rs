@@ -57,6 +57,7 @@ impl Job<'_> {
             }),
             path: None,
             clearance: None,
+            least_room: None,
             nominal_clearance_m: None,
             limits: None,
         };
