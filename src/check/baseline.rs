@@ -75,7 +75,7 @@ const MORE_IS_WORSE: [(&str, bool); 4] = [
     ("max_path_error_deg", true),
 ];
 /// Keys of a move of which less is worse.
-const LESS_IS_WORSE: [&str; 2] = ["clearance_mm", "nominal_clearance_mm"];
+const LESS_IS_WORSE: [&str; 3] = ["clearance_mm", "room_mm", "nominal_clearance_mm"];
 
 /// Reads a stored run.
 ///
@@ -205,6 +205,8 @@ fn compare_move(
             (Some(a), Some(b)) if sense * (a - b) > tolerance => {
                 comparison.better.push(difference(key));
             }
+            // a key that is younger than the stored run says nothing
+            (None, Some(_)) if old.get(key).is_none() => {}
             (Some(_), None) | (None, Some(_)) => comparison.worse.push(difference(key)),
             _ => {}
         }
@@ -321,6 +323,19 @@ mod tests {
         assert_eq!(compare(&turned).same, 1);
         turned["moves"] = json!([]);
         assert_eq!(compare(&turned).worse[0].what, "moves");
+    }
+
+    #[test]
+    fn less_room_is_worse_and_a_run_stored_before_it_was_reported_says_nothing_of_it() {
+        let with_room = |room: f64| {
+            let mut run = run(0.1, 5.0, 1.0, 0);
+            run["moves"][0]["room_mm"] = json!(room);
+            run
+        };
+        let compare = |before: &Value| compare(before, &with_room(1.0), Tolerances::default());
+        assert_eq!(compare(&with_room(2.0)).worse[0].what, "room_mm");
+        assert_eq!(compare(&with_room(0.5)).better[0].what, "room_mm");
+        assert_eq!(compare(&run(0.1, 5.0, 1.0, 0)).same, 1);
     }
 
     #[test]

@@ -38,7 +38,7 @@ const SAMPLED: usize = 2_000;
 /// More triangles than this stay in their tree.
 const FEW: usize = 48;
 
-/// How near the pair comes that has the least room.
+/// How near a pair comes: the nearest, or the one with the least room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
     /// Nowhere along the move are they nearer than this, metres.
@@ -57,6 +57,15 @@ pub struct Clearance {
     pub points: [Vector; 2],
     /// The bound is guaranteed; else only samples were looked at somewhere.
     pub certified: bool,
+}
+
+impl Clearance {
+    /// Nowhere along the move has the pair less room than this, metres: what is required of it is
+    /// taken off.
+    #[must_use]
+    pub fn room_m(&self) -> f64 {
+        self.clearance_m - self.required_m
+    }
 }
 
 /// A pair that is still in question in an interval; of a mesh one triangle, or all of them.
@@ -95,7 +104,7 @@ impl Ord for Node {
 }
 
 struct Search<'a> {
-    /// What is required of pairs counts; else whether they touch.
+    /// What is required of pairs counts; else their distance alone.
     rooms: bool,
     scene: &'a Scene,
     mover: &'a Mover<'a>,
@@ -110,11 +119,58 @@ struct Search<'a> {
     settled: f64,
 }
 
-/// The clearance of one move, as far as anything comes within `horizon_m` of what is required of
-/// it. Where all bodies are is known: see [`Scene::is_known`].
+/// What comes near along one move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    /// The pair that is the nearest, whatever is required of it.
+    pub nearest: Clearance,
+    /// The pair that has the least room: distance less what is required of it.
+    pub least_room: Clearance,
+}
+
+/// What comes near along one move, as far as anything comes within `horizon_m` of what is required
+/// of it. Where all bodies are is known: see [`Scene::is_known`].
+pub(crate) fn near(
+    scene: &Scene,
+    mover: &Mover,
+    leg: &Leg,
+    pieces: &[Piece],
+    horizon_m: f64,
+) -> Near {
+    let room = least_room(scene, mover, leg, pieces, horizon_m);
+    let alike = |one: Clearance| Near {
+        nearest: one,
+        least_room: one,
+    };
+    // as more room is left to it, only a pair of which less is required can be nearer
+    let is_less = |pair: &Watched| pair.required_m < room.required_m;
+    if room.sampled_m <= 0.0 || !scene.watched.iter().any(is_less) {
+        return alike(room);
+    }
+    let asked = Asked {
+        horizon_m: room.sampled_m.max(LEAST_HORIZON_M),
+        rooms: false,
+        below_m: room.required_m,
+    };
+    let others = searched(scene, mover, leg, pieces, asked);
+    if others.sampled_m <= 0.0 {
+        return alike(others);
+    }
+    let is_nearer = others.sampled_m < room.sampled_m;
+    Near {
+        nearest: Clearance {
+            clearance_m: room.clearance_m.min(others.clearance_m),
+            certified: room.certified && others.certified,
+            ..if is_nearer { others } else { room }
+        },
+        least_room: room,
+    }
+}
+
+/// The pair with the least room along one move, within `horizon_m` as [`near`].
 ///
 /// What touches comes before what only has too little room, whatever is required of it.
-pub(crate) fn clearance(
+pub(crate) fn least_room(
     scene: &Scene,
     mover: &Mover,
     leg: &Leg,
@@ -122,10 +178,18 @@ pub(crate) fn clearance(
     horizon_m: f64,
 ) -> Clearance {
     let horizon_m = horizon_m.max(LEAST_HORIZON_M);
-    let found = searched(scene, mover, leg, pieces, (horizon_m, true));
+    let search = |horizon_m, rooms| {
+        let asked = Asked {
+            horizon_m,
+            rooms,
+            below_m: f64::INFINITY,
+        };
+        searched(scene, mover, leg, pieces, asked)
+    };
+    let found = search(horizon_m, true);
     // a pair with too little room has ended the search for others
     if found.sampled_m > 0.0 && found.clearance_m < found.required_m {
-        let touching = searched(scene, mover, leg, pieces, (LEAST_HORIZON_M, false));
+        let touching = search(LEAST_HORIZON_M, false);
         if touching.sampled_m <= 0.0 {
             return touching;
         }
@@ -135,16 +199,21 @@ pub(crate) fn clearance(
     found
 }
 
-/// The same by one search: of the least room, or (`rooms` is false) of contact alone.
-fn searched(
-    scene: &Scene,
-    mover: &Mover,
-    leg: &Leg,
-    pieces: &[Piece],
-    (horizon_m, rooms): (f64, bool),
-) -> Clearance {
+/// What one search is for.
+#[derive(Clone, Copy)]
+struct Asked {
+    horizon_m: f64,
+    /// What is required of pairs counts; else their distance alone.
+    rooms: bool,
+    /// Only pairs of which less is required than this, metres.
+    below_m: f64,
+}
+
+/// The pair with the least room, or (`rooms` is false) the nearest one, by one search.
+fn searched(scene: &Scene, mover: &Mover, leg: &Leg, pieces: &[Piece], asked: Asked) -> Clearance {
+    let horizon_m = asked.horizon_m;
     let mut search = Search {
-        rooms,
+        rooms: asked.rooms,
         scene,
         mover,
         leg,
@@ -168,6 +237,7 @@ fn searched(
         settled: f64::INFINITY,
     };
     let all: Vec<Item> = (0..scene.watched.len())
+        .filter(|pair| scene.watched[*pair].required_m < asked.below_m)
         .map(|pair| Item {
             pair: u32::try_from(pair).unwrap_or(u32::MAX),
             triangle: None,

@@ -28,10 +28,17 @@ pub(crate) struct Asked {
     pub turn_rad: [f64; 6],
     /// Largest rate of each joint anywhere along the move, as [`Limits::rate_rad`].
     pub rate_rad: [f64; 6],
+    /// Least distance of each joint from its limits, as [`Limits::margin_rad`].
+    pub margin_rad: [f64; 6],
 }
 
 /// Samples of the distance from singularities in each piece.
 const SAMPLES: usize = 4;
+/// A bound of a rate that is above what is seen by more than this part of the fastest joint's rate
+/// bounds nothing.
+const SLACK: f64 = 0.02;
+/// Parts of one piece in which rates are looked at.
+const MOST_PARTS: usize = 64;
 /// A joint cannot be said to leave the straight line between two samples by more than this,
 /// radians.
 const MOST_BULGE_RAD: f64 = 0.5;
@@ -48,6 +55,52 @@ fn reach(ends: [f64; 2], jet: &Jet, long: f64) -> [f64; 2] {
     }
 }
 
+/// Largest mean rates of the joints over as many equal parts of a piece, from the joints where it
+/// begins.
+fn mean_rates(leg: &Leg, piece: &Piece, begin: &[f64; 6], parts: usize) -> [f64; 6] {
+    let long = piece.to - piece.from;
+    let (mut at, mut most) = (*begin, [0.0_f64; 6]);
+    for k in 1..=parts {
+        let last = at;
+        at = leg.joints(piece.from + long * k as f64 / parts as f64, &last);
+        for i in 0..6 {
+            most[i] = most[i].max((at[i] - last[i]).abs() * parts as f64 / long);
+        }
+    }
+    most
+}
+
+/// The largest rate of each joint in a piece: a bound where it is within [`SLACK`] of what is seen,
+/// else what is seen. No rate is farther from the mean of a part than half the part's length times
+/// the largest curvature.
+fn rates(leg: &Leg, piece: &Piece, begin: &[f64; 6], seen: [f64; 6], fastest: f64) -> [f64; 6] {
+    let long = piece.to - piece.from;
+    let fastest = seen.iter().fold(fastest, |a, b| a.max(*b));
+    let slack = SLACK * fastest;
+    let rise =
+        |i: usize, parts: usize| piece.joints[i].bend.magnitude() * long / (2.0 * parts as f64);
+    let slope = |i: usize| piece.joints[i].slope.magnitude();
+    let mut parts = SAMPLES;
+    for i in (0..6).filter(|&i| slope(i) > seen[i] + slack && rise(i, 1).is_finite()) {
+        while parts < MOST_PARTS && rise(i, parts) > slack {
+            parts *= 2;
+        }
+    }
+    let seen = if parts > SAMPLES {
+        mean_rates(leg, piece, begin, parts)
+    } else {
+        seen
+    };
+    std::array::from_fn(|i| {
+        let bound = slope(i).min(seen[i] + rise(i, parts));
+        if bound <= seen[i] + slack {
+            bound
+        } else {
+            seen[i]
+        }
+    })
+}
+
 /// What one move asks of the joints.
 pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Asked {
     let arm = &leg.equipped.arm;
@@ -59,7 +112,7 @@ pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Aske
         rate_rad: 0.0,
         duration_s: None,
     };
-    let mut rate_rad = [0.0_f64; 6];
+    let (mut rate_rad, mut margin_rad) = ([0.0_f64; 6], [f64::INFINITY; 6]);
     let mut at = leg.start;
     for piece in pieces {
         let begin = at;
@@ -80,18 +133,18 @@ pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Aske
             least.elbow_rad = least.elbow_rad.min(here.elbow_rad);
             least.shoulder_m = least.shoulder_m.min(here.shoulder_m);
         }
+        let fastest = rate_rad.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let rates = rates(leg, piece, &begin, seen, fastest);
         for i in 0..6 {
             // a joint path is straight in the joints: its ends say it all
             let [least, most] = reach([begin[i], at[i]], &piece.joints[i], long);
             let (least, most) = (least.min(low[i]), most.max(high[i]));
             let margin = (least - joints[i].min_rad).min(joints[i].max_rad - most);
+            margin_rad[i] = margin_rad[i].min(margin);
             if margin < found.margin_rad {
                 (found.margin_rad, found.joint) = (margin, i);
             }
-            let rate = piece.joints[i].slope.magnitude();
-            // a bound that is far above what is seen bounds nothing
-            let is_tight = rate * long < seen[i] * long + MOST_BULGE_RAD;
-            rate_rad[i] = rate_rad[i].max(if is_tight { rate } else { seen[i] });
+            rate_rad[i] = rate_rad[i].max(rates[i]);
         }
     }
     found.rate_rad = rate_rad.iter().fold(0.0, |a, b| a.max(*b));
@@ -105,5 +158,6 @@ pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Aske
         limits: found,
         turn_rad: std::array::from_fn(|i| at[i] - leg.start[i]),
         rate_rad,
+        margin_rad,
     }
 }

@@ -174,9 +174,12 @@ pub struct MoveReport {
     pub uncertainty_m: Option<f64>,
     /// The error along the path; `None` where it is unknown where the move begins.
     pub path: Option<PathError>,
-    /// The least room of the real arm; `None` where no bodies were compared.
+    /// The nearest pair of the real arm; `None` where no bodies were compared.
     pub clearance: Option<Box<Clearance>>,
-    /// The least room of the arm as the controller, or the simulation, believes it, metres: along
+    /// The pair with the least room, distance less what is required of it; `None` where that is
+    /// the nearest.
+    pub least_room: Option<Box<Clearance>>,
+    /// The least clearance of the arm as the controller, or the simulation, believes it, metres: along
     /// the whole move, and of samples.
     pub nominal_clearance_m: Option<[f64; 2]>,
     /// What it asks of the joints.
@@ -188,6 +191,12 @@ impl MoveReport {
     #[must_use]
     pub fn speed_zone(&self, program: &Program) -> SpeedZone {
         program.speed_zone(&program.moves[self.motion])
+    }
+
+    /// The pair of the real arm with the least room; `None` where no bodies were compared.
+    #[must_use]
+    pub fn room(&self) -> Option<&Clearance> {
+        self.least_room.as_deref().or(self.clearance.as_deref())
     }
 
     /// Whether its target is given in joints, which compensation leaves as they are unless it is
@@ -389,7 +398,8 @@ fn sum_up(program: &Program, moves: &[MoveReport], unknown: usize, no_bodies: bo
             let least = summary.min_clearance_m.unwrap_or(f64::INFINITY);
             summary.min_clearance_m = Some(least.min(c.clearance_m));
             summary.collisions += usize::from(c.sampled_m <= 0.0);
-            summary.too_near += usize::from(c.pair.is_some() && c.clearance_m < c.required_m);
+            let is_too_near = |room: &Clearance| room.pair.is_some() && room.room_m() < 0.0;
+            summary.too_near += usize::from(report.room().is_some_and(is_too_near));
         }
         let nominal = report.nominal_clearance_m;
         summary.nominal_collisions +=

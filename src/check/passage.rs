@@ -1,6 +1,6 @@
 //! Moves of joints that no program describes: whether the arm is clear everywhere on its path.
 
-use super::collision::clearance;
+use super::collision::least_room;
 use super::scene::Scene;
 use super::walk::{Arms, Which};
 use crate::geometry::units::MM;
@@ -46,7 +46,7 @@ impl Passage {
             ride: None,
         };
         let mover = self.arms.mover(Which::Real);
-        let found = clearance(scene, &mover, &leg, &leg.pieces(), HORIZON_M);
-        found.certified && found.clearance_m - found.required_m > room_m.min(0.5 * HORIZON_M)
+        let found = least_room(scene, &mover, &leg, &leg.pieces(), HORIZON_M);
+        found.certified && found.room_m() > room_m.min(0.5 * HORIZON_M)
     }
 }

@@ -40,6 +40,8 @@ pub(crate) fn text(found: &Checked) -> String {
             *worst = Some(one.clone());
         }
     };
+    // where it is unknown where a move begins, its end alone is known
+    let path_error = |one: &Move| one.max_path_error_mm.or(one.target_error_mm);
     let at_target = |one: &Move| one.target_error_mm.unwrap_or(0.0);
     for one in found.moves.iter() {
         let worst = if one.joint_target {
@@ -48,9 +50,7 @@ pub(crate) fn text(found: &Checked) -> String {
             &mut at_poses
         };
         larger(worst, &one, &at_target);
-        larger(&mut along, &one, &|one| {
-            one.max_path_error_mm.unwrap_or(0.0)
-        });
+        larger(&mut along, &one, &|one| path_error(one).unwrap_or(0.0));
     }
     if let Some(worst) = at_poses {
         let worst = shown(worst.target_error_mm, &worst);
@@ -63,10 +63,9 @@ pub(crate) fn text(found: &Checked) -> String {
         ));
     }
     if let Some(worst) = along {
-        let size = worst.max_path_error_mm.or(Some(0.0));
         lines.push(format!(
             "  along the path never more than {}, {} deg",
-            shown(size, &worst),
+            shown(path_error(&worst), &worst),
             fixed(max_path_error_deg, 3)
         ));
     }
@@ -151,6 +150,17 @@ pub(crate) fn junit(found: &Checked, comparison: Option<&Comparison>) -> String 
             cases.push((format!("line {}", key.1), found.unwrap_or_default()));
         }
         suites.push(junit::Suite { name: input, cases });
+    }
+    // files that are no program of the run: a mesh, a program that is gone
+    for ((name, line), found) in failures {
+        let case = (format!("line {line}"), found);
+        match suites.last_mut().filter(|suite| suite.name == name) {
+            Some(suite) => suite.cases.push(case),
+            None => suites.push(junit::Suite {
+                name,
+                cases: vec![case],
+            }),
+        }
     }
     junit::xml("poseshift check", &suites)
 }

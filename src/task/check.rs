@@ -263,10 +263,15 @@ pub struct Move {
     pub path_error_at: Option<f64>,
     /// Whether the bound holds between the samples.
     pub path_certified: Option<bool>,
-    /// Bound of the clearance of the real arm.
+    /// Bound of the clearance of the real arm: of the nearest pair, whatever is required of it.
     pub clearance_mm: Option<f64>,
     /// Where and of what.
     pub clearance: Option<Clearance>,
+    /// Bound of the least room of a pair of the real arm: their distance less what is required.
+    pub room_mm: Option<f64>,
+    /// Where and of what, where that is another pair than the nearest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub room: Option<Clearance>,
     /// Bound of the clearance of the nominal arm.
     pub nominal_clearance_mm: Option<f64>,
     /// How far a joint is from its limits.
@@ -338,6 +343,8 @@ impl Moves<'_> {
                 .as_ref()
                 .and_then(|c| tidy_mm(c.clearance_m)),
             clearance: report.clearance.as_ref().map(|c| self.clearance(c)),
+            room_mm: report.room().and_then(|c| tidy_mm(c.room_m())),
+            room: report.least_room.as_ref().map(|c| self.clearance(c)),
             nominal_clearance_mm: report
                 .nominal_clearance_m
                 .and_then(|[along, _]| tidy_mm(along)),

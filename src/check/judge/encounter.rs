@@ -2,7 +2,7 @@
 
 use super::Job;
 use crate::check::MoveReport;
-use crate::check::collision::{self, Clearance};
+use crate::check::collision::{self, Clearance, Near};
 use crate::check::walk::{Arms, Which};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -46,16 +46,20 @@ impl Job<'_> {
         findings: &mut Vec<Finding>,
     ) {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
-        let found = collision::clearance(scene, &arms.mover(Which::Real), leg, pieces, horizon);
-        report.clearance = Some(Box::new(found));
+        let found = collision::near(scene, &arms.mover(Which::Real), leg, pieces, horizon);
+        report.clearance = Some(Box::new(found.nearest));
+        let is_other = found.least_room.pair != found.nearest.pair;
+        report.least_room = is_other.then(|| Box::new(found.least_room));
         if first {
             for pair in collision::inside(scene, &arms.mover(Which::Real), leg, &leg.start) {
                 report.clearance = Some(Box::new(Clearance {
                     clearance_m: 0.0,
                     sampled_m: 0.0,
+                    required_m: scene.watched[pair].required_m,
                     pair: Some(pair),
-                    ..found
+                    ..found.nearest
                 }));
+                report.least_room = None;
                 let (a, b) = scene.names_of(&scene.watched[pair]);
                 let message = format!("{a} is inside {b}");
                 let hint = "is the cell in the robot's world frame?";
@@ -68,7 +72,7 @@ impl Job<'_> {
                 ));
             }
         }
-        if !found.certified && pieces.iter().all(|piece| piece.certified) {
+        if !found.nearest.certified && pieces.iter().all(|piece| piece.certified) {
             findings.push(self.subject.finding(
                 self.walk.motion(index),
                 "clearance-uncertified",
@@ -76,8 +80,8 @@ impl Job<'_> {
                 format!(
                     "bounds of the clearance cannot be guaranteed here: the arm moves too fast near \
                      a singularity; the nearest sample is {}",
-                    match found.pair {
-                        Some(_) => format!("{:.3} mm", mm_from_m(found.sampled_m)),
+                    match found.nearest.pair {
+                        Some(_) => format!("{:.3} mm", mm_from_m(found.nearest.sampled_m)),
                         None => "beyond the horizon".to_owned(),
                     }
                 ),
@@ -90,10 +94,12 @@ impl Job<'_> {
         } else {
             self.nominal_clearance(index, leg, pieces, arms)
         };
-        report.nominal_clearance_m = nominal.map(|near| [near.clearance_m, near.sampled_m]);
-        findings.extend(self.encounter(index, &REAL, Some(found), nominal, first));
+        report.nominal_clearance_m =
+            nominal.map(|near| [near.nearest.clearance_m, near.nearest.sampled_m]);
+        let found = Some(found);
+        findings.extend(self.encounter(index, &REAL, found, nominal, first));
         if !alike {
-            findings.extend(self.encounter(index, &NOMINAL, nominal, Some(found), first));
+            findings.extend(self.encounter(index, &NOMINAL, nominal, found, first));
         }
     }
 
@@ -103,11 +109,11 @@ impl Job<'_> {
         &self,
         index: usize,
         reported: &Reported,
-        found: Option<Clearance>,
-        other: Option<Clearance>,
+        found: Option<Near>,
+        other: Option<Near>,
         first: bool,
     ) -> Option<Finding> {
-        let found = found?;
+        let found = found?.least_room;
         let touches = found.sampled_m <= 0.0;
         if found.clearance_m >= found.required_m && !touches {
             return None;
@@ -122,7 +128,7 @@ impl Job<'_> {
             format!("at {:.1} % of the move", 100.0 * found.at)
         };
         let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
-        let comparison = compared(reported.other, other);
+        let comparison = compared(reported.other, other.map(|near| near.nearest));
         let name = reported.name;
         let (id, message) = if touches {
             let message = format!("the {name} arm's {a} touches {b} {place}{comparison}");
@@ -157,7 +163,7 @@ impl Job<'_> {
         leg: &Leg,
         pieces: &[Piece],
         arms: &Arms,
-    ) -> Option<Clearance> {
+    ) -> Option<Near> {
         let (scene, horizon) = (self.subject.scene, self.options.horizon_m);
         let part = self.parts.and_then(|parts| parts[index]);
         if let (Some(original), Some(part)) = (self.original, part) {
@@ -169,10 +175,10 @@ impl Job<'_> {
             }
             let mover = original.arms(&stop).mover(Which::Controller);
             let pieces = leg.pieces();
-            return Some(collision::clearance(scene, &mover, &leg, &pieces, horizon));
+            return Some(collision::near(scene, &mover, &leg, &pieces, horizon));
         }
         let mover = arms.mover(Which::Controller);
-        Some(collision::clearance(scene, &mover, leg, pieces, horizon))
+        Some(collision::near(scene, &mover, leg, pieces, horizon))
     }
 }
 

@@ -21,30 +21,38 @@ impl Job<'_> {
         findings: &mut Vec<Finding>,
     ) {
         let limits = &asked.limits;
-        let joint = &leg.equipped.arm.mechanism().joints[limits.joint];
-        let span = format!(
-            "limits {:.2} to {:.2} deg",
-            joint.min_rad / DEG,
-            joint.max_rad / DEG
-        );
+        let joints = &leg.equipped.arm.mechanism().joints;
+        let span = |i: usize| {
+            format!(
+                "limits {:.2} to {:.2} deg",
+                joints[i].min_rad / DEG,
+                joints[i].max_rad / DEG
+            )
+        };
         if limits.margin_rad < -1e-9 {
-            let message = format!(
-                "joint {} leaves its limits by {:.3} deg on this move ({span})",
-                limits.joint + 1,
-                -limits.margin_rad / DEG
-            );
+            let mut beyond: Vec<usize> = (0..6).filter(|&i| asked.margin_rad[i] < -1e-9).collect();
+            beyond.sort_by(|a, b| asked.margin_rad[*a].total_cmp(&asked.margin_rad[*b]));
+            let each = beyond.iter().map(|&i| {
+                format!(
+                    "joint {} leaves its limits by {:.3} deg on this move ({})",
+                    i + 1,
+                    -asked.margin_rad[i] / DEG,
+                    span(i)
+                )
+            });
             findings.push(self.subject.finding(
                 self.walk.motion(index),
                 "joint-limit",
                 Severity::Error,
-                message,
+                each.collect::<Vec<_>>().join("; "),
                 "move the target, or another configuration",
             ));
         } else if limits.margin_rad < self.options.limit_margin_rad {
             let message = format!(
-                "joint {} comes within {:.3} deg of its limits ({span})",
+                "joint {} comes within {:.3} deg of its limits ({})",
                 limits.joint + 1,
-                limits.margin_rad / DEG
+                limits.margin_rad / DEG,
+                span(limits.joint)
             );
             findings.push(self.subject.finding(
                 self.walk.motion(index),

@@ -57,6 +57,7 @@ impl Job<'_> {
             }),
             path: None,
             clearance: None,
+            least_room: None,
             nominal_clearance_m: None,
             limits: None,
         };
@@ -66,11 +67,12 @@ impl Job<'_> {
         let pieces = leg.pieces();
         if comes {
             report.path = Some(self.path_error(&leg, &pieces, arms, index));
-            let speed = self.walk.program.speed_zone(motion).speed_m_s;
-            let asked = limits::asked(&leg, &pieces, speed);
-            self.judge_limits(index, &leg, &stop, &asked, &mut findings);
-            report.limits = Some(asked.limits);
         }
+        // where it is unknown how the robot comes there, at the target alone
+        let speed = self.walk.program.speed_zone(motion).speed_m_s;
+        let asked = limits::asked(&leg, &pieces, speed);
+        self.judge_limits(index, &leg, &stop, &asked, &mut findings);
+        report.limits = Some(asked.limits);
         let scene = self.subject.scene;
         if !scene.is_empty() && scene.is_known(&leg) {
             self.judge_collisions(
@@ -151,7 +153,7 @@ impl Job<'_> {
                     mm_from_m(missed_m),
                     mm_from_m(limit)
                 ),
-                "compensate the program, or give --start-joints",
+                "compensate the program",
             ));
         }
     }

@@ -404,3 +404,54 @@ fn joints_in_no_unit_at_all_are_refused_before_they_are_followed() {
     assert_eq!((status, reported["line"].as_u64()), (1, Some(3)));
     assert_eq!(found["summary"]["unknown"], 1, "{found}");
 }
+
+#[test]
+fn what_is_worse_in_a_file_that_is_gone_is_a_failure_for_the_build_server() {
+    let folder = scratch();
+    let programs = folder.path().join("programs");
+    std::fs::create_dir(&programs).expect("scratch");
+    let [base, xml] = ["base.json", "junit.xml"].map(|file| folder.path().join(file));
+    let other = joint_move([0.0, 0.0, 0.0, 0.0, 30.0, 0.0]).replace("artifact", "tool0");
+    let other = format!("MODULE b\n  PROC other()\n{other}  ENDPROC\nENDMODULE\n");
+    for (file, text) in [("a.mod", PROGRAM), ("b.mod", &other)] {
+        std::fs::write(programs.join(file), text).expect("scratch");
+    }
+    let command = [
+        "check",
+        name(&programs),
+        "--profile",
+        PROFILE,
+        "--baseline",
+        name(&base),
+    ];
+    let (status, _, error) = run(&[&command[..], &["--update-baseline"]].concat());
+    assert_eq!(status, 0, "{error}");
+    std::fs::remove_file(programs.join("b.mod")).expect("it is there");
+    let (status, ..) = run(&[&command[..], &["--junit", name(&xml)]].concat());
+    assert_eq!(status, 1);
+    let xml = std::fs::read_to_string(&xml).expect("written");
+    assert!(
+        xml.contains("b.mod") && xml.contains("worse: moves"),
+        "{xml}"
+    );
+    assert!(xml.contains("failures=\"1\""), "{xml}");
+}
+
+#[test]
+fn of_a_move_that_begins_nobody_knows_where_the_text_says_the_error_of_its_end() {
+    let folder = scratch();
+    let program = folder.path().join("t.mod");
+    let only = PROGRAM.replace("    MoveJ p1,v200,fine,artifact;\n", "");
+    let only = only.replace("    MoveL p2,v100,z10,artifact;\n", "");
+    let only = only.replace("    MoveC p3,p1,v100,fine,artifact;\n", "");
+    std::fs::write(&program, only).expect("scratch");
+    let command = ["check", name(&program), "--profile", PROFILE];
+    let (_, report) = json(&command);
+    let most_mm = report["summary"]["max_path_error_mm"].as_f64();
+    let most_mm = format!("never more than {:.3}", most_mm.expect("a number"));
+    let (_, out, _) = run(&command);
+    assert!(
+        out.contains(&most_mm) && !most_mm.ends_with("0.000"),
+        "{out}"
+    );
+}

@@ -79,6 +79,21 @@ fn a_configuration_that_a_straight_move_cannot_reach_is_an_error() {
 }
 
 #[test]
+fn limits_count_at_a_target_that_the_robot_comes_to_from_an_unknown_place() {
+    // joint 1 ends at 165 degrees, joint 5 at 120
+    let found = checked(&joint_move([170.0, 0.0, 0.0, 0.0, 122.0, 0.0]));
+    let limit = found.findings.iter().find(|f| f.id == "joint-limit");
+    let message = &limit.expect("the first target counts").message;
+    let worst_first = message.find("joint 1 leaves its limits by 5.000");
+    let then = message.find("joint 5 leaves its limits by 2.000");
+    assert!(worst_first < then && worst_first.is_some(), "{message}");
+    let near = checked(&joint_move([164.5, 0.0, 0.0, 0.0, 30.0, 0.0]));
+    assert!(ids(&near).contains(&("near-joint-limit", Severity::Warning)));
+    let margin_rad = near.moves[0].limits.expect("limits").margin_rad;
+    assert!((margin_rad.to_degrees() - 0.5).abs() < 1e-6, "{margin_rad}");
+}
+
+#[test]
 fn a_straight_move_past_axis_1_leaves_the_limits_though_both_ends_are_inside() {
     let from = [60.0, 0.0, 20.0, 0.0, 70.0, 0.0];
     let to = [-120.0, 0.0, 20.0, 0.0, 70.0, 0.0];

@@ -111,7 +111,7 @@ fn compare_straight_moves(profile: &Profile) {
             isometry(nominal.forward(&start, &conditions)),
             isometry(nominal.forward(found.joints(&found.moves[1]), &conditions)),
         );
-        let (mut near, mut far) = (start, 0.0_f64);
+        let (mut near, mut far, mut rate) = (start, 0.0_f64, 0.0_f64);
         for k in 0..=1000 {
             let s = f64::from(k) / 1000.0;
             let between = from.lerp_slerp(&to, s);
@@ -125,6 +125,9 @@ fn compare_straight_moves(profile: &Profile) {
             let leap = (0..6)
                 .map(|i| (next.q[i] - near[i]).abs())
                 .fold(0.0, f64::max);
+            if k > 0 {
+                rate = rate.max(1000.0 * leap);
+            }
             assert!(
                 k == 0 || leap < 0.3,
                 "{s} {:?} {near:?} {:?}",
@@ -138,6 +141,11 @@ fn compare_straight_moves(profile: &Profile) {
         }
         assert!(far <= path.bound.distance_m + 1e-9, "{far} {path:?}");
         assert!(path.bound.distance_m <= 1.02 * far + 4e-6, "{far} {path:?}");
+        let reported = found.moves[1].limits.expect("limits").rate_rad;
+        assert!(
+            reported > 0.97 * rate - 1e-6 && reported < 1.05 * rate + 1e-6,
+            "{reported} {rate}"
+        );
         compared += 1;
     }
     assert!(compared >= 30, "{compared}");

@@ -86,3 +86,33 @@ ENDMODULE
         .expect("a number");
     assert!(most > 1.0, "{most}");
 }
+
+#[test]
+fn the_clearance_is_that_of_the_nearest_pair_whatever_is_required_of_others() {
+    // the plate is below the tip, the person 245 mm in front of it
+    let cell = PLATE.replace("y_mm: 13, z_mm: 400", "y_mm: 13, z_mm: 300");
+    let plain = checked(PROGRAM, &cell, &["--horizon", "500"]).1;
+    let nearest_mm = plain["summary"]["min_clearance_mm"].as_f64();
+    let nearest_mm = nearest_mm.expect("bodies");
+    assert!(nearest_mm > 0.0, "{nearest_mm}");
+    for required_mm in [230, 240] {
+        let cell = format!("{cell}pairs: [{{a: tip, b: person, clearance_mm: {required_mm}}}]\n");
+        let (_, report) = checked(PROGRAM, &cell, &["--horizon", "500"]);
+        for (one, other) in (plain["moves"].as_array().into_iter().flatten())
+            .zip(report["moves"].as_array().into_iter().flatten())
+        {
+            let [plain_mm, found_mm] = [one, other].map(|m| m["clearance_mm"].as_f64());
+            let apart = plain_mm.expect("bodies") - found_mm.expect("bodies");
+            assert!(apart.abs() < 0.011, "{required_mm}: {one} {other}");
+            assert_eq!(one["clearance"]["b"], other["clearance"]["b"]);
+            // the least room is of no pair more than of the nearest
+            assert!(other["room_mm"].as_f64() <= other["clearance_mm"].as_f64());
+        }
+        let last = &report["moves"][2];
+        assert!(
+            last["room_mm"].as_f64() < last["clearance_mm"].as_f64(),
+            "{last}"
+        );
+        assert_eq!(last["room"]["b"], "person", "{last}");
+    }
+}
