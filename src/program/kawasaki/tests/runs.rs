@@ -115,3 +115,25 @@ fn tools_and_bases_are_sums_and_tools_have_a_shape() {
     let base = program.frames[motion.frame].world_from_frame;
     assert_eq!(base.expect("known").translation, [0.0, 0.0, -0.1]);
 }
+
+#[test]
+fn a_name_that_is_added_to_another_is_no_target() {
+    for code in [
+        "TOOL grip+off\nLMOVE p1\nTOOL NULL\nLMOVE off",
+        "BASE p1+off\nLMOVE p[1]\nBASE NULL\nLMOVE off",
+        "LMOVE p1+off\nBASE grip\nLMOVE off",
+        "BASE off+grip\nLMOVE p1\nBASE NULL\nLMOVE off",
+    ] {
+        let program = read(&format!("TOOL NULL\nBASE NULL\nJMOVE #home\n{code}"));
+        let found = (program.findings.iter()).find(|finding| finding.id == "target-used-as-frame");
+        let found = found.expect(code);
+        assert!(
+            found.message.starts_with("off: ") && found.message.contains("(see 0.as line 5)"),
+            "{code}: {}",
+            found.message
+        );
+    }
+    // what no move goes to stays as it is
+    let program = read("TOOL NULL\nBASE grip+off\nJMOVE #home\nLMOVE p1+off");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+}
