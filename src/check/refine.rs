@@ -17,7 +17,7 @@ use crate::model::Conditions;
 use crate::motion::course::{Course, Leg, ToolCourse};
 use crate::motion::external;
 use crate::program::number::{Fraction, Style};
-use crate::program::{Between, Displacement, Insertion, Posture, Role, Settings, Value};
+use crate::program::{Between, Displacement, FrameId, Insertion, Posture, Role, Settings, Value};
 use rayon::prelude::*;
 
 /// A move is cut into at most so many parts.
@@ -130,9 +130,24 @@ impl Job<'_> {
         if let Some(q) = self.compensation.own_joints.get(&self.walk.index(index)) {
             return Some(*q);
         }
-        let target = self.walk.motion(index).target?;
-        let report = &self.compensation.targets[target];
-        Some(report.q.filter(|_| report.changed).unwrap_or(stop.q))
+        let motion = self.walk.motion(index);
+        let report = &self.compensation.targets[motion.target?];
+        let Some(q) = report.q.filter(|_| report.changed) else {
+            return Some(stop.q);
+        };
+        let (Displacement::By(shift), Some(fake)) = (&motion.displacement, &report.fake) else {
+            return Some(q);
+        };
+        // a derived point takes the correction of its target along
+        let given = self.nominal_frame(motion.frame) * shift.apply(fake);
+        let equipped = self.walk.equipped(&stop);
+        let (q, reached) = equipped.controller_joints(&given, stop.branch, &stop.q);
+        reached.then_some(q)
+    }
+
+    /// Where the controller has a work frame.
+    fn nominal_frame(&self, frame: FrameId) -> Pose {
+        self.walk.frames[frame].map_or_else(Pose::identity, |placed| placed.nominal)
     }
 
     fn refine_move(&self, index: usize) -> Option<Change> {
@@ -180,7 +195,7 @@ impl Job<'_> {
         if ends > self.limit_m {
             let message = format!(
                 "this move begins or ends {:.3} mm off its wanted path, at a target that stays as \
-                 it is: no targets are inserted",
+                 it is or a point derived from one: no targets are inserted",
                 mm_from_m(ends)
             );
             let hint = "--joint-targets correct shifts joint targets, too";
@@ -416,9 +431,7 @@ impl Job<'_> {
         let text = |i: usize| numbers[i].text(&source.bytes);
         let roles = language.roles(target.layout);
         let mut values: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let frame =
-            self.walk.frames[motion.frame].map_or_else(Pose::identity, |placed| placed.nominal);
-        let value = Value::Pose(frame.inverse() * point.fake);
+        let value = Value::Pose(self.nominal_frame(motion.frame).inverse() * point.fake);
         let posture = |q: &[f64; 6]| {
             let (branch, _) = leg.equipped.arm.posture(q);
             Posture {

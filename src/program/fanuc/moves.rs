@@ -408,7 +408,9 @@ fn is_plain(word: &[u8]) -> bool {
     };
     // a time is that of the whole way
     let is_number = word[0].is_ascii_digit() || word.starts_with(b"R[");
-    let is_rate = word.ends_with(b"%") || word.contains(&b'/');
+    // behind the register, whose comment may be anything: `R[5:t/4]sec`
+    let unit = word.rsplit(|b| *b == b']').next().unwrap_or(word);
+    let is_rate = unit.ends_with(b"%") || unit.contains(&b'/');
     is_number && (is_rate || word.iter().all(u8::is_ascii_digit))
         || ["FINE", "CNT", "CR", "ACC", "PTH", "Wjnt", "MROT"]
             .iter()
@@ -467,6 +469,8 @@ mod tests {
         assert!(words("9mm/sec FINE Wjnt").wrist_joint);
         assert!(words("9mm/sec FINE Skip,LBL[1],PR[2]=LPOS").may_stop);
         assert!(words("9mm/sec FINE ACC80 R[3: a b]%").is_plain);
+        assert!(words("R[3:a/b]mm/sec FINE").is_plain);
         assert!(!words("9sec FINE").is_plain);
+        assert!(!words("R[5:t/4]sec FINE").is_plain);
     }
 }

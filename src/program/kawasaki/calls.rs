@@ -1,5 +1,6 @@
 //! Calls: what runs, and what it is handed.
 
+use super::keywords::begins_with;
 use super::reader::Reader;
 use super::targets::Name;
 use crate::program::Source;
@@ -92,7 +93,7 @@ impl<'a> Reader<'a> {
     /// Whether the words are a call.
     pub(super) fn calls(&mut self, part: Words<'a, '_>) -> bool {
         let rest = part.behind(1);
-        let is = |word: &[u8]| part.is_word(0, word);
+        let is = |word: &[u8]| begins_with(part, word);
         let is_jump = is(b"JUMP") || is(b"SJUMP");
         if is(b"CALL") || is(b"JUMP") {
             self.call(rest, false);

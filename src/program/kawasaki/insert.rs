@@ -3,24 +3,31 @@
 //! Clamps behind the target act where the robot arrives: only the last piece keeps them. Settings
 //! without `ALWAYS` hold for one move: they are written again in front of each.
 
+use super::keywords::{begins_with, find};
+use super::moves::Verb;
 use super::reader::behind_label;
-use super::sections::{lines, opens};
+use super::sections::{lines, read};
+use super::watches::OPENING;
 use crate::program::insert::{indent, sole_use, spliced, starts_with_word};
+use crate::program::words::Words;
 use crate::program::{
     Displacement, Inserted, Insertion, Motion, Program, Replacements, Shape, Source, Target,
 };
-use std::ops::Range;
+use foldhash::HashMap;
+use std::cell::LazyCell;
+use std::ops::{Deref, Range};
 
 /// The longest line of a program.
 const LONGEST_LINE: usize = 255;
 
 /// See [`crate::program::Language::insert`].
 pub(super) fn insert(sources: &[Source], program: &Program, insertions: &[Insertion]) -> Inserted {
+    let text = LazyCell::new(|| Text::of(sources));
     Inserted::each(insertions, |one| {
         if one.between.iter().any(|part| part.via.is_some()) {
-            arc(sources, program, one)
+            arc(sources, program, &text, one)
         } else {
-            repeat(sources, program, one)
+            repeat(sources, program, &text, one)
         }
     })
 }
@@ -36,6 +43,7 @@ fn written(target: &Target, numbers: &[Vec<u8>]) -> Vec<u8> {
 
 /// A statement that goes to one target and adds nothing to it.
 struct Plain<'a> {
+    file: usize,
     source: &'a Source,
     span: Range<usize>,
     /// Where its target stands.
@@ -58,6 +66,7 @@ impl<'a> Plain<'a> {
         let is_plain = motion.displacement == Displacement::None
             && starts_with_word(&source.bytes[span.clone()], verbs);
         Some(Self {
+            file: motion.file as usize,
             source,
             span,
             at: instruction.target_span.range()?,
@@ -75,42 +84,133 @@ impl<'a> Plain<'a> {
 
 /// Settings that hold for the next move alone, unless `ALWAYS` stands there.
 const ONCE: &[&[u8]] = &[b"SPEED", b"ACCURACY", b"ACCEL", b"DECEL"];
-/// Statements that do not only run on to the next one.
+/// Statements that do not only run on to the next one, but for those that open a block.
 const TURNS: &[&[u8]] = &[
-    b"IF", b"ELSE", b"ELSEIF", b"CASE", b"SCASE", b"VALUE", b"SVALUE", b"ANY", b"WHILE", b"FOR",
-    b"DO", b"END", b"UNTIL", b"GOTO", b"CALL", b"SCALL", b"EXTCALL", b"JUMP", b"SJUMP", b"RETURN",
+    b"IF", b"ELSE", b"ELSEIF", b"VALUE", b"SVALUE", b"ANY", b"END", b"UNTIL", b"GOTO", b"CALL",
+    b"SCALL", b"EXTCALL", b"JUMP", b"SJUMP", b"RETURN", b"RETURNE",
 ];
+/// Statements besides moves that use up what is set for the next move alone.
+const PAUSES: &[&[u8]] = &[b"DELAY", b"STABLE"];
 
-/// The settings that hold for a move alone: they stand between it and the move before. `None` where
-/// the text does not tell whether they hold for each run of it.
-fn settings<'a>(sources: &'a [Source], program: &Program, motion: usize) -> Option<Vec<&'a [u8]>> {
-    let own = program.moves[motion].instruction as usize;
-    let instruction = &program.instructions[own];
-    let file = instruction.place.file;
-    let before = program.instructions[..own].last();
-    let before = before.filter(|before| before.place.file == file);
-    let start = before.map_or(0, |before| before.span().end);
-    let bytes = &sources[file as usize].bytes;
-    let mut found = Vec::new();
-    let mut words = Vec::new();
-    for line in lines(bytes, start..instruction.span().start) {
-        if opens(line.text, b".PROGRAM") {
-            found.clear();
-            continue;
+/// What stands between a move and the one before it in the text.
+#[derive(Default)]
+struct Before<'a> {
+    /// The settings for the move alone.
+    once: Vec<&'a [u8]>,
+    /// One for all moves stands behind them.
+    is_mixed: bool,
+    /// Whether the speed among them is a time.
+    is_timed: Option<bool>,
+    /// The program may come from elsewhere, with what is set there.
+    is_turned: bool,
+    /// The move before, where nothing but settings stands between.
+    follows: Option<usize>,
+    /// `MVWAIT` asks how far this move is.
+    is_awaited: bool,
+}
+
+/// The moves of all files as their text has them.
+#[derive(Default)]
+struct Text<'a> {
+    /// By file and first byte.
+    moves: HashMap<(usize, usize), Before<'a>>,
+    /// There are settings for one move, and those of which the text does not tell the move.
+    sets_once: bool,
+    is_loose: bool,
+    /// A signal may take the program from between a setting and its move.
+    is_watched: bool,
+    /// The speed of all moves may be a time.
+    is_timed: bool,
+    /// `MVWAIT` asks for a move that the text does not tell.
+    is_awaited: bool,
+}
+
+impl<'a> Text<'a> {
+    fn of(sources: &'a [Source]) -> Self {
+        let mut found = Self::default();
+        for (file, source) in sources.iter().enumerate() {
+            for program in read(source).unwrap_or_default().programs {
+                found.add(file, &source.bytes, program.lines);
+            }
         }
-        let (label, part) = behind_label(line.words(bytes, &mut words));
-        let is = |known: &&[u8]| part.is_word(0, known);
-        let is_setting = ONCE.iter().any(is);
-        let is_once = is_setting && part.find(b"ALWAYS").is_none();
-        let turns = label.is_some() || TURNS.iter().any(is);
-        if !found.is_empty() && (turns || is_setting && !is_once) {
-            return None;
+        found
+    }
+
+    fn add(&mut self, file: usize, bytes: &'a [u8], of: Range<usize>) {
+        let mut present = self.turn(&Before::default());
+        let mut last = None;
+        let mut words = Vec::new();
+        for line in lines(bytes, of) {
+            let (label, part) = behind_label(line.words(bytes, &mut words));
+            let is = |known: &&[u8]| begins_with(part, known);
+            if label.is_some() || TURNS.iter().chain(OPENING).any(is) {
+                (present, last) = (self.turn(&present), None);
+            }
+            if part.is_empty() {
+                continue;
+            }
+            let at = (file, part.span().start);
+            if Verb::of(part).is_some() || PAUSES.iter().any(is) {
+                let next = Before {
+                    follows: Some(at.1),
+                    ..Before::default()
+                };
+                self.moves.insert(at, std::mem::replace(&mut present, next));
+                last = Some(at);
+            } else if ONCE.iter().any(is) {
+                let speed_is_time = is(&&b"SPEED"[..]).then(|| is_time(part));
+                if part.find(b"ALWAYS").is_some() {
+                    self.is_timed |= speed_is_time == Some(true);
+                    present.is_mixed |= !present.once.is_empty();
+                } else {
+                    self.sets_once = true;
+                    present.is_timed = speed_is_time.or(present.is_timed);
+                    present.once.push(part.whole());
+                }
+            } else {
+                present.follows = None;
+                if is(&&b"MVWAIT"[..]) {
+                    match last.and_then(|last| self.moves.get_mut(&last)) {
+                        Some(of_last) => of_last.is_awaited = true,
+                        None => self.is_awaited = true,
+                    }
+                }
+                let is_watch = is(&&b"ON"[..]) || is(&&b"ONI"[..]);
+                self.is_watched |= is_watch && find(part, b"GOTO").is_some();
+            }
         }
-        if is_once {
-            found.push(part.whole());
+        self.turn(&present);
+    }
+
+    /// What stands before a place that the program may come to from elsewhere.
+    fn turn(&mut self, present: &Before) -> Before<'a> {
+        self.is_loose |= !present.once.is_empty();
+        Before {
+            is_turned: true,
+            ..Before::default()
         }
     }
-    Some(found)
+
+    /// The settings that are written again with each piece of a move; `None` where the text does
+    /// not tell them for each run of it, or where pieces would do something else.
+    fn settings(&self, statement: &Plain) -> Option<&[&'a [u8]]> {
+        let before = self.moves.get(&(statement.file, statement.span.start))?;
+        let is_brought = self.is_loose || self.sets_once && self.is_watched;
+        // a time is that of the whole move
+        let is_timed = before.is_timed.unwrap_or(self.is_timed);
+        let is_awaited = before.is_awaited || self.is_awaited;
+        let is_other = before.is_mixed || before.is_turned && is_brought || is_timed || is_awaited;
+        (!is_other).then_some(&before.once)
+    }
+}
+
+/// Whether a speed is a time: `SPEED 5 S`, `SPEED 5S`.
+fn is_time(part: Words) -> bool {
+    (1..part.len()).any(|at| {
+        let text = part.text(at);
+        let is_unit = at > 1 && part.is_word(at, b"S") && !part.is(at - 1, b'/');
+        is_unit || text[0].is_ascii_digit() && matches!(text, [.., b's' | b'S'])
+    })
 }
 
 /// Statements on lines of their own before another.
@@ -143,7 +243,12 @@ impl<'a> Lines<'a> {
     }
 }
 
-fn repeat(sources: &[Source], program: &Program, insertion: &Insertion) -> Option<Replacements> {
+fn repeat<'a>(
+    sources: &'a [Source],
+    program: &Program,
+    text: &impl Deref<Target = Text<'a>>,
+    insertion: &Insertion,
+) -> Option<Replacements> {
     let verbs: &[&str] = if insertion.is_split() {
         &["JMOVE", "LMOVE", "HMOVE", "C1MOVE", "C2MOVE"]
     } else {
@@ -155,11 +260,11 @@ fn repeat(sources: &[Source], program: &Program, insertion: &Insertion) -> Optio
         changes.push((whole.at.clone(), written(whole.target, numbers)));
     }
     if !insertion.is_split() {
-        let once = settings(sources, program, insertion.motion)?;
+        let once = text.settings(&whole)?;
         let mut lines = Lines::before(&whole)?;
         for piece in &insertion.between {
             lines.add(&whole.to(&piece.end))?;
-            lines.add_all(&once)?;
+            lines.add_all(once)?;
         }
         changes.push((whole.span.start..whole.span.start, lines.text));
     }
@@ -168,31 +273,37 @@ fn repeat(sources: &[Source], program: &Program, insertion: &Insertion) -> Optio
 
 /// `C1MOVE` and `C2MOVE` once more for each part of an arc but the last, which is the arc's own
 /// with another point on its way.
-fn arc(sources: &[Source], program: &Program, insertion: &Insertion) -> Option<Replacements> {
+fn arc(
+    sources: &[Source],
+    program: &Program,
+    text: &Text,
+    insertion: &Insertion,
+) -> Option<Replacements> {
     let through = insertion.motion.checked_sub(1)?;
     if program.moves[through].motion != Motion::ArcVia {
         return None;
     }
     let first = Plain::of(sources, program, through, &["C1MOVE"])?;
     let second = Plain::of(sources, program, insertion.motion, &["C2MOVE"])?;
-    // its clamp would act at another point of the arc
-    if first.at.end != first.span.end {
+    // a clamp, or what stands between the two, would act at another point of the arc
+    let between = text.moves.get(&(second.file, second.span.start))?;
+    if first.at.end != first.span.end || between.follows != Some(first.span.start) {
         return None;
     }
+    let of_first = text.settings(&first)?;
+    let of_second = text.settings(&second)?;
     let (last, parts) = insertion.between.split_last()?;
     let mut changes = vec![(first.at.clone(), written(first.target, last.via.as_ref()?))];
     if let Some(numbers) = &insertion.own {
         changes.push((second.at.clone(), written(second.target, numbers)));
     }
     if !parts.is_empty() {
-        let of_first = settings(sources, program, through)?;
-        let of_second = settings(sources, program, insertion.motion)?;
         let mut lines = Lines::before(&first)?;
         for part in parts {
             lines.add(&first.to(part.via.as_ref()?))?;
-            lines.add_all(&of_second)?;
+            lines.add_all(of_second)?;
             lines.add(&second.to(&part.end))?;
-            lines.add_all(&of_first)?;
+            lines.add_all(of_first)?;
         }
         changes.push((first.span.start..first.span.start, lines.text));
     }

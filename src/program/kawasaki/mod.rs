@@ -23,11 +23,13 @@
 
 mod calls;
 mod insert;
+mod keywords;
 mod moves;
 mod reader;
 mod remarks;
 mod sections;
 mod targets;
+mod watches;
 
 use super::drive::Step;
 use super::kit::{comments, line_behind, not_this_language};
@@ -47,7 +49,7 @@ pub struct Kawasaki;
 static ABOUT: About = About {
     id: "kawasaki",
     name: "Kawasaki AS",
-    extensions: &["as", "pg"],
+    extensions: &["as", "pg", "lc"],
     rewrites: &[
         "transformations of .TRANS that JMOVE, LMOVE, HMOVE, C1MOVE, C2MOVE, LAPPRO and JAPPRO go \
          to",

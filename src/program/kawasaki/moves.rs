@@ -1,5 +1,6 @@
 //! Moves: what goes where with what.
 
+use super::keywords::begins_with;
 use super::reader::Reader;
 use super::remarks::Cause;
 use super::targets::{Position, literals};
@@ -57,7 +58,7 @@ impl Verb {
             (b"CIR1", Motion::ArcVia),
             (b"CIR2", Motion::ArcEnd),
         ];
-        let known = VERBS.iter().find(|(word, _)| part.is_word(0, word));
+        let known = (VERBS.iter()).find(|(word, _)| begins_with(part, word));
         let step = STEPS.iter().find(|(word, _)| part.is_word(0, word));
         let step = step.filter(|_| step_target(part).is_some());
         let step = step.map(|(_, motion)| Self::Step(*motion));

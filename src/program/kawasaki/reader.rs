@@ -1,10 +1,12 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
 use super::calls::{Any, Handed};
+use super::keywords::{begins_with, find};
 use super::moves::Verb;
 use super::remarks::Cause;
 use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
+use super::watches::{Watch, watches};
 use crate::geometry::Pose;
 use crate::program::script::{
     Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
@@ -30,8 +32,8 @@ pub(super) struct Here {
     pub next: Option<SpeedZone>,
     /// Points of the present arc.
     pub arc: usize,
-    /// Signals that are watched, and the labels that they go to.
-    watched: Vec<(Vec<u8>, u64)>,
+    /// Where signals are watched.
+    watched: Vec<Watch>,
 }
 
 pub(super) struct Reader<'a> {
@@ -162,7 +164,7 @@ fn start(sections: &[Sections], name: &[u8]) -> Option<Pose> {
 
 /// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits
 /// there are none.
-fn key(label: &[u8]) -> u64 {
+pub(super) fn key(label: &[u8]) -> u64 {
     let first = 0xcbf2_9ce4_8422_2325_u64;
     label.iter().fold(first, |hash, byte| {
         (hash ^ u64::from(byte.to_ascii_lowercase())).wrapping_mul(0x0100_0000_01b3)
@@ -192,27 +194,28 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let (_, part) = behind_label(line.words(&source.bytes, &mut found));
-            if part.is_word(0, b"POINT") || part.is_word(0, b"HERE") {
+            if begins_with(part, b"POINT") || begins_with(part, b"HERE") {
                 let name = if part.is(1, b'/') { 3 } else { 1 };
                 if let Some((name, _)) = Name::defined(before_equals(part.behind(name))) {
                     self.written.insert((routine, name.stem));
                 }
-            } else if let Some(at) = part.find(b"CALL") {
+            } else if let Some(at) = find(part, b"CALL") {
                 Handed::note(part.behind(at + 1), routine, handed);
             }
         }
     }
 
     fn program(&mut self, file: u32, routine: RoutineId, program: &Program<'a>) {
+        let sources = self.sources;
+        let bytes = &sources[file as usize].bytes;
         self.here = Here {
             file,
             routine,
             parameters: self.parameters[routine as usize].clone(),
+            watched: watches(bytes, program.lines.clone()),
             ..Here::default()
         };
         self.builder.open(routine);
-        let sources = self.sources;
-        let bytes = &sources[file as usize].bytes;
         let mut found = Vec::new();
         for line in lines(bytes, program.lines.clone()) {
             self.line(line.words(bytes, &mut found));
@@ -236,8 +239,14 @@ impl<'a> Reader<'a> {
             self.statement(part);
         }
         // a signal may come at any time
-        for (_, label) in &self.here.watched {
-            self.builder.may_go_to(*label);
+        let at = self.here.at;
+        for watch in self
+            .here
+            .watched
+            .iter()
+            .filter(|one| one.lines.contains(&at))
+        {
+            self.builder.may_go_to(watch.label);
         }
     }
 
@@ -246,9 +255,9 @@ impl<'a> Reader<'a> {
     /// Whether the words are of the flow.
     fn flow(&mut self, part: Words<'a, '_>) -> bool {
         let has = |word: &[u8]| part.find(word).is_some();
-        let label = part.find(b"GOTO").map(|at| part.text(at + 1));
+        let label = find(part, b"GOTO").map(|at| part.text(at + 1));
         let label = label.filter(|label| !label.is_empty()).map(key);
-        let is = |word: &[u8]| part.is_word(0, word);
+        let is = |word: &[u8]| begins_with(part, word);
         if is(b"IF") && !has(b"THEN") {
             if let Some(label) = label {
                 self.builder.may_go_to(label);
@@ -279,7 +288,7 @@ impl<'a> Reader<'a> {
                     self.builder.go_to(label);
                 }
             }
-        } else if is(b"RETURN") {
+        } else if is(b"RETURN") || is(b"RETURNE") {
             self.builder.back();
         } else if is(b"STOP") || is(b"HALT") {
             self.builder.exit();
@@ -294,7 +303,7 @@ impl<'a> Reader<'a> {
 
     fn statement(&mut self, part: Words<'a, '_>) {
         let rest = part.behind(1);
-        let is = |word: &[u8]| part.is_word(0, word);
+        let is = |word: &[u8]| begins_with(part, word);
         if is(b"TOOL") || is(b"BASE") {
             let value = self.frame(rest);
             let off = self.builder.script.held(Held::Flag(false));
@@ -323,28 +332,21 @@ impl<'a> Reader<'a> {
                 };
                 self.write_name(&name, How::Whole(here));
             }
-        } else if is(b"ON") || is(b"ONI") || is(b"PCEXECUTE") {
-            let colon = (0..part.len()).find(|at| part.is(*at, b':'));
-            if let Some(at) = part.find(b"CALL").or(colon) {
-                self.call(part.behind(at + 1), true);
-            } else if let Some(at) = part.find(b"GOTO") {
-                self.watch(part.part(1..at), part.text(at + 1));
+        } else if is(b"PCEXECUTE") || is(b"ONE") {
+            // the number of the process may stand before the name
+            let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
+            let named = rest.behind(colon.map_or(0, |at| at + 1));
+            if named.is_name(0) {
+                self.call(named, true);
             }
-        } else if is(b"IGNORE") {
-            let signal = rest.whole();
-            self.here.watched.retain(|(known, _)| known != signal);
+        } else if is(b"ON") || is(b"ONI") {
+            if let Some(at) = find(part, b"CALL") {
+                self.call(part.behind(at + 1), true);
+            }
         } else if SWITCHES.iter().any(|word| is(word)) {
             let remark = self.builder.script.remark(Cause::Switched.remark());
             self.switch(Held::Remark(remark));
         }
-    }
-
-    /// Until `IGNORE` the program goes to a label when a signal comes.
-    fn watch(&mut self, signal: Words<'a, '_>, label: &[u8]) {
-        let mode = if signal.is(0, b'/') { 2 } else { 0 };
-        let signal = signal.behind(mode).whole();
-        self.here.watched.retain(|(known, _)| known != signal);
-        self.here.watched.push((signal.to_vec(), key(label)));
     }
 
     /// The arm's configuration is switched, or known again.
@@ -440,7 +442,8 @@ fn may_write(line: &[u8]) -> bool {
             here.is_some_and(|here| here.eq_ignore_ascii_case(word))
         })
     };
-    has(b'P', b'p', b"POINT") || has(b'H', b'h', b"HERE") || has(b'C', b'c', b"CALL")
+    // as short as the keywords may be
+    has(b'P', b'p', b"PO") || has(b'H', b'h', b"HE") || has(b'C', b'c', b"CA")
 }
 
 /// What stands before `=`; all where there is none.

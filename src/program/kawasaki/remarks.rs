@@ -90,3 +90,14 @@ pub(super) fn not_in_files(name: &str) -> Remark {
         "give the file with its .TRANS or .JOINTS too",
     )
 }
+
+/// A target whose numbers a statement adds to those of others.
+pub(super) fn added_up(file: &str, line: usize) -> Remark {
+    Remark::error(
+        "target-used-as-frame",
+        format!(
+            "this target is part of a tool, base or displacement, too (see {file} line {line})"
+        ),
+        "give what is added a name of its own in .TRANS",
+    )
+}

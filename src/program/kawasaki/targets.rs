@@ -2,7 +2,7 @@
 
 use super::pose_of;
 use super::reader::Reader;
-use super::remarks::{Cause, not_in_files};
+use super::remarks::{Cause, added_up, not_in_files};
 use super::sections::Entry;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
@@ -344,7 +344,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What poses that are added up are, where the text tells it.
-    fn known_sum(&self, part: Words<'a, '_>) -> Option<Pose> {
+    fn known_sum(&mut self, part: Words<'a, '_>) -> Option<Pose> {
         let add = |sum: Pose, (sign, term): (u8, Words<'a, '_>)| {
             let by = self.known_pose(term)?;
             Some(sum * if sign == b'-' { by.inverse() } else { by })
@@ -352,8 +352,9 @@ impl<'a> Reader<'a> {
         part.terms().into_iter().try_fold(Pose::identity(), add)
     }
 
-    /// What is added to a position, where the text tells it.
-    fn known_pose(&self, part: Words<'a, '_>) -> Option<Pose> {
+    /// What is added to a position, where the text tells it; a name whose numbers are taken keeps
+    /// them.
+    fn known_pose(&mut self, part: Words<'a, '_>) -> Option<Pose> {
         if part.is(1, b'(') {
             let list = part.rest_list(1)?;
             let turn = |turn: fn(f64) -> Rotation| {
@@ -381,10 +382,14 @@ impl<'a> Reader<'a> {
             .as_ref()
             .filter(|_| is_constant && !name.is_joints())?;
         let variable = *self.elements(&name)?.variables.get(key)?;
-        let script = &self.builder.script;
+        let source = &self.sources[self.here.file as usize];
+        let (line, _) = source.line_column(self.here.at);
+        let script = &mut self.builder.script;
         let Expr::Target(target) = script.variables[variable as usize].declared else {
             return None;
         };
+        let remark = script.remark(added_up(&source.name, line));
+        script.refused.push((target, remark));
         let numbers = script.numbers_of(target);
         Some(pose_of(std::array::from_fn(|i| numbers[i].value)))
     }

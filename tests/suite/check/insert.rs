@@ -439,6 +439,25 @@ fn kawasaki_gets_moves_to_positions_written_out() {
 }
 
 #[test]
+fn the_path_to_a_derived_point_ends_there() {
+    let folder = scratch();
+    let files = KAWASAKI.write(folder.path());
+    let text = std::fs::read_to_string(&files[0]).expect("it was written");
+    let text = text.replace(
+        "  JMOVE corner",
+        "  JMOVE corner\r\n  LAPPRO corner,50\r\n  LMOVE corner",
+    );
+    std::fs::write(&files[0], text).expect("a writable folder");
+    let out = folder.path().join("out-t.as");
+    let (_, reported) = KAWASAKI.compensate(&files[0], &out, &["--max-path-error", "0.05", "-v"]);
+    for said in reported.split("begins or ends ").skip(1) {
+        let off = said.split(' ').next().expect("a number");
+        let off: f64 = off.parse().expect("millimetres");
+        assert!(off < 10.0, "{reported}");
+    }
+}
+
+#[test]
 fn a_move_that_does_more_than_go_is_not_repeated() {
     // an output switched before the point, a time for the whole way, a tag that waits
     let cases = [

@@ -58,8 +58,27 @@ fn only_the_last_piece_has_the_clamp_and_each_its_own_settings() {
         "JMOVE #home\nIF x THEN\nSPEED 10\nEND\nLMOVE p1",
         "JMOVE #home\nSPEED 10\n5\nLMOVE p1",
         "JMOVE #home\nSPEED 10\nSPEED 20 ALWAYS\nLMOVE p1",
+        "JMOVE #home\nSPEED 10\nIF x GOTO 5\n5\nLMOVE p1",
+        "JMOVE #home\nON 1 GOTO 5\n5\nLMOVE p1\nSPEED 10\nLMOVE p[1]",
+        "JMOVE #home\nCALL slow\nLMOVE p1\n.END\n.PROGRAM slow()\nSPEED 10",
+        // a time is that of the whole move
+        "JMOVE #home\nSPEED 5 S\nLMOVE p1",
+        "SPEED 5S ALWAYS\nJMOVE #home\nLMOVE p1",
+        // it asks for what is left of the move
+        "JMOVE #home\nLMOVE p1\nSIGNAL 3\nMVWAIT 100mm",
     ] {
         assert_eq!(with_one(code, 1), None, "{code}");
+    }
+    for code in [
+        // a pause uses it up
+        "JMOVE #home\nSPEED 10\nDELAY 1\nLMOVE p1",
+        "JMOVE #home\nIF x THEN\nSPEED 10 MM/S\nLMOVE p1\nEND\nLMOVE p[1]",
+        "JMOVE #home\nSPEED 5 S ALWAYS\nSPEED 10 MM/S\nLMOVE p1",
+        "JMOVE #home\n10\nLMOVE p1\nGOTO 10",
+    ] {
+        let found = with_one(code, 1).expect(code);
+        let times = |text: &str| text.matches("SPEED 10 MM/S\n").count();
+        assert_eq!(times(&found), 2 * times(code), "{found}");
     }
 }
 
@@ -76,5 +95,8 @@ fn arcs_are_cut_with_the_settings_of_both_statements() {
     assert_eq!(with(code, 2, pieces()).as_deref(), Some(expected));
     // the clamp would act at another point of the arc
     let code = "JMOVE #home\nC1MOVE p[1],1\nC2MOVE p[2]";
+    assert_eq!(with(code, 2, pieces()), None);
+    // and so would the signal
+    let code = "JMOVE #home\nC1MOVE p[1]\nSIGNAL 5\nC2MOVE p[2]";
     assert_eq!(with(code, 2, pieces()), None);
 }

@@ -108,10 +108,82 @@ fn a_signal_goes_to_its_label_until_it_is_ignored() {
 }
 
 #[test]
+fn a_signal_is_watched_wherever_the_program_may_come_with_it() {
+    for (code, expected) in [
+        // the branch may not have run
+        (
+            "POINT q = p1\nON 1001 GOTO 100\nIF x THEN\nIGNORE 1001\nEND\nPOINT q = p[1]\nSTOP\n100 \
+             LMOVE q",
+            &["p1", "p[1]"][..],
+        ),
+        // the program comes back to what stands before
+        (
+            "5\nPOINT q = p1\nPOINT q = p[1]\nON 1001 GOTO 100\nPOINT q = p[2]\nGOTO 5\n100 LMOVE q",
+            &["p1", "p[1]", "p[2]"],
+        ),
+        // what stands before runs once
+        (
+            "POINT q = p1\nPOINT q = p[1]\nON 1001 GOTO 100\nSTOP\n100 LMOVE q",
+            &["p[1]"],
+        ),
+    ] {
+        let program = read(&format!("TOOL NULL\nBASE NULL\n{code}"));
+        assert_eq!(targets(&program), expected, "{code}");
+    }
+}
+
+#[test]
+fn programs_are_started_by_errors_and_without_a_number() {
+    for start in ["PCEXECUTE other,-1", "PCEXECUTE 2: other", "PCEX other"] {
+        let program = read_two(&format!("{start}\nLMOVE p1"), "other()\nPOINT p1 = p[2]");
+        assert_eq!(targets(&program), ["p1", "p[2]"], "{start}");
+    }
+    let program = read_two("ONE other\nLMOVE p1", "other()\nPOINT p1 = p[2]\nRETURNE");
+    assert_eq!(targets(&program), ["p1", "p[2]"]);
+    // behind it nothing runs
+    let program = read_two("CALL other\nLMOVE p1", "other()\nRETURNE\nTOOL off");
+    assert_eq!(program.tools[program.moves[0].tool].name, "grip");
+}
+
+#[test]
+fn keywords_may_be_cut_short() {
+    let program = read(
+        "TOOL NULL\nBA NULL\nJM #home\nx = 5\npo[1] = 3\nLM p1\nPO q = p[2]\nIF SIG(1) GO 10\nPO q = \
+         p[1]\n10 lmov q\nLE\nJA p1,50",
+    );
+    assert_eq!(targets(&program), ["#home", "p1", "p[1]", "p[2]"]);
+    assert!(ids(&program).contains(&"configuration-not-understood"));
+    let program = read("TOOL NULL\nBASE NULL\nX p1 TILL 1001");
+    assert!(ids(&program).contains(&"search-move"));
+}
+
+#[test]
 fn tools_and_bases_are_sums_and_tools_have_a_shape() {
     let program = read("TOOL grip,1\nBASE off+off\nLMOVE p1");
     let motion = &program.moves[0];
     assert_eq!(program.tools[motion.tool].name, "grip");
     let base = program.frames[motion.frame].world_from_frame;
     assert_eq!(base.expect("known").translation, [0.0, 0.0, -0.1]);
+}
+
+#[test]
+fn a_name_that_is_added_to_another_is_no_target() {
+    for code in [
+        "TOOL grip+off\nLMOVE p1\nTOOL NULL\nLMOVE off",
+        "BASE p1+off\nLMOVE p[1]\nBASE NULL\nLMOVE off",
+        "LMOVE p1+off\nBASE grip\nLMOVE off",
+        "BASE off+grip\nLMOVE p1\nBASE NULL\nLMOVE off",
+    ] {
+        let program = read(&format!("TOOL NULL\nBASE NULL\nJMOVE #home\n{code}"));
+        let found = (program.findings.iter()).find(|finding| finding.id == "target-used-as-frame");
+        let found = found.expect(code);
+        assert!(
+            found.message.starts_with("off: ") && found.message.contains("(see 0.as line 5)"),
+            "{code}: {}",
+            found.message
+        );
+    }
+    // what no move goes to stays as it is
+    let program = read("TOOL NULL\nBASE grip+off\nJMOVE #home\nLMOVE p1+off");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
 }

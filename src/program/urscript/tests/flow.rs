@@ -213,6 +213,8 @@ fn a_load_is_what_the_calls_before_say() {
             5.0,
             0.3,
         ),
+        ("set_payload_cog([0,0,0.1])\nset_payload_mass(5)", 5.0, 0.1),
+        ("set_payload_mass(5)\nset_payload_cog([0,0,0.1])", 5.0, 0.1),
         // what nobody knows is replaced
         (
             "set_payload(m,[0,0,0.1])\nset_payload(5,[0,0,0.1])",
@@ -224,6 +226,12 @@ fn a_load_is_what_the_calls_before_say() {
         assert_eq!(loads(lines), (vec![Some(known)], vec![]), "{lines}");
     }
     assert_eq!(loads(""), (vec![None], vec![]));
+    // of a tool that is set first behind it
+    let program = path("set_payload(5)\nset_tcp(p[0,0,0.1,0,0,0])\nmovel(p[.1,.2,.3,0,0,1])");
+    let last = program.moves.last().expect("a move");
+    let load = program.tools[last.tool].load.expect("a load");
+    assert_eq!((load.mass_kg, load.cog_m), (5.0, [0.0, 0.0, 0.1]));
+    assert!(!ids(&program).contains(&"load-chosen-at-run-time"));
 }
 
 #[test]

@@ -11,7 +11,9 @@ use crate::program::{Load, number};
 #[derive(Default)]
 pub(super) struct Present {
     pub tool: Option<Pose>,
-    pub load: Option<Load>,
+    /// Of the load, each as far as it is said.
+    pub mass_kg: Option<f64>,
+    pub cog_m: Option<Vector>,
     /// The load goes along with the tool.
     pub in_tool: Option<bool>,
 }
@@ -71,7 +73,6 @@ impl Translator<'_, '_, '_> {
             return;
         }
         let load = self.load_of(payload, function);
-        self.present.load = load;
         self.present.in_tool = match payload.cog {
             Cog::Stays => self.present.in_tool,
             cog => Some(cog == Cog::Tool),
@@ -84,21 +85,21 @@ impl Translator<'_, '_, '_> {
         self.write(Some(self.load_remark), How::Whole(remark), offset);
     }
 
-    /// The load behind a call, where the text says it.
-    fn load_of(&self, payload: Payload, function: FunctionId) -> Option<Load> {
-        let Present { tool, load, .. } = &self.present;
-        let mass_kg = match payload.mass {
-            None => load.as_ref()?.mass_kg,
-            Some(mass) => match self.goals.variables.follow(mass, function).0 {
-                Expr::Number(mass_kg) => mass_kg,
-                _ => return None,
-            },
+    /// The load behind a call, where the text says it; mass and centre of gravity may be said one
+    /// by one.
+    fn load_of(&mut self, payload: Payload, function: FunctionId) -> Option<Load> {
+        let said = |mass| match self.goals.variables.follow(mass, function).0 {
+            Expr::Number(mass_kg) => Some(mass_kg),
+            _ => None,
         };
+        let mass_kg = payload.mass.map_or(self.present.mass_kg, said);
         let cog_m = match payload.cog {
-            Cog::Stays => load.as_ref()?.cog_m,
-            Cog::Tool => tool.as_ref()?.translation,
-            Cog::At(cog) => self.three_numbers(cog, function)?,
+            Cog::Stays => self.present.cog_m,
+            Cog::Tool => self.present.tool.map(|tool| tool.translation),
+            Cog::At(cog) => self.three_numbers(cog, function),
         };
+        (self.present.mass_kg, self.present.cog_m) = (mass_kg, cog_m);
+        let (mass_kg, cog_m) = mass_kg.zip(cog_m)?;
         (mass_kg >= 0.0).then_some(Load { mass_kg, cog_m })
     }
 
