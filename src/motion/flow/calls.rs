@@ -82,14 +82,14 @@ impl Flow<'_> {
             let variable = self.tracked[slot as usize];
             let declared = self.script.variables[variable as usize].declared;
             let held = self.constant(declared, DECLARED);
-            self.set(&mut entry, variable, held);
+            self.hold(&mut entry, variable, held);
         }
         for argument in self.arguments(call) {
             if let Some(parameter) = argument.parameter
                 && self.script.variables[parameter as usize].routine == Some(routine)
             {
                 let held = self.evaluate(start, argument.value, site);
-                self.set(&mut entry, parameter, held);
+                self.hold(&mut entry, parameter, held);
             }
         }
         entry

@@ -248,6 +248,11 @@ impl Flow<'_> {
             let joined = self.holdings.join(before, holding);
             self.concurrent.insert(variable, joined);
         }
+        self.hold(state, variable, holding);
+    }
+
+    /// Sets a variable that no other routine sees: what this holds is no other's.
+    pub(super) fn hold(&mut self, state: &mut State, variable: VariableId, holding: Holding) {
         if let Some(slot) = self.slots[variable as usize]
             && state.holds[slot as usize] != holding
         {

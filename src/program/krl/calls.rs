@@ -4,7 +4,7 @@ use super::frames::State;
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::remarks::{computed, conveyor};
-use super::statements::action;
+use super::statements::{action, is_kept};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
@@ -187,12 +187,16 @@ impl Reader {
 
     /// What the controller writes into a variable that it is given.
     fn write_by_controller(&mut self, name: Symbol, at: Index) {
-        let datum = self.names.datum(name, self.context());
-        if let Some(datum) = datum
-            && self.names.data[datum as usize].kind.is_place()
-        {
-            let how = How::Whole(self.unknown(computed()));
-            self.write_element(Owner::Datum(datum), at, how);
+        let Some(datum) = self.names.datum(name, self.context()) else {
+            return;
+        };
+        match self.names.data[datum as usize].kind {
+            DataKind::Number => self.count(name, at, None),
+            kind if kind.is_place() => {
+                let how = How::Whole(self.unknown(computed()));
+                self.write_element(Owner::Datum(datum), at, how);
+            }
+            _ => {}
         }
     }
 
@@ -207,6 +211,7 @@ impl Reader {
         let mut arguments = Vec::with_capacity(given.len());
         let mut gives = false;
         let mut written = Vec::new();
+        let mut lost = Vec::new();
         for (at, given) in given.into_iter().enumerate() {
             let parameter = callee.and_then(|callee| {
                 let head = &self.names.heads[callee as usize];
@@ -232,6 +237,10 @@ impl Reader {
                 Expr::Variable(variable) if by_reference => Some(variable),
                 _ => None,
             };
+            // a number that chooses, of which the routine makes another type
+            if callee.is_some() && kind == Some(DataKind::Number) && !is_given {
+                lost.extend(back);
+            }
             let value = match (value, kind) {
                 // a frame that no move goes to is an offset
                 (_, Some(DataKind::Frame)) if callee.is_none() => Expr::Absent,
@@ -259,6 +268,10 @@ impl Reader {
             name: self.names.symbols.spelling(name).into(),
             arguments,
         });
+        for variable in lost {
+            let value = self.chosen();
+            self.put(place, variable, value);
+        }
         for array in written {
             let how = How::PartSomehow(self.builder.script.remark(computed()));
             self.write_element(Owner::Datum(array), Index::Variable, how);
@@ -409,12 +422,12 @@ impl Reader {
     }
 
     /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO n=1`: the routine runs, or the
-    /// variable is written, at any time.
+    /// variable is written, at any time. One with arguments is called where these are read.
     pub(super) fn concurrent(&mut self, cursor: Cursor) {
         let Some((name, mut rest)) = action(cursor) else {
             return;
         };
-        if rest.blanks() == b'(' {
+        if rest.blanks() == b'(' && !is_kept(rest) {
             let symbol = self.symbol(&rest, name);
             self.concurrent.push((symbol, self.context()));
         } else {

@@ -153,6 +153,8 @@ pub(super) struct Names {
     pub elements: BTreeSet<(Symbol, Index)>,
     /// Names that choose tools, bases and loads.
     pub choosing: HashSet<Symbol>,
+    /// Names that are given to routines: the name, the routine, which argument, and where.
+    pub given: Vec<(Symbol, Symbol, usize, Context)>,
 }
 
 impl Names {
@@ -211,9 +213,33 @@ impl Names {
         self.heads.push(head);
     }
 
-    /// Puts values in order, once all are read.
+    /// Puts values in order and carries what chooses through calls, once all are read.
     pub(super) fn settle(&mut self) {
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
+        self.carry_choosing();
+    }
+
+    /// What chooses a tool, base or load does so under the name of the parameter that it is given
+    /// to, too, and the other direction: what is given to a parameter that chooses.
+    fn carry_choosing(&mut self) {
+        let parameter = |&(name, routine, at, context): &(Symbol, Symbol, usize, Context)| {
+            let head = &self.heads[self.routine(routine, context)? as usize];
+            let &(datum, _) = head.parameters.get(at)?;
+            let parameter = &self.data[datum as usize];
+            let is_other = parameter.kind == DataKind::Number && parameter.name != name;
+            is_other.then_some((name, parameter.name))
+        };
+        let pairs: HashSet<_> = self.given.iter().filter_map(parameter).collect();
+        self.given = Vec::new();
+        let mut before = usize::MAX;
+        while before != self.choosing.len() {
+            before = self.choosing.len();
+            for &(name, parameter) in &pairs {
+                if self.choosing.contains(&name) || self.choosing.contains(&parameter) {
+                    self.choosing.extend([name, parameter]);
+                }
+            }
+        }
     }
 
     /// The routine of a name.

@@ -35,8 +35,9 @@ pub(super) struct Reader {
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
     pub(super) concurrent: Vec<(Symbol, Context)>,
-    /// What interrupts and triggers assign: the routine that the words stand in, and their bytes.
-    pub(super) assignments: Vec<(Option<u32>, usize, usize)>,
+    /// What interrupts and triggers assign or hand to routines: the routine that the words stand in,
+    /// and their bytes.
+    pub(super) actions: Vec<(Option<u32>, usize, usize)>,
     /// Calls that are given an array whose elements are not followed.
     pub(super) unfollowed: Vec<Place>,
     /// Moves to the pose where the robot is.
@@ -94,7 +95,7 @@ impl Reader {
             refused: HashSet::new(),
             missing: HashMap::new(),
             concurrent: Vec::new(),
-            assignments: Vec::new(),
+            actions: Vec::new(),
             unfollowed: Vec::new(),
             stays: Vec::new(),
             here: Place { file: 0, offset: 0 },
@@ -197,19 +198,25 @@ impl Reader {
             }
         }
         self.builder.close();
-        self.assign_at_any_time(&source.bytes)
+        self.act_at_any_time(&source.bytes)
     }
 
-    /// What interrupts and triggers of a file assign, each as a routine that runs at any time.
-    fn assign_at_any_time(&mut self, bytes: &[u8]) -> Read<()> {
-        for (routine, at, end) in std::mem::take(&mut self.assignments) {
+    /// What interrupts and triggers of a file assign or hand to routines, each as a routine that
+    /// runs at any time.
+    fn act_at_any_time(&mut self, bytes: &[u8]) -> Read<()> {
+        for (routine, at, end) in std::mem::take(&mut self.actions) {
             let mut cursor = Cursor { bytes, at, end };
             let name = cursor.next();
             self.routine = routine;
             let place = self.place(name);
             let made = self.builder.declare("", place, Start::Concurrent);
             self.builder.open(made);
-            self.statement(name, cursor)?;
+            if cursor.peek().is(b'(') {
+                self.here = place;
+                self.calls_in(Cursor { bytes, at, end });
+            } else {
+                self.statement(name, cursor)?;
+            }
             self.builder.close();
             let routines = &mut self.builder.script.routines;
             // no move depends on it

@@ -46,6 +46,12 @@ pub(super) fn action(mut cursor: Cursor) -> Option<(Token, Cursor)> {
     (name.kind == Kind::Name).then_some((name, cursor))
 }
 
+/// Whether what stands behind DO and a name is read at the end of the file: an assignment, or
+/// arguments of a routine.
+pub(super) fn is_kept(mut rest: Cursor) -> bool {
+    written(rest).is_some() || rest.take(b'(') && rest.blanks() != b')'
+}
+
 impl Reader {
     /// Notes which names a statement may write, before any is read.
     pub(super) fn note(&mut self, first: Token, mut cursor: Cursor) {
@@ -88,6 +94,45 @@ impl Reader {
             }
         }
         self.note_arguments(cursor);
+        self.note_given(first, cursor);
+    }
+
+    /// Notes which names are given to which parameters; the cursor stands behind the first word.
+    fn note_given(&mut self, first: Token, mut cursor: Cursor) {
+        // brackets that are open: of which routine, and which argument comes next
+        let mut open: Vec<(Option<Symbol>, usize)> = Vec::new();
+        let mut before = first;
+        loop {
+            let token = cursor.next();
+            match token.kind {
+                Kind::End => return,
+                Kind::Sign(b'(') => {
+                    let is_call = before.kind == Kind::Name;
+                    let routine = is_call.then(|| self.symbol(&cursor, before));
+                    open.push((routine, 0));
+                }
+                Kind::Sign(b'[' | b'{') => open.push((None, 0)),
+                Kind::Sign(b')' | b']' | b'}') => {
+                    open.pop();
+                }
+                Kind::Sign(b',') => {
+                    if let Some((_, at)) = open.last_mut() {
+                        *at += 1;
+                    }
+                }
+                Kind::Name if matches!(before.kind, Kind::Sign(b'(' | b',')) => {
+                    if let Some(&(Some(routine), at)) = open.last()
+                        && matches!(cursor.peek().kind, Kind::Sign(b')' | b','))
+                    {
+                        let name = self.symbol(&cursor, token);
+                        let context = self.context();
+                        self.names.given.push((name, routine, at, context));
+                    }
+                }
+                _ => {}
+            }
+            before = token;
+        }
     }
 
     /// Notes what `name[..].part=` writes; the cursor stands behind the name.
@@ -202,10 +247,10 @@ impl Reader {
             }
             b"INTERRUPT" | b"TRIGGER" => {
                 if let Some((name, rest)) = action(cursor)
-                    && written(rest).is_some()
+                    && is_kept(rest)
                 {
                     let (routine, start) = (self.context().routine, name.start as usize);
-                    self.assignments.push((routine, start, rest.end));
+                    self.actions.push((routine, start, rest.end));
                 }
                 return Ok(());
             }
@@ -329,6 +374,7 @@ impl Reader {
             b"FOR" => {
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
+                self.calls_in(cursor);
                 self.builder.begin_loop(true);
                 self.count(name, Index::Whole, None);
             }
@@ -354,7 +400,7 @@ impl Reader {
     }
 
     /// A whole number is written; only those matter that choose a tool or base.
-    fn count(&mut self, name: Symbol, at: Index, number: Option<u32>) {
+    pub(super) fn count(&mut self, name: Symbol, at: Index, number: Option<u32>) {
         if !self.names.choosing.contains(&name) {
             return;
         }

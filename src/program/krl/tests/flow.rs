@@ -318,3 +318,20 @@ fn instructions_keep_where_their_parts_stand() {
     assert!(speed_zone.cuts_corner() && speed_zone.speed_m_s == Some(0.25));
     assert_eq!(program.speed_zone(&program.moves[2]).zone_m, Some(0.0));
 }
+
+#[test]
+fn what_interrupts_and_triggers_hand_to_routines_is_followed() {
+    let program = path(
+        "TRIGGER WHEN PATH=0 DELAY=0 DO sub(XP1) PRIO=-1\nLIN XP1\nLIN XP2\nEND\nDEF \
+         sub(q:OUT)\nE6POS q\nq.Z=q.Z+50",
+    );
+    assert_ne!(reported(&program), [""; 0], "XP1 is written at any time");
+    let program = path(
+        "INTERRUPT DECL 5 WHEN $IN[5]==TRUE DO isr(XP1)\nLIN XP2\nEND\nDEF isr(p:IN)\nE6POS p\nLIN \
+         p",
+    );
+    let mut found = to(&program);
+    found.sort_unstable();
+    found.dedup();
+    assert_eq!(found, ["XP1", "XP2"]);
+}

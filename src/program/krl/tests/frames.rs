@@ -454,3 +454,28 @@ fn a_target_that_is_a_base_too_is_refused() {
     assert_eq!(blocked(&program), ["XP3"]);
     assert_eq!(reported(&program), ["target-used-as-frame"]);
 }
+
+#[test]
+fn numbers_that_choose_are_followed_through_parameters_of_other_names() {
+    let tools = |text: &str| {
+        let program = path(text);
+        let tools = program.moves.iter().map(|used| used.tool);
+        let mut names: Vec<_> = tools.map(|at| program.tools[at].name.clone()).collect();
+        names.sort_unstable();
+        (names, reported(&program).join(" "))
+    };
+    let set = "DEF setn(q:OUT)\nINT q\nq=2";
+    let get = "DEFFCT BOOL setn(q:OUT)\nINT q\nq=2\nRETURN TRUE\nENDFCT\nDEF z()";
+    for (call, routine) in [
+        ("setn(n)", set),
+        ("IF setn(n)==TRUE THEN\nHALT\nENDIF", get),
+    ] {
+        let text = format!("DECL INT n\nn=1\n{call}\n$TOOL=TOOL_DATA[n]\nLIN XP1\nEND\n{routine}");
+        let (names, ids) = tools(&text);
+        assert_eq!((names, &*ids), (vec!["TOOL_DATA[2]".into()], ""), "{call}");
+    }
+    // the other direction: what is given chooses in the routine
+    let (names, ids) =
+        tools("DECL INT k\nk=3\nuse(k)\nEND\nDEF use(t:IN)\nINT t\n$TOOL=TOOL_DATA[t]\nLIN XP1");
+    assert_eq!((names, &*ids), (vec!["TOOL_DATA[3]".into()], ""));
+}
