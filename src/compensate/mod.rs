@@ -337,6 +337,7 @@ fn with(
         findings.extend(remarks::corners(&job, &approaches));
     }
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
+    let derived = displaced::arrivals(&job, &arrivals);
     drop(arrivals);
     let Rewritten {
         reports: mut targets,
@@ -346,7 +347,7 @@ fn with(
         mut splits,
         mut meant,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
-    displaced::check(&job, &approaches, &fakes, &mut findings);
+    displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     let (compensated, summary) = tally.finish();
