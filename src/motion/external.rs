@@ -446,8 +446,10 @@ impl Settler<'_> {
              says where it stands",
             source.name
         );
-        let hint = "activate its unit before the move; a unit that carries nothing a pose depends \
-            on stands in `other:` under `external_axes` of the profile";
+        let hint = "let it go with the targets from the start, or again before the move (ActUnit of \
+            RAPID, $ACT_EX_AX of KRL; where asynchronous motions leave it is not followed); what \
+            carries nothing a pose depends on stands in `other:` under `external_axes` of the \
+            profile";
         (why, hint)
     }
 

@@ -46,6 +46,31 @@ fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
     }
 }
 
+#[test]
+fn a_composed_target_stands_where_its_own_numbers_say() {
+    let rail = profile(&rail("eax_a"), &[SCALE]);
+    for (axes, id, off) in [
+        ("p1.extax", "displacement-unknown", "0.000 mm off"),
+        (
+            "[400,9E9,9E9,9E9,9E9,9E9]",
+            "displacement-unknown",
+            "0.300 mm off",
+        ),
+        ("[x,9E9,9E9,9E9,9E9,9E9]", "external-value-unknown", "eax_a"),
+    ] {
+        let go = format!("MoveJ [p1.trans,p1.rot,p1.robconf,{axes}],v100,fine,t;\n");
+        let text = rapid(POINT, &format!("{HOME}{go}"));
+        let done = run(&rail, &[("t.mod", &text)]).expect("read");
+        let found = done.findings.iter().find(|finding| finding.id == id);
+        let message = found.map(|finding| finding.message.as_str());
+        assert!(
+            message.is_some_and(|message| message.contains(off)),
+            "{axes}: {:?}",
+            done.findings
+        );
+    }
+}
+
 /// The first X of each line of a KRL program with one.
 fn xs(text: &str) -> Vec<f64> {
     let behind = text.lines().filter_map(|line| line.split_once("{X "));
