@@ -309,8 +309,9 @@ impl Walk {
 
     /// What external axes do on the way to a stop, from another where that is known.
     fn ride(&self, from: Option<usize>, to: usize) -> Option<Arc<Ride>> {
-        let stand = |stop: usize| self.program.frames[self.motion(stop).frame].stand.as_ref();
-        stand(to).map(|to| Ride::of(&self.profile, from.and_then(stand), to))
+        let from = from.map_or(&[][..], |from| self.program.stands_at(self.index(from)));
+        let stand = self.program.frames[self.motion(to).frame].stand.as_ref();
+        stand.map(|to| Ride::of(&self.profile, from, to))
     }
 
     /// A stop alone, where it is unknown how the robot comes there.

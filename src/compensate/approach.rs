@@ -44,7 +44,7 @@ impl Approach {
     }
 
     /// Where the target's numbers say that the tool is, in the work frame.
-    fn in_frame(&self, job: &Job) -> Pose {
+    pub(super) fn in_frame(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
         let decoded =

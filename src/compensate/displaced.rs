@@ -1,11 +1,14 @@
 //! Points that the running program derives from a target (`Offs`, `RelTool`) take its correction
-//! along; here is found how far from their own wanted poses they land.
+//! along; here is found how far from their own wanted poses they land: with the tool, in the work
+//! frame and where external axes stand at the move to them.
 
 use super::approach::Approach;
 use super::{Job, LIMIT_DERIVED_M};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
+use crate::motion::walk::{Arrival, Arrivals};
+use crate::program::script::short;
 use crate::program::{Displacement, Move, Shift};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,34 +22,50 @@ pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
     displaced.filter_map(|motion| motion.target).collect()
 }
 
+/// The known arrivals at moves to points that are derived from a target, by move.
+pub(super) fn arrivals(job: &Job, arrivals: &Arrivals) -> BTreeMap<usize, Vec<Arrival>> {
+    let moves = job.ground.program.moves.iter().enumerate();
+    let displaced = moves.filter(|(_, motion)| is_displaced(motion));
+    let known = |at: usize| {
+        let here = arrivals.at(at).map(|index| arrivals.all[index]);
+        here.filter(|arrival| arrival.known).collect()
+    };
+    displaced.map(|(at, _)| (at, known(at))).collect()
+}
+
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that
 /// points are derived from.
 pub(super) fn check(
     job: &Job,
+    arrivals: &BTreeMap<usize, Vec<Arrival>>,
     approaches: &[Approach],
     fakes: &BTreeMap<usize, Pose>,
     findings: &mut Vec<Finding>,
 ) {
     let ground = &job.ground;
     let limit_m = job.options.max_derived_error_m.unwrap_or(LIMIT_DERIVED_M);
-    for motion in ground.program.moves.iter().filter(|m| is_displaced(m)) {
+    for (&at, arrivals) in arrivals {
+        let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
             continue;
         };
-        let at = approaches.partition_point(|approach| (approach.target as usize) < target);
+        let first = approaches.partition_point(|approach| (approach.target as usize) < target);
         let approach = approaches
-            .get(at)
+            .get(first)
             .filter(|approach| approach.target as usize == target);
         let (Some(approach), Some(fake)) = (approach, fakes.get(&target)) else {
             continue;
         };
+        let uses = uses(job, arrivals, at, approach);
         let name = ground.name_of(target);
         let hint = "give the point a target of its own if it must be exact; --max-derived-error \
             raises the limit";
         let finding = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
-                let near = somehow().filter_map(|shift| landing(job, approach, fake, &shift));
+                let near = uses
+                    .iter()
+                    .flat_map(|of| somehow().filter_map(|shift| landing(job, of, fake, &shift)));
                 let most = near.map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along: up to \
@@ -64,17 +83,21 @@ pub(super) fn check(
                 ground.at_move("displacement-unknown", severity, motion, message, hint)
             }
             Displacement::Overwritten => {
-                let lost = approach
-                    .meant(job)
-                    .separation(&(ground.placed(approach.frame as usize).nominal * *fake));
+                // of numbers that are all written over nothing is left, of others some
+                let lost = uses.iter().flat_map(|of| {
+                    let given = [of.in_frame(job), *fake];
+                    let none = Shift::along([0.0; 3]);
+                    given.map(|given| landing(job, of, &given, &none))
+                });
+                let lost_m = lost.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
                     "the running program writes numbers over some of a copy of {name}: these lose \
                      a correction of {:.3} mm (the limit \
                      is {:.3} mm)",
-                    mm_from_m(lost.distance_m),
+                    mm_from_m(lost_m),
                     mm_from_m(limit_m)
                 );
-                let severity = if lost.distance_m > limit_m {
+                let severity = if lost_m > limit_m {
                     Severity::Error
                 } else {
                     Severity::Warning
@@ -82,7 +105,12 @@ pub(super) fn check(
                 ground.at_move("target-overwritten", severity, motion, message, hint)
             }
             Displacement::By(shift) => {
-                let Some(gap) = landing(job, approach, fake, shift) else {
+                let landings = uses.iter().map(|of| landing(job, of, fake, shift));
+                let farthest = landings.reduce(|a, b| {
+                    let (a, b) = (a?, b?);
+                    Some(if b.distance_m > a.distance_m { b } else { a })
+                });
+                let Some(gap) = farthest.flatten() else {
                     let message = format!("a point derived from {name} is out of reach");
                     let severity = Severity::Warning;
                     findings.push(ground.at_move(
@@ -111,6 +139,28 @@ pub(super) fn check(
     }
 }
 
+/// How the robot comes to a point that is derived from the target of an approach: with the posture
+/// of that where the walk does not know its own.
+fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<Approach> {
+    let motion = &job.ground.program.moves[at];
+    let there = Approach {
+        motion: short(at),
+        tool: short(motion.tool),
+        frame: short(job.ground.frame_of(motion)),
+        ..*approach
+    };
+    if arrivals.is_empty() {
+        return vec![there];
+    }
+    let of = |arrival: &Arrival| Approach {
+        nominal_q: arrival.q,
+        branch: arrival.branch,
+        direction: arrival.direction,
+        ..there
+    };
+    arrivals.iter().map(of).collect()
+}
+
 /// How far a sensor or a register usually displaces a point, metres.
 const SOMEHOW_M: f64 = 5.0 * MM;
 
@@ -124,20 +174,18 @@ fn somehow() -> impl Iterator<Item = Shift> {
     })
 }
 
-/// How far from its wanted pose a displaced use of a target lands; `None` where the controller does
-/// not reach it.
+/// How far from its wanted pose a displaced use of a target lands whose numbers in the work frame
+/// are given; `None` where the controller does not reach it.
 fn landing(
     job: &Job,
     approach: &Approach,
-    fake_in_frame: &Pose,
+    given_in_frame: &Pose,
     shift: &Shift,
 ) -> Option<Separation> {
     let ground = &job.ground;
     let placed = ground.placed(approach.frame as usize);
-    let wanted_from_frame = placed.real;
-    let in_frame = wanted_from_frame.inverse() * approach.wanted(job);
-    let wanted = wanted_from_frame * shift.apply(&in_frame);
-    let given = placed.nominal * shift.apply(fake_in_frame);
+    let wanted = placed.real * shift.apply(&approach.in_frame(job));
+    let given = placed.nominal * shift.apply(given_in_frame);
     let equipped = ground.arm_with(approach.tool as usize);
     let (q, reached) = equipped.controller_joints(&given, approach.branch, &approach.nominal_q);
     let real = &equipped.inverse.real;

@@ -75,12 +75,14 @@ use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{external, plausibility, setting};
 pub use crate::program::meaning;
-use crate::program::{Edits, Language, ReadError, Source, sha256};
+use crate::program::{Edits, Language, Move, ReadError, Source, sha256};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
+/// Angles of a positioner that differ by less are the same.
+const SAME_ANGLE_RAD: f64 = 1e-9;
 /// Targets rewritten by one thread at a time.
 const CHUNK: usize = 512;
 
@@ -178,6 +180,21 @@ pub enum CompensateError {
          and be the same"
     )]
     NothingToCorrect,
+    /// The part is moved in the world, and a positioner rotates it in between.
+    #[error(
+        "{file}:{line}: --work-offset moves the part in the world, and positioner `{positioner}`, \
+         which carries it, stands elsewhere here than in line {other_line}"
+    )]
+    OffsetOnPositioner {
+        /// The file.
+        file: String,
+        /// The line of the move.
+        line: usize,
+        /// The positioner.
+        positioner: String,
+        /// The line of a move at which it stands elsewhere.
+        other_line: usize,
+    },
     /// Not one of several targets can be reached from where the base stands, but from the origin
     /// they can.
     #[error(
@@ -214,6 +231,34 @@ pub enum CompensateError {
         /// How many there are.
         targets: usize,
     },
+}
+
+/// A part on a positioner is moved in the world where the positioner stands alike at all moves.
+fn check_offset(ground: &Ground, needs: impl Fn(&Move) -> bool) -> Result<(), CompensateError> {
+    let external = &ground.profile.external;
+    let mut first: Option<(&Move, usize, &[f64])> = None;
+    for motion in ground.program.moves.iter().filter(|motion| needs(motion)) {
+        let stand = ground.program.frames[motion.frame].stand.as_ref();
+        let Some((stand, at)) = stand.and_then(|stand| Some((stand, stand.positioner?))) else {
+            continue;
+        };
+        let own = external.first_of(at);
+        let values = &stand.values[own..own + external.positioners[at].axes.len()];
+        let Some((before, other, known)) = first else {
+            first = Some((motion, at, values));
+            continue;
+        };
+        let is_alike = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_ANGLE_RAD;
+        if at != other || !values.iter().zip(known).all(is_alike) {
+            return Err(CompensateError::OffsetOnPositioner {
+                file: ground.sources[motion.file as usize].name.clone(),
+                line: ground.line_of(motion),
+                positioner: external.positioners[at].name.clone(),
+                other_line: ground.line_of(before),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// What every step looks at.
@@ -300,6 +345,7 @@ fn with(
         |motion| approach::needs(&program, joints, motion),
     )?;
     if let Some(offset) = &options.work_offset {
+        check_offset(&ground, |motion| approach::needs(&program, joints, motion))?;
         ground.move_part(offset);
     }
     plausibility::units(&ground, Severity::Error, &mut findings);
@@ -338,6 +384,7 @@ fn with(
         findings.extend(remarks::corners(&job, &approaches));
     }
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
+    let derived = displaced::arrivals(&job, &arrivals);
     drop(arrivals);
     let Rewritten {
         reports: mut targets,
@@ -347,7 +394,7 @@ fn with(
         mut splits,
         mut meant,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
-    displaced::check(&job, &approaches, &fakes, &mut findings);
+    displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     let (compensated, summary) = tally.finish();

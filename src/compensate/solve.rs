@@ -175,6 +175,10 @@ fn changed_directions(
             continue;
         };
         let motion = &ground.program.moves[arrival.motion as usize];
+        if ground.program.is_arm_still(motion) {
+            directions[at] = directions[arrival.from as usize];
+            continue;
+        }
         let Some(equipped) = ground.equipped(motion.tool) else {
             continue;
         };

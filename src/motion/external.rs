@@ -101,6 +101,11 @@ pub(crate) fn settle(
     }
     let own = own_values(language, program, &axes);
     let (values, directions) = followed(program, profile, &own, axes.len());
+    let is = |known: &Known| match known {
+        Known::Is(value) => Some(*value),
+        _ => None,
+    };
+    program.stands = values.iter().map(is).collect();
     let own_of = |at: usize| {
         let first = profile.external.first_of(at);
         first..first + profile.external.positioners[at].axes.len()
@@ -138,17 +143,24 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
         .collect();
     let mut own = vec![None; program.moves.len() * axes.len()];
     for (motion, slots) in program.moves.iter().zip(own.chunks_mut(axes.len().max(1))) {
-        let Some(target) = motion.target else {
-            slots.fill(Some(f64::NAN));
-            continue;
+        let of_target = match motion.target {
+            Some(target) => part_of(&program.externals, target),
+            None if program.is_arm_still(motion) => &[],
+            None => {
+                slots.fill(Some(f64::NAN));
+                continue;
+            }
         };
-        let of_target = part_of(&program.externals, target);
         let of_move = part_of(&program.externals_of_moves, motion.instruction);
         for (_, external) in of_target {
             slots[usize::from(external.axis)] = Some(external.value);
         }
         for (_, external) in of_move {
             slots[usize::from(external.axis)] = Some(external.value);
+        }
+        for (_, shift) in part_of(&program.external_shifts, motion.instruction) {
+            let slot = &mut slots[usize::from(shift.axis)];
+            *slot = Some(slot.map_or(f64::NAN, |value| value + shift.value));
         }
         let state = state_of(program, motion);
         for (k, ((slot, axis), name)) in slots.iter_mut().zip(axes).zip(&offset_of).enumerate() {
@@ -434,8 +446,10 @@ impl Settler<'_> {
              says where it stands",
             source.name
         );
-        let hint = "activate its unit before the move; a unit that carries nothing a pose depends \
-            on stands in `other:` under `external_axes` of the profile";
+        let hint = "let it go with the targets from the start, or again before the move (ActUnit of \
+            RAPID, $ACT_EX_AX of KRL; where asynchronous motions leave it is not followed); what \
+            carries nothing a pose depends on stands in `other:` under `external_axes` of the \
+            profile";
         (why, hint)
     }
 

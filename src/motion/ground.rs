@@ -117,9 +117,9 @@ impl<'a> Ground<'a> {
 
     /// What external axes do on the way from the end of one move to that of another.
     pub(crate) fn ride(&self, from: Option<u32>, to: &Move) -> Option<Arc<Ride>> {
-        let stand = |motion: &Move| self.program.frames[motion.frame].stand.as_ref();
-        let from = from.and_then(|from| stand(&self.program.moves[from as usize]));
-        stand(to).map(|to| Ride::of(self.profile, from, to))
+        let from = from.map_or(&[][..], |from| self.program.stands_at(from as usize));
+        let stand = self.program.frames[to.frame].stand.as_ref();
+        stand.map(|to| Ride::of(self.profile, from, to))
     }
 
     /// Moves the part in the world: every wanted pose with it.

@@ -25,9 +25,10 @@ pub(crate) struct Ride {
 }
 
 impl Ride {
-    /// Of the move that ends with one stand, and begins with another where that is known.
-    pub(crate) fn of(profile: &Profile, from: Option<&Stand>, to: &Stand) -> Arc<Self> {
-        let at = |k: usize| from.map_or(f64::NAN, |from| from.values[k]);
+    /// Of the move that ends with a stand, and begins where each listed axis stands as far as that
+    /// is known.
+    pub(crate) fn of(profile: &Profile, from: &[Option<f64>], to: &Stand) -> Arc<Self> {
+        let at = |k: usize| from.get(k).copied().flatten().unwrap_or(f64::NAN);
         let mut is_known = true;
         let begin = to.values.iter().enumerate().map(|(k, &end)| {
             is_known &= end.is_nan() || !at(k).is_nan();

@@ -270,7 +270,17 @@ impl Walker<'_, '_> {
             honoured,
         };
         let Some(target) = motion.target else {
-            return nowhere;
+            // its joints stand while external axes go
+            let still = before.filter(|_| ground.program.is_arm_still(motion));
+            return match still {
+                Some(before) => Arrival {
+                    branch: before.branch,
+                    direction: before.direction,
+                    known: before.known,
+                    ..nowhere
+                },
+                None => nowhere,
+            };
         };
         let Some(decoded) =
             crate::program::meaning(ground.language, ground.program, ground.settings, target)

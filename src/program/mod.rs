@@ -470,8 +470,14 @@ pub struct Program {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by [`Move::instruction`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
+    /// What moves add to where their targets say that external axes stand, by
+    /// [`Move::instruction`].
+    pub external_shifts: Vec<(u32, External)>,
     /// What programs do to external axes besides their targets.
     pub external_states: Vec<ExternalState>,
+    /// Where each listed external axis stands at the end of each move, see
+    /// [`Program::stands_at`].
+    pub stands: Vec<Option<f64>>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }
@@ -485,6 +491,22 @@ impl Target {
 }
 
 impl Program {
+    /// Whether only external axes go, and the arm stands.
+    pub fn is_arm_still(&self, motion: &Move) -> bool {
+        let instruction = &self.instructions[motion.instruction as usize];
+        let own = &self.externals_of_moves;
+        motion.target.is_none()
+            && instruction.target == script::Expr::Absent
+            && (own.binary_search_by_key(&motion.instruction, |(at, _)| *at)).is_ok()
+    }
+
+    /// Where each listed external axis stands at the end of a move, metres and radians, where that
+    /// is known; empty where none is listed.
+    pub fn stands_at(&self, motion: usize) -> &[Option<f64>] {
+        let count = self.stands.len() / self.moves.len().max(1);
+        &self.stands[motion * count..(motion + 1) * count]
+    }
+
     /// How fast a move is, and with which corner.
     pub fn speed_zone(&self, motion: &Move) -> SpeedZone {
         let instruction = &self.instructions[motion.instruction as usize];

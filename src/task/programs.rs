@@ -267,6 +267,11 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             "`poseshift calibrate` identifies effects; with --work-offset the part is moved \
              without any",
         ),
+        CompensateError::OffsetOnPositioner { .. } => Failure::with_hint(
+            error.to_string(),
+            "correct the work frame on the plate, in program and controller; or compensate the \
+             moves of each angle as a program of their own, with the offset at that angle",
+        ),
         CompensateError::BaseElsewhere { .. } => Failure::with_hint(
             error.to_string(),
             "kinematics.base is where the controller has the robot, not where a measuring device \

@@ -92,6 +92,17 @@ pub enum Fault {
         /// Its name.
         name: String,
     },
+    /// A second positioner that carries every work frame.
+    #[error(
+        "positioner `{name}` has `follows: always`, and `{other}` before it has that too; the \
+         limit is one: every work frame is on it"
+    )]
+    SecondAlways {
+        /// Its name.
+        name: String,
+        /// Of the one before.
+        other: String,
+    },
     /// An external axis or unit without a name of its own.
     #[error("the external axis or unit `{name}` has no name of its own")]
     AxisName {

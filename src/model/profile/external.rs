@@ -198,6 +198,14 @@ impl ExternalFile {
             if file.name.trim().is_empty() || positioners.iter().any(is_same) {
                 return Err(Fault::AxisName { name: file.name }.at(at));
             }
+            let is_always = |follows: &Follows| *follows == Follows::Always;
+            let mut before = positioners.iter();
+            if let (FollowsFile::Always, Some(other)) =
+                (file.follows, before.find(|other| is_always(&other.follows)))
+            {
+                let (name, other) = (file.name, other.name.clone());
+                return Err(Fault::SecondAlways { name, other }.at(at));
+            }
             if file.axes.is_empty() {
                 return Err(Fault::NoAxis { name: file.name }.at(at));
             }

@@ -39,10 +39,12 @@ pub(super) fn resolve(
         findings: std::mem::take(&mut script.findings),
         externals: std::mem::take(&mut script.externals),
         externals_of_moves: std::mem::take(&mut script.externals_of_moves),
+        external_shifts: std::mem::take(&mut script.external_shifts),
         ..Program::default()
     };
     program.externals.sort_by_key(|(target, _)| *target);
     program.externals_of_moves.sort_by_key(|(at, _)| *at);
+    program.external_shifts.sort_by_key(|(at, _)| *at);
     let flow = Flow::of(&script);
     let mut resolver = Resolver {
         language,

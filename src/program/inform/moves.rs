@@ -121,6 +121,7 @@ impl<'a> Reader<'a> {
         // axes that go along with the robot
         let base = found.iter().find_map(|words| words.base);
         let station = found.iter().find_map(|words| words.station);
+        let is_arm_still = found.iter().all(|words| words.robot.is_none());
         let is_alone = found.iter().filter(|words| words.robot.is_some()).count() == 1;
         for (at, mut words) in found.into_iter().enumerate() {
             if searches {
@@ -136,7 +137,35 @@ impl<'a> Reader<'a> {
             // a station or the base moves alone; else it is a form that is not known
             if words.robot.is_some() || (at == 0 && base.is_none() && station.is_none()) {
                 self.go(&words, base, station);
+            } else if is_arm_still && at == 0 {
+                self.go_alone(&words, base, station);
             }
+        }
+    }
+
+    /// `MOVJ EC00002 VJ=5.00`: the robot stands where it is.
+    fn go_alone(&mut self, words: &Words<'a>, base: Option<&'a [u8]>, station: Option<&'a [u8]>) {
+        self.end_arc();
+        let at = short(self.builder.script.instructions.len());
+        for name in [base, station].into_iter().flatten() {
+            // what positions behind it say of their own axes is said there
+            self.external(name);
+        }
+        let script = &self.builder.script;
+        if script
+            .externals_of_moves
+            .last()
+            .is_some_and(|(of, _)| *of == at)
+        {
+            let instruction = Instruction {
+                end: short(words.end),
+                ..Instruction::at(self.place(words.start))
+            };
+            let modal = Modal {
+                speed_zone: words.speed_zone,
+                ..Modal::default()
+            };
+            self.builder.go(instruction, modal);
         }
     }
 

@@ -6,6 +6,7 @@ use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
+use crate::program::number::whole;
 use crate::program::script::{
     Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
     ValueId, VariableId, Write, Written, short,
@@ -42,6 +43,7 @@ pub(super) fn script<'a>(
         shifts: false,
         here: Here::default(),
         external_names,
+        written_external: written_external(sources, &positions),
         positions,
     };
     for job in &reader.positions.jobs {
@@ -109,6 +111,32 @@ pub(super) struct Reader<'a> {
     pub here: Here,
     /// External axes that the profile describes.
     pub(super) external_names: &'a ExternalNames,
+    /// Variables with axes of a base or a station that some job writes.
+    written_external: HashSet<WrittenExternal>,
+}
+
+/// The letters of variables with axes of a base or a station, and their number; none where only the
+/// running program knows which of them.
+type WrittenExternal = ([u8; 2], Option<u32>);
+
+/// The variables with axes of a base or a station that the instructions of all jobs write.
+fn written_external(sources: &[Source], positions: &Positions) -> HashSet<WrittenExternal> {
+    let lines = positions.jobs.iter().flat_map(|job| {
+        let bytes = &sources[job.file as usize].bytes;
+        Lines::from(&bytes[..job.instructions.end], job.instructions.start)
+    });
+    let is_comment = |line: &Line| matches!(line.text, [b'\'' | b'/', ..]);
+    let written = lines.filter(|line| !is_comment(line)).filter_map(|line| {
+        let mut words = words(line.text);
+        let (first, second) = (words.next()?, words.next()?);
+        let (letters, digits) = second.split_first_chunk()?;
+        let number = whole(digits);
+        let is_named = number.is_some() || digits.starts_with(b"[");
+        let is_variable = matches!(letters, b"BP" | b"EX") && is_named;
+        let changes = !is_move(first) && effect(first) != Effect::None;
+        (is_variable && changes).then(|| (*letters, number))
+    });
+    written.collect()
 }
 
 /// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with
@@ -436,14 +464,20 @@ impl<'a> Reader<'a> {
     pub(super) fn external(&mut self, name: &[u8]) -> Option<VariableId> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
-        let moved = super::job::external(name).and_then(|external| known.get(&external));
+        let named = super::job::external(name);
+        let named = named.filter(|named| !self.is_written_external(named));
+        let moved = named.and_then(|external| known.get(&external));
         let what = if is_station { "station" } else { "base" };
         let shown = Source::text(&name[..name.len().min(20)]);
         let (is_known, mut unknown) = (moved.is_some(), None);
         let counts = moved.is_some_and(|moved| moved.coordinates == Some(Coordinates::Pulses));
-        let values = moved.map(|moved| moved.values.clone()).unwrap_or_default();
+        let letters = if is_station { "EC" } else { "BC" };
+        // of none is anything known where only the running program knows
+        let values = moved.map_or_else(
+            || vec![f64::NAN; self.external_names.listed.len()],
+            |moved| moved.values.clone(),
+        );
         for (n, value) in (1..).zip(values) {
-            let letters = if is_station { "EC" } else { "BC" };
             match self.external_names.meaning(&format!("{letters}{n}")) {
                 ExternalUse::Listed(axis) => {
                     let value = value / self.pulses_of(axis, counts);
@@ -452,7 +486,7 @@ impl<'a> Reader<'a> {
                     let at = short(script.instructions.len());
                     script.externals_of_moves.push((at, external));
                 }
-                ExternalUse::Unknown if value != 0.0 && unknown.is_none() => {
+                ExternalUse::Unknown if is_known && value != 0.0 && unknown.is_none() => {
                     unknown = Some((n, value));
                 }
                 _ => {}
@@ -476,6 +510,13 @@ impl<'a> Reader<'a> {
         let builder = &mut self.builder;
         let reason = &mut self.here.external[usize::from(is_station)];
         Some(*reason.get_or_insert_with(|| always(builder, remark)))
+    }
+
+    /// Whether a job writes a variable with the axes of a base or station.
+    fn is_written_external(&self, (letters, number): &super::job::External) -> bool {
+        let any = (*letters, None);
+        let one = (*letters, Some(*number));
+        self.written_external.contains(&any) || self.written_external.contains(&one)
     }
 
     /// How much a value that counts in pulses is of one millimetre or degree; not a number where

@@ -1,14 +1,16 @@
 //! Moves: where they go, and with what.
 
-use super::aggregate;
+use super::aggregate::{self, EXTERNAL};
 use super::frames::State;
 use super::reader::Reader;
 use super::remarks::{from_nowhere, turned};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::script::{Expr, Instruction, Modal, Place, short};
-use crate::program::{Displacement, Motion, Shape, Shift, SpeedZone, number};
+use crate::program::script::{Expr, Instruction, Modal, Place, Remark, short};
+use crate::program::{
+    Displacement, External, ExternalUse, Motion, Shape, Shift, SpeedZone, number,
+};
 
 /// How the robot goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +47,8 @@ pub(super) struct With {
 pub(super) struct Last {
     target: Expr,
     shift: Shift,
+    /// What was added to each external axis.
+    external: [Option<f64>; 6],
 }
 
 /// What stands behind the positions of a move.
@@ -97,6 +101,7 @@ impl Reader {
                 self.last = self.shift_of(point).map(|shift| Last {
                     target: point.target,
                     shift,
+                    external: [None; 6],
                 });
             }
         }
@@ -209,10 +214,11 @@ impl Reader {
     /// `LIN_REL {Z 100} #BASE`
     pub(super) fn relative(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
         let last = self.last.take();
-        let (mut axes, mut by) = (false, None);
+        let (mut axes, mut by, mut external) = (false, None, [None; 6]);
         if cursor.blanks() == b'{' {
             let found = aggregate::read(&mut cursor)?;
             axes = found.is_axes();
+            external = found.external;
             let mut ahead = cursor;
             let in_tool = if ahead.take(b'#') {
                 let word = ahead.next();
@@ -254,6 +260,12 @@ impl Reader {
                 let [a, b, c] = last.shift.in_frame.translation;
                 last.shift.in_frame.translation = [a + x, b + y, c + z];
             }
+            for (sum, by) in last.external.iter_mut().zip(external) {
+                *sum = by.map(|by| by + sum.unwrap_or(0.0)).or(*sum);
+            }
+            if let Some(unknown) = self.shift_axes(&last.external) {
+                last.target = unknown;
+            }
             let displacement = Displacement::By(Box::new(last.shift));
             let mut instruction = move_to(last.target, place, *motion, &rest);
             instruction.displacement = self.builder.script.displacement(displacement);
@@ -273,6 +285,27 @@ impl Reader {
                 .go(move_to(target, place, *motion, &rest), modal);
         }
         Ok(())
+    }
+
+    /// What the next move adds to external axes; why nobody knows where it goes, where the profile
+    /// does not say what one carries.
+    fn shift_axes(&mut self, external: &[Option<f64>; 6]) -> Option<Expr> {
+        let at = short(self.builder.script.instructions.len());
+        let mut unknown = None;
+        for (name, value) in EXTERNAL.into_iter().zip(external) {
+            let Some(value) = *value else { continue };
+            match self.external.meaning(name) {
+                ExternalUse::Listed(axis) => {
+                    let shift = (at, External { axis, value });
+                    self.builder.script.external_shifts.push(shift);
+                }
+                ExternalUse::Unknown if value != 0.0 => {
+                    unknown = Some(self.unknown(Remark::external_unknown(name, value)));
+                }
+                _ => {}
+            }
+        }
+        unknown
     }
 }
 

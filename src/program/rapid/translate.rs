@@ -1,6 +1,7 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::EXTERNAL;
+use super::arguments::NOT_CONNECTED;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
@@ -11,7 +12,7 @@ use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Part as RecordPart, PartValue, Place,
     Remark, RemarkId, Script, Start, TableId, ValueId, VariableId, Write, Written,
 };
-use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
+use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
 /// Names of options.
@@ -133,6 +134,7 @@ pub(super) fn translate(
     for at in 0..resolved.parsed.statements.len() {
         translator.statement(at);
     }
+    translator.composed_axes(&settings.external);
     translator.close();
     translator.builder.finish()
 }
@@ -440,6 +442,29 @@ impl Translator<'_> {
         }
     }
 
+    /// `[p1.trans,p1.rot,p1.robconf,[400,9E9,…]]`: external axes that a target worked out from others
+    /// says itself.
+    fn composed_axes(&mut self, names: &ExternalNames) {
+        let script = &mut self.builder.script;
+        for (at, instruction) in (0..).zip(&script.instructions) {
+            if matches!(instruction.target, Expr::Target(_)) {
+                continue;
+            }
+            let source = &self.resolved.sources[instruction.place.file as usize];
+            let span = instruction.target_span;
+            let text = &source.bytes[span.start as usize..span.end as usize];
+            for (name, value) in EXTERNAL
+                .into_iter()
+                .zip(own_axes(text).into_iter().flatten())
+            {
+                if let ExternalUse::Listed(axis) = names.meaning(name) {
+                    let own = (at, External { axis, value });
+                    script.externals_of_moves.push(own);
+                }
+            }
+        }
+    }
+
     /// External axes say where the robot or the work piece is carried: the profile knows what, or
     /// that they carry nothing.
     fn external_axes(&mut self, names: &ExternalNames) {
@@ -511,4 +536,21 @@ impl Translator<'_> {
             script.refused.push((target, remark));
         }
     }
+}
+
+/// The external axes at the end of a target that is written out; not a number where they are no
+/// numbers, or not connected.
+fn own_axes(text: &[u8]) -> Option<[f64; 6]> {
+    let inside = text.strip_prefix(b"[")?.trim_ascii_end();
+    let inside = inside.strip_suffix(b"]")?.trim_ascii_end();
+    let inside = inside.strip_suffix(b"]")?;
+    let list = &inside[memchr::memrchr(b'[', inside)? + 1..];
+    let mut axes = [f64::NAN; 6];
+    for (axis, text) in axes.iter_mut().zip(list.split(|byte| *byte == b',')) {
+        let value = number::parse(text.trim_ascii());
+        *axis = value
+            .filter(|value| value.abs() < NOT_CONNECTED)
+            .unwrap_or(f64::NAN);
+    }
+    Some(axes)
 }

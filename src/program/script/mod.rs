@@ -94,6 +94,8 @@ pub struct Script {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by index in [`Script::instructions`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
+    /// What moves add to where their targets say that external axes stand, likewise.
+    pub external_shifts: Vec<(u32, External)>,
     /// Sets of what moves expect variables to hold, see [`Modal::expected`].
     pub expected: Vec<Box<[Expected]>>,
     /// What no move in the files uses, nothing uses: targets cannot be named from other files.
@@ -131,6 +133,7 @@ impl Default for Script {
             refused: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),
+            external_shifts: Vec::new(),
             expected: vec![Box::default()],
             is_closed: false,
             labels: 0,

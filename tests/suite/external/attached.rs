@@ -287,6 +287,43 @@ fn the_page_has_the_plate_and_where_it_stands_at_each_move() {
 }
 
 #[test]
+fn a_plate_is_followed_from_where_it_stood_at_a_move_that_it_does_not_matter_to() {
+    let folder = scratch();
+    let profile = crate::support::text("programs/rapid/positioner/profile.yaml");
+    let post = "  - {name: post, sphere_mm: {radius: 10}, at: {x_mm: 1243, y_mm: 100, z_mm: 690, \
+                rx_deg: 0, ry_deg: 0, rz_deg: 0}}\n";
+    let gun = "  - {name: gun, to: flange, capsule_mm: {from: [0, 0, 0], to: [0, 0, 175], radius: \
+               5}}\n";
+    let cell = format!(
+        "poseshift: cell/1\nclearance_mm: 20\nbodies:\n{post}attached:\n{gun}pairs: [{{a: gun, \
+         b: link4, allow: true}}, {{a: gun, b: link5, allow: true}}, {{a: gun, b: link6, allow: \
+         true}}]\n"
+    );
+    let data = "PERS tooldata tMill:=[TRUE,[[0,0,180],[1,0,0,0]],[4.5,[0,0,90],[1,0,0,0],0,0,0]];\n\
+        PERS wobjdata w:=[FALSE,FALSE,\"STN1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
+    // the same pose, in the world and on the plate: from there on the plate rotates
+    let from = [
+        "MoveJ [[1250,100,760],[0,1,0,0],[0,0,0,0],[9E9,0,9E9,9E9,9E9,9E9]],v60,fine,tMill;",
+        "MoveJ [[0,-200,0],[0.70710678,-0.70710678,0,0],[0,0,0,0],[9E9,0,9E9,9E9,9E9,9E9]],v60,\
+         fine,tMill\\WObj:=w;",
+    ];
+    for start in from {
+        let body = format!(
+            "MoveAbsJ [[0,10,20,0,60,0],[9E9,0,9E9,9E9,9E9,9E9]]\\NoEOffs,v500,fine,tMill;\n\
+             {start}\nMoveL [[-240,0,0],[0.47314679,-0.47314679,0.52548275,-0.52548275],\
+             [0,0,0,0],[9E9,90,9E9,9E9,9E9,9E9]],v60,fine,tMill\\WObj:=w;\n"
+        );
+        let program = put(folder.path(), "t.mod", &rapid(data, &body));
+        let (status, report) = check(folder.path(), &profile, &program, &cell);
+        let found = report["findings"].to_string();
+        assert!(
+            status == Some(1) && found.contains("post"),
+            "{start}\n{report:#}"
+        );
+    }
+}
+
+#[test]
 fn where_nobody_knows_the_plate_nothing_is_guessed() {
     let scene = scene();
     let folder = scratch();

@@ -3,6 +3,7 @@
 
 mod attached;
 mod checked;
+mod derived;
 mod landing;
 mod measured;
 mod named;

@@ -1,7 +1,10 @@
 //! What is refused, and how; what must stay as it is.
 
 use super::{errors, profile, rapid, run, written};
+use poseshift::compensate::compensate;
+use poseshift::geometry::Pose;
 use poseshift::model::profile::Profile;
+use poseshift::program;
 
 const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], zero_mm: \
     0, min_mm: 0, max_mm: 2000}\n";
@@ -215,6 +218,34 @@ fn limits_and_values_that_nobody_knows_are_errors() {
 }
 
 #[test]
+fn an_offset_in_the_world_needs_one_angle_of_the_positioner() {
+    let cell = profile(TABLE, &[ARM]);
+    let wobj = "PERS wobjdata w:=[FALSE,FALSE,\"STN1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];";
+    let go = |angle: f64| {
+        format!(
+            "MoveJ [[40,20,400],[0,0.1,0.9949874371,0],[0,0,0,0],[9E9,{angle},9E9,9E9,9E9,9E9]],\
+             v100,fine,t\\WObj:=w;\n"
+        )
+    };
+    let result = |second: f64| {
+        let text = rapid(wobj, &format!("{}{}", go(10.0), go(second)));
+        let sources = super::sources(&[("t.mod", &text)]);
+        let language = program::language_of(&sources[0]).expect("a language");
+        let mut options = super::options();
+        options.work_offset = Some(Pose::from_translation(0.005, 0.0, 0.0));
+        compensate(language, &sources, &cell, &options).map(|_| ())
+    };
+    assert!(result(10.0).is_ok());
+    let refused = result(20.0).expect_err("a part that rotates").to_string();
+    assert!(
+        refused.starts_with("t.mod:7:")
+            && refused.contains("`STN1`")
+            && refused.contains("in line 6"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn a_component_that_krl_leaves_out_keeps_its_value() {
     let rail = profile(KRL_TRACK, &[ARM, RAIL]);
     let pose = "X 640,Y 200,Z 700,A 10,B 5,C 170";
@@ -271,6 +302,19 @@ fn a_profile_says_where_it_is_wrong() {
         assert!(message.contains(says), "{message}");
         assert_eq!(line, 3, "{message}");
     }
+    let always = |name: &str, axis: &str| {
+        format!(
+            "    - name: {name}\n      follows: always\n      axes: [{{axis: {axis}, at: {{x_mm: 0, \
+             y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}}, min_deg: 0, max_deg: 1}}]\n"
+        )
+    };
+    let two = [always("ST1", "EC1"), always("ST2", "EC2")].concat();
+    let (line, message, _) = error(&format!("external_axes:\n  positioners:\n{two}"), "");
+    assert!(
+        message.contains("`ST2`") && message.contains("`ST1`"),
+        "{message}"
+    );
+    assert_eq!(line, 6, "{message}");
     let good = track("direction: [1, 0, 0], min_mm: 0, max_mm: 1000");
     for (effect, says, hint) in [
         (

@@ -1,0 +1,156 @@
+//! Values of external axes that only statements between targets tell, and points that are derived
+//! from a target elsewhere on the rail.
+//!
+//! The rail goes 1/1000 farther than the controller believes and has no other error: at a value e
+//! along x everything lands e/1000 farther along x, so the correction of a target is that by hand.
+
+use super::{errors, profile, rapid, run, written};
+
+const SCALE: &str = "{effect: track_scale, axis: 1, ratio: 0.001}";
+
+fn rail(axis: &str) -> String {
+    format!(
+        "external_axes:\n  track:\n    - {{axis: {axis}, direction: [1, 0, 0], zero_mm: 0, min_mm: \
+         0, max_mm: 2000}}\n"
+    )
+}
+
+const HOME: &str = "MoveAbsJ [[0,0,10,0,60,0],[100,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nMoveJ \
+    p1,v100,fine,t;\n";
+const POINT: &str = "CONST robtarget p1:=[[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],\
+    [100,9E9,9E9,9E9,9E9,9E9]];\nPERS wobjdata w:=[FALSE,TRUE,\"\",[[840,-440,0],\
+    [0.7071067811865476,0,0,0.7071067811865476]],[[0,0,0],[1,0,0,0]]];";
+
+#[test]
+fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
+    let rail = profile(&rail("eax_a"), &[SCALE]);
+    for (body, lands) in [
+        ("MoveJ Offs(p1,0,0,1),v100,fine,t;\n", "lands 0.000 mm off"),
+        // corrected by 0.1 mm, and 0.4 mm would be right
+        (
+            "EOffsSet [300,0,0,0,0,0];\nMoveJ Offs(p1,0,0,1),v100,fine,t;\n",
+            "lands 0.300 mm off",
+        ),
+        // the correction along -x of the target's frame is one along -y of the world
+        (
+            "MoveJ Offs(p1,0,0,1),v100,fine,t\\WObj:=w;\n",
+            "lands 0.141 mm off",
+        ),
+    ] {
+        let text = rapid(POINT, &format!("{HOME}{body}"));
+        let done = run(&rail, &[("t.mod", &text)]).expect("read");
+        let mut said = done.findings.iter();
+        let found = said.find(|finding| finding.id == "displaced-target");
+        let message = &found.expect("a finding").message;
+        assert!(message.contains(lands), "{body}: {message}");
+    }
+}
+
+#[test]
+fn a_composed_target_stands_where_its_own_numbers_say() {
+    let rail = profile(&rail("eax_a"), &[SCALE]);
+    for (axes, id, off) in [
+        ("p1.extax", "displacement-unknown", "0.000 mm off"),
+        (
+            "[400,9E9,9E9,9E9,9E9,9E9]",
+            "displacement-unknown",
+            "0.300 mm off",
+        ),
+        ("[x,9E9,9E9,9E9,9E9,9E9]", "external-value-unknown", "eax_a"),
+    ] {
+        let go = format!("MoveJ [p1.trans,p1.rot,p1.robconf,{axes}],v100,fine,t;\n");
+        let text = rapid(POINT, &format!("{HOME}{go}"));
+        let done = run(&rail, &[("t.mod", &text)]).expect("read");
+        let found = done.findings.iter().find(|finding| finding.id == id);
+        let message = found.map(|finding| finding.message.as_str());
+        assert!(
+            message.is_some_and(|message| message.contains(off)),
+            "{axes}: {:?}",
+            done.findings
+        );
+    }
+}
+
+/// The first X of each line of a KRL program with one.
+fn xs(text: &str) -> Vec<f64> {
+    let behind = text.lines().filter_map(|line| line.split_once("{X "));
+    let numbers = behind.map(|(_, rest)| rest.split(',').next().expect("a number"));
+    numbers.map(|x| x.parse().expect("a number")).collect()
+}
+
+/// Half a unit of the last decimal that files have here, mm.
+const ROUNDING_MM: f64 = 6e-4;
+
+#[test]
+fn a_relative_move_of_krl_moves_its_external_axes() {
+    let rail = profile(&rail("E1"), &[SCALE]);
+    let pose = "X 640.000,Y 200.000,Z 700.000,A 10.000,B 5.000,C 170.000";
+    for (relative, x) in [
+        ("PTP_REL {Z 1}", 639.9),
+        ("PTP_REL {Z 1,E1 100}", 639.8),
+        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1}", 639.8),
+        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1,E1 50}", 639.75),
+    ] {
+        let text = format!(
+            "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 \
+             100}}\nPTP {{{pose},E1 100}}\n{relative}\nPTP {{{pose}}}\nEND\n"
+        );
+        let found = xs(&written(&rail, &[("t.src", &text)]));
+        let [first, last] = found[..] else {
+            panic!("{found:?}")
+        };
+        assert!((first - 639.9).abs() < ROUNDING_MM, "{relative}: {first}");
+        assert!((last - x).abs() < ROUNDING_MM, "{relative}: {last}");
+    }
+}
+
+/// A job with the rail at 100 and 400 mm.
+fn job(lines: &str) -> String {
+    format!(
+        "/JOB\n//NAME T\n//POS\n///NPOS 3,3,0,0,1,0\n///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\n\
+         C00000=0,0,10,0,60,0\nBC00000=100\n///POSTYPE BASE\n///RECTAN\n///RCONF \
+         0,0,0,0,0,0,0,0\nC00001=640.000,200.000,700.000,170.0000,0.0000,0.0000\nBC00001=100\n\
+         C00002=640.000,210.000,700.000,170.0000,0.0000,0.0000\nBC00002=400\nBP001=100\n//INST\n\
+         ///DATE 2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1,BS1\nNOP\nMOVJ C00000 BC00000 \
+         VJ=5.00\n{lines}END\n"
+    )
+}
+
+#[test]
+fn a_base_of_inform_that_moves_alone_counts_for_the_positions_behind_it() {
+    let rail = profile(&rail("BC1"), &[SCALE]);
+    let text = job("MOVJ C00001 BC00001 VJ=5.00\nMOVJ BC00002 VJ=5.00\nMOVJ C00002 VJ=5.00\n");
+    let written = written(&rail, &[("T.JBI", &text)]);
+    let x = |name: &str| -> f64 {
+        let line = written.lines().find_map(|line| line.strip_prefix(name));
+        let first = line.and_then(|line| line.split(',').next());
+        first.and_then(|x| x.parse().ok()).expect("a position")
+    };
+    let (first, last) = (x("C00001="), x("C00002="));
+    assert!((first - 639.9).abs() < ROUNDING_MM, "{first}");
+    assert!((last - 639.6).abs() < ROUNDING_MM, "{last}");
+}
+
+#[test]
+fn variables_of_the_base_that_a_job_writes_are_not_known() {
+    let rail = profile(&rail("BC1"), &[SCALE]);
+    let go = "MOVJ C00001 BP001 VJ=5.00\n";
+    for (before, is_known) in [
+        ("", true),
+        ("SETE BP002 (1) 400000\n", true),
+        ("'SETE BP001 (1) 400000\n", true),
+        ("SETE BP001 (1) 400000\n", false),
+        ("ADD BP001 BP002\n", false),
+        ("CNVRT BP001 PX001 BF\n", false),
+        ("SUB BP[I000] BP002\n", false),
+    ] {
+        let text = job(&format!("{before}{go}"));
+        let done = run(&rail, &[("T.JBI", &text)]).expect("read");
+        let found = errors(&done);
+        assert_eq!(found.is_empty(), is_known, "{before}{:?}", done.findings);
+        if !is_known {
+            let mut said = done.findings.iter();
+            assert!(said.any(|f| f.message.contains("BP001")), "{before}");
+        }
+    }
+}
