@@ -99,7 +99,7 @@ pub const TABLE: &[Kind] = &[
     row("corner-direction", Note, "the robot cuts the corner at a target: joints with backlash are taken to come from the side of the programmed path", "stop at targets that must be exact", &["compensate"], &[]),
     row("corners-not-accepted", Warning, "the refinement by corners is left out: left-out corners do not improve", "touch and see more corners", &["handeye"], &[]),
     row("corrected-by-sensor", Warning, "a sensor or an offset corrects the move while it runs", "the correction of the program goes with it: look at the first part", &["compensate", "check"], &["rapid", "fanuc", "val3"]).was(&["path-corrected"]),
-    row("direction-uncertain", Warning, "the text does not say in which direction joints with backlash come to the target", "come to the target on a longer move", &["compensate", "check"], &[]),
+    row("direction-uncertain", Warning, "the text does not say in which direction joints with backlash come to the target", "come to the target on a longer move, from a point with numbers of its own, or give --start-joints", &["compensate", "check"], &[]),
     row("displaced-target", Warning, "a point that a move displaces from its target by known numbers is compensated with the target, not for itself; a note below --max-derived-error", "give the point a target of its own if it must be exact", &["compensate"], &[]),
     row("displacement-active", Error, "a shift of the program may be active at the move", "switch it off in the same routine before the move", &["compensate", "check"], &["rapid", "inform"]),
     row("displacement-unknown", Warning, "a move displaces its target by what the text does not say", "give the point a target of its own if it must be exact", &["compensate"], &[]),
