@@ -8,6 +8,7 @@ use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shape, TargetId, Value};
+use std::collections::BTreeSet;
 
 /// Joints that differ by less are the same, radians.
 pub(super) const SAME_RAD: f64 = 1e-7;
@@ -153,7 +154,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
         }
     }
     approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
-    add_derived(job, derived, &mut approaches);
+    add_derived(job, arrivals, derived, &mut approaches, findings);
     add_unused(job, &used, &mut approaches, findings);
     approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
     if !job.options.split_targets {
@@ -191,11 +192,9 @@ fn drop_served(
     if !approaches.iter().any(|a| solve::has_unknown_side(job, a)) {
         return;
     }
-    let program = job.ground.program;
     let all = approaches.clone();
     approaches.retain(|approach| {
-        let begins_unknown = || arrivals.unknown_before(program, approach.arrival).is_some();
-        if !solve::has_unknown_side(job, approach) || !begins_unknown() {
+        if !begins_unknown(job, arrivals, approach) {
             return true;
         }
         let first = all.partition_point(|other| other.target < approach.target);
@@ -208,6 +207,15 @@ fn drop_served(
         findings.push(solve::unknown_side(job, arrivals, approach, Some(other)));
         false
     });
+}
+
+/// Whether nobody knows from which side a joint with backlash comes, since it comes from a point
+/// that only the running program knows.
+fn begins_unknown(job: &Job, arrivals: &Arrivals, approach: &Approach) -> bool {
+    solve::has_unknown_side(job, approach)
+        && arrivals
+            .unknown_before(job.ground.program, approach.arrival)
+            .is_some()
 }
 
 /// Whether an approach whose sides are known goes as another one does, as far as anybody knows.
@@ -237,16 +245,31 @@ fn has_same_posture(job: &Job, a: &Approach, b: &Approach) -> bool {
 
 /// Targets that moves only go near: as if the robot went there itself, in the posture that it has
 /// nearby.
-fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
+fn add_derived(
+    job: &Job,
+    arrivals: &Arrivals,
+    derived: Vec<Approach>,
+    approaches: &mut Vec<Approach>,
+    findings: &mut Vec<Finding>,
+) {
     let direct = approaches.len();
+    let mut reported = BTreeSet::new();
     for mut approach in derived {
         let known = approaches[..direct]
             .binary_search_by_key(&approach.target, |other| other.target)
             .is_ok();
-        let again = approaches[direct..]
+        if known {
+            continue;
+        }
+        let first = approaches[direct..]
             .iter()
-            .any(|other| other.target == approach.target);
-        if known || again {
+            .find(|other| other.target == approach.target);
+        if let Some(first) = first {
+            let is_guessed =
+                begins_unknown(job, arrivals, &approach) && !solve::has_unknown_side(job, first);
+            if is_guessed && reported.insert(approach.target) {
+                findings.push(solve::unknown_side(job, arrivals, &approach, Some(first)));
+            }
             continue;
         }
         let wanted = approach.meant(job);

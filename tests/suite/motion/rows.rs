@@ -551,3 +551,13 @@ fn numbers_for_a_known_side_serve_an_unknown_one_with_a_warning() {
     assert!(reported.contains("as in line 9"), "{reported}");
     assert!(done.targets[0].shift.distance_m > 1e-4);
 }
+
+#[test]
+fn a_point_displaced_twice_by_what_the_program_knows_has_the_first_side_with_a_warning() {
+    let text = from_a_height("h", "").replace("MoveL at,", "MoveL Offs(at,0,0,-h),");
+    let done = done(&[BACKLASH], &[("t.mod", &text)]);
+    let reported = message(&done, "direction-uncertain");
+    for word in ["line 4", "joint 2", "as in line 4"] {
+        assert!(reported.contains(word), "{word}: {reported}");
+    }
+}
