@@ -24,6 +24,8 @@ use rayon::prelude::*;
 const MOST_HALVINGS: u32 = 7;
 /// The bound is asked to be below this part of the limit: written numbers are rounded.
 const ROOM: f64 = 0.96;
+/// Where joints reverse at the start of a move, a target so far along it takes the backlash up.
+const TAKEN_UP: f64 = 1.0 / 64.0;
 /// Decimals of a millimetre that new targets have at least.
 const DECIMALS: usize = 3;
 
@@ -65,25 +67,19 @@ pub fn refine(
         .collect();
     let refusals: Vec<Option<Finding>> = changes
         .iter()
-        .map(|change| match &change.what {
-            What::Insert(insertion) => {
-                let why = "the text of this move cannot be repeated";
-                Some(job.failed(insertion.motion, change.whole_m, why))
-            }
-            What::Said(_) => None,
+        .map(|change| {
+            let why = "the text of this move cannot be repeated";
+            let insertion = change.insertion.as_ref()?;
+            Some(job.failed(insertion.motion, change.whole_m, why))
         })
         .collect();
     for file in 0..subject.sources.len() {
         let (mut insertions, mut refused) = (Vec::new(), Vec::new());
         let of_file = changes.iter().zip(&refusals);
         for (change, refusal) in of_file.filter(|(change, _)| change.file == file) {
-            match &change.what {
-                What::Said(finding) => compensation.findings.push(finding.clone()),
-                What::Insert(insertion) => {
-                    insertions.push(insertion.clone());
-                    refused.extend(refusal.clone());
-                }
-            }
+            compensation.findings.extend(change.finding.clone());
+            insertions.extend(change.insertion.clone());
+            refused.extend(refusal.clone());
         }
         if insertions.is_empty() {
             continue;
@@ -103,14 +99,10 @@ struct Change {
     file: usize,
     /// How far its path is from the wanted one, metres.
     whole_m: f64,
-    what: What,
-}
-
-enum What {
-    /// Moves before it.
-    Insert(Insertion),
-    /// Nothing can be done.
-    Said(Finding),
+    /// Moves before it; none where nothing can be done.
+    insertion: Option<Insertion>,
+    /// What stays off the path.
+    finding: Option<Finding>,
 }
 
 struct Job<'a> {
@@ -155,9 +147,10 @@ impl Job<'_> {
         let motion = self.walk.motion(index);
         let leg = self.walk.leg(index, self.options.turning)?;
         let stop = self.walk.stops.all[index]?;
+        let begin = self.walk.start(index)?;
         let is_pose = program.goes_to_pose(motion);
         let via = self.walk.via(index);
-        let start = self.joints_at(self.walk.start(index)?)?;
+        let start = self.joints_at(begin)?;
         let end = self.joints_at(index)?;
         let arms = self.walk.arms(&stop);
         let controller = |q: &[f64; 6]| arms.plain.controller.forward(q, &Conditions::default());
@@ -175,38 +168,27 @@ impl Job<'_> {
         if whole <= self.limit_m {
             return None;
         }
-        let change = |what| {
+        let change = |insertion, finding| {
             Some(Change {
                 file: motion.file as usize,
                 whole_m: whole,
-                what,
+                insertion,
+                finding,
             })
         };
-        let failed = |why| change(What::Said(self.failed(index, whole, why)));
-        // a joint target that stays as it is: no target between helps at the end itself
-        let gap = |point: &Point| {
+        let failed = |why| change(None, Some(self.failed(index, whole, why)));
+        let gap = |point: &Point, conditions: &Conditions| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
             let wanted = leg.real_from_nominal(point.s, wanted);
-            let landed = arms.plain.real.forward(&point.q, &leg.conditions);
+            let landed = arms.plain.real.forward(&point.q, conditions);
             landed.separation(&wanted).distance_m
         };
-        let ends = gap(&first).max(gap(&last));
+        // a target that is off as the robot comes to it: no target between helps there
+        let arrived = self.walk.conditions(&self.walk.stops.all[begin]?);
+        let ends = gap(&first, &arrived).max(gap(&last, &leg.conditions));
         if ends > self.limit_m {
-            let message = format!(
-                "this move begins or ends {:.3} mm off its wanted path, at a target that stays as \
-                 it is or a point derived from one: no targets are inserted",
-                mm_from_m(ends)
-            );
-            let hint = "--joint-targets correct shifts joint targets, too";
-            let note = Severity::Note;
-            return change(What::Said(self.subject.finding(
-                self.walk.motion(index),
-                "path-from-kept-target",
-                note,
-                message,
-                hint,
-            )));
+            return change(None, Some(self.off_at_an_end(index, ends)));
         }
         if !self.walk.is_only(index) {
             return failed("the robot comes here from several moves");
@@ -220,9 +202,27 @@ impl Job<'_> {
         if leg.ride.as_ref().is_some_and(|ride| ride.moves()) {
             return failed("external axes move on it");
         }
+        // as the robot leaves: joints with backlash that reverse are off until it is taken up
+        let pieces = self.part(&leg, &first, &last, through.as_ref()).pieces();
+        let leaving = pieces.iter().take_while(|piece| piece.from <= 0.0);
+        let reversed = leaving
+            .map(|piece| gap(&first, &piece.conditions))
+            .fold(0.0, f64::max);
         let mut points = vec![first];
-        if !self.split(&leg, index, &first, &last, 0, &mut points) {
-            return failed("the path passes a singularity or leaves the reach");
+        let mut finding = None;
+        let is_split = if reversed > ROOM * self.limit_m {
+            let most = self.take_up(&leg, index, &first, &last, &mut points);
+            let over = most.filter(|most| *most > self.limit_m);
+            finding = over.map(|most| self.off_until_taken_up(index, most));
+            most.is_some()
+        } else {
+            self.split(&leg, index, &first, &last, 0, &mut points)
+        };
+        if !is_split {
+            return failed(
+                "the path passes a singularity or leaves the reach, or a joint with backlash \
+                 reverses on it",
+            );
         }
         points.remove(0);
         points.pop();
@@ -238,7 +238,63 @@ impl Job<'_> {
             between,
             own: None,
         };
-        change(What::Insert(insertion))
+        change(Some(insertion), finding)
+    }
+
+    /// No targets between help where a target itself is off.
+    fn off_at_an_end(&self, motion: usize, ends_m: f64) -> Finding {
+        let message = format!(
+            "this move begins or ends {:.3} mm off its wanted path (limit {:.3} mm), at a target \
+             that stays as it is or is off itself: no targets are inserted",
+            mm_from_m(ends_m),
+            mm_from_m(self.limit_m)
+        );
+        let hint = "--joint-targets correct shifts joint targets, too; give a point that is \
+            derived from another a target of its own";
+        self.subject.finding(
+            self.walk.motion(motion),
+            "path-from-kept-target",
+            Severity::Warning,
+            message,
+            hint,
+        )
+    }
+
+    /// Joints with backlash reverse where a move begins.
+    fn off_until_taken_up(&self, motion: usize, most_m: f64) -> Finding {
+        let message = format!(
+            "joints with backlash reverse where this move begins: the tool is up to {:.3} mm off \
+             the wanted path (limit {:.3} mm) until a target at {:.1} % of it",
+            mm_from_m(most_m),
+            mm_from_m(self.limit_m),
+            100.0 * TAKEN_UP
+        );
+        let hint = "no target avoids that; come to where the move begins from the side to which \
+            it leaves";
+        self.subject.finding(
+            self.walk.motion(motion),
+            "path-at-reversal",
+            Severity::Warning,
+            message,
+            hint,
+        )
+    }
+
+    /// Appends the points behind the first where joints reverse there, the next one near it: how
+    /// far the path before that is off at most, metres. `None` as [`Job::split`] is false.
+    fn take_up(
+        &self,
+        leg: &Leg,
+        index: usize,
+        first: &Point,
+        last: &Point,
+        out: &mut Vec<Point>,
+    ) -> Option<f64> {
+        let near = self.point(leg, index, TAKEN_UP, &first.q)?;
+        let through = self.via(leg, index, first, &near).ok()?;
+        let most = self.error(leg, index, first, &near, through.as_ref());
+        out.push(near);
+        self.split(leg, index, &near, last, 1, out).then_some(most)
     }
 
     /// That a target between would be shifted farther than targets with its tool may be.

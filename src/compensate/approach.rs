@@ -1,6 +1,6 @@
 //! From where the robot comes to each target: with which tool, in which work frame, from where.
 
-use super::Job;
+use super::{Job, solve};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::inverse::{Branch, Outcome};
@@ -8,6 +8,7 @@ use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shape, TargetId, Value};
+use std::collections::BTreeSet;
 
 /// Joints that differ by less are the same, radians.
 pub(super) const SAME_RAD: f64 = 1e-7;
@@ -153,11 +154,12 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
         }
     }
     approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
-    add_derived(job, derived, &mut approaches);
+    add_derived(job, arrivals, derived, &mut approaches, findings);
     add_unused(job, &used, &mut approaches, findings);
     approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
     if !job.options.split_targets {
         drop_same(job, &mut approaches);
+        drop_served(job, arrivals, &mut approaches, findings);
     }
     approaches
 }
@@ -179,11 +181,62 @@ fn drop_same(job: &Job, approaches: &mut Vec<Approach>) {
     approaches.truncate(kept);
 }
 
+/// Leaves out approaches from a point that only the running program knows, so that nobody knows
+/// from which side joints come, where the numbers of another approach serve them.
+fn drop_served(
+    job: &Job,
+    arrivals: &Arrivals,
+    approaches: &mut Vec<Approach>,
+    findings: &mut Vec<Finding>,
+) {
+    if !approaches.iter().any(|a| solve::has_unknown_side(job, a)) {
+        return;
+    }
+    let all = approaches.clone();
+    approaches.retain(|approach| {
+        if !begins_unknown(job, arrivals, approach) {
+            return true;
+        }
+        let first = all.partition_point(|other| other.target < approach.target);
+        let of_target = all[first..]
+            .iter()
+            .take_while(|other| other.target == approach.target);
+        let Some(other) = of_target.into_iter().find(|o| serves(job, o, approach)) else {
+            return true;
+        };
+        findings.push(solve::unknown_side(job, arrivals, approach, Some(other)));
+        false
+    });
+}
+
+/// Whether nobody knows from which side a joint with backlash comes, since it comes from a point
+/// that only the running program knows.
+fn begins_unknown(job: &Job, arrivals: &Arrivals, approach: &Approach) -> bool {
+    solve::has_unknown_side(job, approach)
+        && arrivals
+            .unknown_before(job.ground.program, approach.arrival)
+            .is_some()
+}
+
+/// Whether an approach whose sides are known goes as another one does, as far as anybody knows.
+fn serves(job: &Job, known: &Approach, other: &Approach) -> bool {
+    let has_backlash = job.ground.arm_with(known.tool as usize).has_backlash;
+    let agrees = |i: usize| {
+        let (known, other) = (known.direction[i], other.direction[i]);
+        known != 0 && (other == 0 || other == known)
+    };
+    has_same_posture(job, known, other) && (0..6).all(|i| !has_backlash[i] || agrees(i))
+}
+
 /// Whether two approaches of one target ask for the same numbers.
 fn is_same(job: &Job, a: &Approach, b: &Approach) -> bool {
+    a.direction == b.direction && has_same_posture(job, a, b)
+}
+
+/// Whether two approaches of one target differ by nothing but the sides from which joints come.
+fn has_same_posture(job: &Job, a: &Approach, b: &Approach) -> bool {
     let setting = &job.ground.setting;
     a.branch == b.branch
-        && a.direction == b.direction
         && a.honoured == b.honoured
         && (0..6).all(|i| (a.nominal_q[i] - b.nominal_q[i]).abs() < SAME_RAD)
         && setting.same_tool(a.tool as usize, b.tool as usize)
@@ -192,16 +245,31 @@ fn is_same(job: &Job, a: &Approach, b: &Approach) -> bool {
 
 /// Targets that moves only go near: as if the robot went there itself, in the posture that it has
 /// nearby.
-fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
+fn add_derived(
+    job: &Job,
+    arrivals: &Arrivals,
+    derived: Vec<Approach>,
+    approaches: &mut Vec<Approach>,
+    findings: &mut Vec<Finding>,
+) {
     let direct = approaches.len();
+    let mut reported = BTreeSet::new();
     for mut approach in derived {
         let known = approaches[..direct]
             .binary_search_by_key(&approach.target, |other| other.target)
             .is_ok();
-        let again = approaches[direct..]
+        if known {
+            continue;
+        }
+        let first = approaches[direct..]
             .iter()
-            .any(|other| other.target == approach.target);
-        if known || again {
+            .find(|other| other.target == approach.target);
+        if let Some(first) = first {
+            let is_guessed =
+                begins_unknown(job, arrivals, &approach) && !solve::has_unknown_side(job, first);
+            if is_guessed && reported.insert(approach.target) {
+                findings.push(solve::unknown_side(job, arrivals, &approach, Some(first)));
+            }
             continue;
         }
         let wanted = approach.meant(job);

@@ -59,7 +59,7 @@ pub(super) fn solve(
         }
     }
     if walk_options.directed {
-        tell_unknown(job, approaches, findings);
+        tell_unknown(job, arrivals, approaches, findings);
     }
     let outcomes = outcomes.into_iter();
     outcomes
@@ -68,44 +68,88 @@ pub(super) fn solve(
 }
 
 /// Says where a joint with backlash comes to a target from a side that nobody knows.
-fn tell_unknown(job: &Job, approaches: &[Approach], findings: &mut Vec<Finding>) {
+fn tell_unknown(
+    job: &Job,
+    arrivals: &Arrivals,
+    approaches: &[Approach],
+    findings: &mut Vec<Finding>,
+) {
+    let unknown = approaches
+        .iter()
+        .filter(|approach| has_unknown_side(job, approach));
+    findings.extend(unknown.map(|approach| unknown_side(job, arrivals, approach, None)));
+}
+
+/// Whether nobody knows from which side a joint with backlash comes.
+pub(super) fn has_unknown_side(job: &Job, approach: &Approach) -> bool {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    (0..6).any(|i| equipped.has_backlash[i] && approach.direction[i] == 0)
+}
+
+/// That nobody knows from which side joints come on an approach, and what is assumed: the middle,
+/// or the sides of another approach, whose numbers serve this one.
+pub(super) fn unknown_side(
+    job: &Job,
+    arrivals: &Arrivals,
+    approach: &Approach,
+    served_by: Option<&Approach>,
+) -> Finding {
     let ground = &job.ground;
-    for approach in approaches {
-        let equipped = ground.arm_with(approach.tool as usize);
-        let joints: Vec<String> = (0..6)
-            .filter(|&i| equipped.has_backlash[i] && approach.direction[i] == 0)
-            .map(|i| (i + 1).to_string())
-            .collect();
-        if joints.is_empty() {
-            continue;
-        }
-        let real = &equipped.inverse.real;
-        let from = |side: f64| {
-            let mut conditions = approach.conditions(job);
-            for i in 0..6 {
-                if approach.direction[i] == 0 {
-                    conditions.direction[i] = side;
-                }
+    let equipped = ground.arm_with(approach.tool as usize);
+    let joints: Vec<String> = (0..6)
+        .filter(|&i| equipped.has_backlash[i] && approach.direction[i] == 0)
+        .map(|i| (i + 1).to_string())
+        .collect();
+    let real = &equipped.inverse.real;
+    let from = |side: f64| {
+        let mut conditions = approach.conditions(job);
+        for i in 0..6 {
+            if approach.direction[i] == 0 {
+                conditions.direction[i] = side;
             }
-            real.forward(&approach.nominal_q, &conditions)
-        };
-        let apart = from(-1.0).separation(&from(1.0)).distance_m;
-        let message = format!(
-            "nothing says from which side joint {} with backlash comes to {}: it is taken to stand \
-             in the middle, and the tool may \
-             be {:.3} mm off",
-            joints.join(", "),
-            ground.name_of(approach.target as usize),
-            mm_from_m(0.5 * apart)
-        );
-        findings.push(ground.at_target(
-            "direction-uncertain",
-            Severity::Warning,
-            approach.target as usize,
-            message,
-            "--start-joints says where the robot stands when the program starts",
-        ));
-    }
+        }
+        real.forward(&approach.nominal_q, &conditions)
+    };
+    let apart = from(-1.0).separation(&from(1.0)).distance_m;
+    let line_of = |motion: u32| ground.line_of(&ground.program.moves[motion as usize]);
+    let (assumed, off_m) = match served_by {
+        None => (" stand in the middle".to_owned(), 0.5 * apart),
+        Some(other) => (format!(" come as in line {}", line_of(other.motion)), apart),
+    };
+    let (why, hint) = match arrivals.unknown_before(ground.program, approach.arrival) {
+        None => (
+            String::new(),
+            "--start-joints says where the robot stands when the program starts".to_owned(),
+        ),
+        Some(point) => {
+            let target = ground.program.moves[point.motion as usize].target;
+            let from = target.map_or_else(String::new, |target| {
+                format!(", derived from {},", ground.name_of(target))
+            });
+            let line = line_of(point.motion);
+            (
+                format!("only the running program knows the point of line {line}{from} and "),
+                format!(
+                    "write the displacement in line {line} as a number, or go there by a target of \
+                     its own"
+                ),
+            )
+        }
+    };
+    let message = format!(
+        "{why}nothing says from which side joint {} with backlash comes to {}: it is taken \
+         to{assumed}, and the tool may be {:.3} mm off",
+        joints.join(", "),
+        ground.name_of(approach.target as usize),
+        mm_from_m(off_m)
+    );
+    ground.at_target(
+        "direction-uncertain",
+        Severity::Warning,
+        approach.target as usize,
+        message,
+        &hint,
+    )
 }
 
 /// What tells approaches of a base that leans apart; nothing where no effect feels gravity.
@@ -170,7 +214,8 @@ fn changed_directions(
     // directions carry on from arrival to arrival: predecessors come first in the list
     let mut directions: Vec<[i8; 6]> = vec![[0; 6]; arrivals.all.len()];
     for (at, arrival) in arrivals.all.iter().enumerate() {
-        let Some(before) = arrivals.start_of(arrival).filter(|_| arrival.known) else {
+        let is_directed = arrival.known && !arrivals.starts_unknown(job.ground.program, arrival);
+        let Some(before) = arrivals.start_of(arrival).filter(|_| is_directed) else {
             directions[at] = arrival.direction;
             continue;
         };

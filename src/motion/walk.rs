@@ -15,7 +15,9 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::Branch;
 use crate::model::Conditions;
-use crate::program::{Before, Configuration, Displacement, Motion, Move, Role, TargetId, Value};
+use crate::program::{
+    Before, Configuration, Displacement, Motion, Move, Program, Role, TargetId, Value,
+};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
@@ -81,6 +83,37 @@ impl Arrivals {
     pub(crate) fn start_of(&self, arrival: &Arrival) -> Option<&Arrival> {
         let from = self.all.get(arrival.from as usize)?;
         from.known.then_some(from)
+    }
+
+    /// The point that only the running program knows where a move from an arrival begins; of an
+    /// arc also the point on its path.
+    fn unknown_start(&self, program: &Program, from: u32) -> Option<&Arrival> {
+        let before = self.all.get(from as usize).filter(|before| before.known)?;
+        if before.displaced {
+            return Some(before);
+        }
+        let is_via = program.moves[before.motion as usize].motion == Motion::ArcVia;
+        let start = self.start_of(before).filter(|start| start.displaced);
+        start.filter(|_| is_via)
+    }
+
+    /// Whether a move begins where only the running program knows: nothing says from which side its
+    /// joints come.
+    pub(crate) fn starts_unknown(&self, program: &Program, arrival: &Arrival) -> bool {
+        self.unknown_start(program, arrival.from).is_some()
+    }
+
+    /// The last point before an arrival that only the running program knows: a joint whose
+    /// direction is unknown has not moved since the move behind it.
+    pub(crate) fn unknown_before(&self, program: &Program, arrival: u32) -> Option<&Arrival> {
+        let mut at = self.all.get(arrival as usize);
+        while let Some(arrival) = at {
+            if let Some(point) = self.unknown_start(program, arrival.from) {
+                return Some(point);
+            }
+            at = self.all.get(arrival.from as usize);
+        }
+        None
     }
 
     fn add(&mut self, arrival: Arrival) {
@@ -287,7 +320,10 @@ impl Walker<'_, '_> {
         else {
             return nowhere;
         };
-        let direction = before.map_or([0; 6], |before| before.direction);
+        // where the robot goes from a point that only the running program knows, no side is known
+        let starts_unknown = self.arrivals.unknown_start(ground.program, from).is_some();
+        let carried = before.filter(|_| !starts_unknown);
+        let direction = carried.map_or([0; 6], |before| before.direction);
         if let Value::Joints(q) = decoded.value {
             if let Some(angle) = q.iter().find(|angle| angle.abs() > MOST_JOINT_RAD) {
                 self.say_endless(target, ("a joint", angle / DEG, MOST_JOINT_RAD / DEG));
@@ -297,7 +333,9 @@ impl Walker<'_, '_> {
             return Arrival {
                 q,
                 branch: arm.map_or(Branch::ALL[0], |equipped| equipped.arm.posture(&q).0),
-                direction: start.map_or([0; 6], |start| turned(&start, &q, direction)),
+                direction: start
+                    .filter(|_| !starts_unknown)
+                    .map_or([0; 6], |start| turned(&start, &q, direction)),
                 known: true,
                 ..nowhere
             };
@@ -350,7 +388,7 @@ impl Walker<'_, '_> {
             }
             _ => posture.q,
         };
-        let direction = match start.filter(|_| self.walk_options.directed) {
+        let direction = match start.filter(|_| self.walk_options.directed && !starts_unknown) {
             Some(start) => {
                 let course = course(
                     motion,

@@ -119,6 +119,7 @@ fn keep_path(
     };
     let checked = crate::check::Options {
         given: request.options.given.clone(),
+        start_joints: request.options.start_joints,
         ..crate::check::Options::default()
     };
     let decimals = request.options.decimals;

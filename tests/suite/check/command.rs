@@ -51,6 +51,8 @@ fn inserted_targets_bring_the_path_within_the_limit_and_arcs_stay_arcs() {
         run(&[&compensate[..], &[name(&fine), "--max-path-error", "0.05"]].concat());
     assert_eq!(status, 0, "{out}{error}");
     assert!(out.contains("moves inserted"), "{out}");
+    // the first move comes from a joint target that stays
+    assert!(out.contains("warning[path-from-kept-target]"), "{out}");
     let check = |file: &Path| {
         json(&[
             "check",
@@ -337,6 +339,57 @@ fn targets_are_split_and_paths_refined_in_one_run() {
         }
     }
     assert!(lines > 2, "{found}");
+}
+
+#[test]
+fn where_joints_reverse_the_path_is_off_at_its_beginning_alone() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
+    let effects = "calibration: {effects: [{effect: backlash, joint: 1, width_deg: 0.1}]}\n";
+    std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
+    // joint 1 leaves the second line's end to the other side: 0.1 degrees at 424 mm are 0.740 mm
+    let joints = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+    let program = format!(
+        "MODULE t\nPROC main()\nConfL\\Off;\nMoveAbsJ \
+         [[-60,0,0,0,60,0],{joints}],v100,fine,tool0;\n\
+         MoveL [[300,-300,300],[0,0,1,0],[-1,0,-1,0],{joints}],v100,fine,tool0;\n\
+         MoveL [[300,300,300],[0,0,1,0],[0,0,0,0],{joints}],v100,fine,tool0;\n\
+         MoveL [[300,-250,300],[0,0,1,0],[-1,0,-1,0],{joints}],v100,fine,tool0;\n\
+         ENDPROC\nENDMODULE\n"
+    );
+    std::fs::write(at("t.mod"), program).expect("scratch");
+    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
+    let (status, out, error) = run(&[
+        "compensate",
+        &input,
+        "--profile",
+        &profile,
+        "-o",
+        &output,
+        "--max-path-error",
+        "0.05",
+    ]);
+    assert_eq!(status, 0, "{out}{error}");
+    let is_said = |line: &str| line.contains(":7:") && line.contains("warning[path-at-reversal]");
+    let said = out.lines().find(|line| is_said(line));
+    assert!(said.is_some_and(|line| line.contains("0.740 mm")), "{out}");
+    assert!(!out.contains("path-from-kept-target"), "{out}");
+    // from there, and from the joints where nobody knows the side, one line more takes it up
+    let written = std::fs::read_to_string(&output).expect("written");
+    assert_eq!(written.matches("MoveL").count(), 5, "{written}");
+    let (_, found) = json(&["check", &output, "--nominal", &input, "--profile", &profile]);
+    let moves = found["moves"].as_array().expect("a list");
+    let lines = moves.iter().filter(|one| one["kind"] == "linear");
+    let errors: Vec<f64> = lines
+        .map(|one| one["max_path_error_mm"].as_f64().expect("a number"))
+        .collect();
+    assert_eq!(errors.len(), 5, "{found}");
+    for rest in [1, 2, 4] {
+        assert!(errors[rest] < 0.05, "{errors:?}");
+    }
+    assert!((errors[3] - 0.740).abs() < 0.01, "{errors:?}");
 }
 
 #[test]

@@ -513,3 +513,51 @@ fn a_side_that_nobody_knows_is_reported() {
     let known = try_with(options, &[BACKLASH], &files).expect("read");
     assert!(!known.findings.iter().any(|f| f.id == "direction-uncertain"));
 }
+
+/// A target that is come to from a point at a height that the running program is given.
+fn from_a_height(height: &str, first: &str) -> String {
+    format!(
+        "MODULE t\nCONST robtarget p := [[430,0,400],{P};\nPROC rGo(robtarget at,num h)\n\
+         MoveJ Offs(at,0,0,{height}),v100,fine,tool0;\nMoveL at,v100,fine,tool0;\nENDPROC\n\
+         PROC main()\n\
+         MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n{first}rGo \
+         p,44;\nENDPROC\nENDMODULE\n"
+    )
+}
+
+#[test]
+fn behind_a_point_that_only_the_running_program_knows_no_side_is_known() {
+    let unknown = done(&[BACKLASH], &[("t.mod", &from_a_height("h", ""))]);
+    assert_eq!(errors(&unknown), [""; 0], "{:?}", unknown.findings);
+    let reported = message(&unknown, "direction-uncertain");
+    for word in ["line 4", "`p`", "joint 2", "in the middle"] {
+        assert!(reported.contains(word), "{word}: {reported}");
+    }
+    // the middle of the backlash is where the nominal arm stands
+    assert!(unknown.targets[0].shift.distance_m < 1e-9);
+    // the same with the number in the text: joint 2 comes from the side of the height
+    let written = done(&[BACKLASH], &[("t.mod", &from_a_height("44", ""))]);
+    let is_uncertain = |f: &poseshift::finding::Finding| f.id == "direction-uncertain";
+    assert!(!written.findings.iter().any(is_uncertain));
+    assert!(written.targets[0].shift.distance_m > 1e-4);
+}
+
+#[test]
+fn numbers_for_a_known_side_serve_an_unknown_one_with_a_warning() {
+    let text = from_a_height("h", "MoveJ p,v100,fine,tool0;\n");
+    let done = done(&[BACKLASH], &[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    let reported = message(&done, "direction-uncertain");
+    assert!(reported.contains("as in line 9"), "{reported}");
+    assert!(done.targets[0].shift.distance_m > 1e-4);
+}
+
+#[test]
+fn a_point_displaced_twice_by_what_the_program_knows_has_the_first_side_with_a_warning() {
+    let text = from_a_height("h", "").replace("MoveL at,", "MoveL Offs(at,0,0,-h),");
+    let done = done(&[BACKLASH], &[("t.mod", &text)]);
+    let reported = message(&done, "direction-uncertain");
+    for word in ["line 4", "joint 2", "as in line 4"] {
+        assert!(reported.contains(word), "{word}: {reported}");
+    }
+}
