@@ -17,7 +17,11 @@ use crate::model::Conditions;
 use crate::motion::course::{Course, Leg, ToolCourse};
 use crate::motion::external;
 use crate::program::number::{Fraction, Style};
+<<<<<<< HEAD
 use crate::program::{Between, Displacement, FrameId, Insertion, Posture, Role, Settings, Value};
+=======
+use crate::program::{Between, Displacement, Insertion, Motion, Posture, Role, Settings, Value};
+>>>>>>> m8
 use rayon::prelude::*;
 
 /// A move is cut into at most so many parts.
@@ -145,7 +149,9 @@ impl Job<'_> {
     fn refine_move(&self, index: usize) -> Option<Change> {
         let program = &self.walk.program;
         let motion = self.walk.motion(index);
-        let leg = self.walk.leg(index, self.options.turning)?;
+        let Some(leg) = self.walk.leg(index, self.options.turning) else {
+            return self.end_alone(index);
+        };
         let stop = self.walk.stops.all[index]?;
         let begin = self.walk.start(index)?;
         let is_pose = program.goes_to_pose(motion);
@@ -239,6 +245,27 @@ impl Job<'_> {
             own: None,
         };
         change(Some(insertion), finding)
+    }
+
+    /// Of a move that begins nobody knows where the end alone is judged.
+    fn end_alone(&self, index: usize) -> Option<Change> {
+        let stop = self.walk.stops.all[index]?;
+        let motion = self.walk.motion(index);
+        if motion.motion == Motion::ArcVia {
+            return None;
+        }
+        let (real, conditions) = (
+            &self.walk.arms(&stop).plain.real,
+            self.walk.conditions(&stop),
+        );
+        let landed = real.forward(&self.joints_at(index)?, &conditions);
+        let off_m = landed.separation(self.walk.stops.wanted(&stop)).distance_m;
+        (off_m > self.limit_m).then(|| Change {
+            file: motion.file as usize,
+            whole_m: off_m,
+            insertion: None,
+            finding: Some(self.off_at_an_end(index, off_m)),
+        })
     }
 
     /// No targets between help where a target itself is off.

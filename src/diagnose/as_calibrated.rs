@@ -178,7 +178,8 @@ impl Quality<'_> {
 /// Variance of a coordinate that a profile's calibration left, m², and its degrees of freedom; `None`
 /// where it does not say.
 pub(super) fn left_by_calibration(profile: &Profile) -> Option<(f64, f64)> {
-    quality_of(profile).map(|quality| (quality.variance, quality.freedom))
+    let quality = quality_of(profile).ok()?;
+    Some((quality.variance, quality.freedom))
 }
 
 /// How well a profile's calibration knows the parameters of an estimate: which, and their
