@@ -17,11 +17,9 @@ use crate::model::Conditions;
 use crate::motion::course::{Course, Leg, ToolCourse};
 use crate::motion::external;
 use crate::program::number::{Fraction, Style};
-<<<<<<< HEAD
-use crate::program::{Between, Displacement, FrameId, Insertion, Posture, Role, Settings, Value};
-=======
-use crate::program::{Between, Displacement, Insertion, Motion, Posture, Role, Settings, Value};
->>>>>>> m8
+use crate::program::{
+    Between, Displacement, FrameId, Insertion, Motion, Posture, Role, Settings, Value,
+};
 use rayon::prelude::*;
 
 /// A move is cut into at most so many parts.
