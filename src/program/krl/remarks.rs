@@ -75,6 +75,18 @@ pub(super) fn computed() -> Remark {
     )
 }
 
+/// Against a position whose external axis the program writes.
+pub(super) fn external_written(axis: &str) -> Remark {
+    Remark::error(
+        "external-value-unknown",
+        format!(
+            "the running program writes external axis {axis} of the position that this move goes \
+             to: its correction would be that of another place"
+        ),
+        "write the position with all its numbers, one for each value of the axis",
+    )
+}
+
 /// A position that a function makes of positions that may be rewritten.
 pub(super) fn copied() -> Remark {
     Remark::error(

@@ -5,7 +5,7 @@ use super::frames::{State, Table};
 use super::moves::{With, motion};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{assigned, computed};
+use super::remarks::{assigned, computed, external_written};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
@@ -467,10 +467,10 @@ impl Reader {
             }
             Some(kind) if kind.is_place() => {
                 let owner = Owner::Datum(datum.expect("it has a kind"));
-                self.write_position(owner, at, part.is_some(), cursor)?;
+                self.write_position(owner, at, part, cursor)?;
             }
             None if self.looks_like_position(cursor) => {
-                self.write_position(Owner::Nobody(name), at, part.is_some(), cursor)?;
+                self.write_position(Owner::Nobody(name), at, part, cursor)?;
             }
             _ => self.calls_in(cursor),
         }
@@ -495,11 +495,18 @@ impl Reader {
         &mut self,
         owner: Owner,
         at: Index,
-        is_part: bool,
+        part: Option<&[u8]>,
         mut cursor: Cursor,
     ) -> Read<()> {
         self.last = None;
-        let how = if is_part {
+        let axis = part.and_then(|part| {
+            let mut listed = EXTERNAL.iter();
+            listed.find(|name| part.eq_ignore_ascii_case(name.as_bytes()) && self.bit_of(name) != 0)
+        });
+        let how = if let Some(axis) = axis {
+            self.calls_in(cursor);
+            How::Whole(self.unknown(external_written(axis)))
+        } else if part.is_some() {
             self.calls_in(cursor);
             let remark = self.builder.script.remark(computed());
             How::part(&cursor.bytes[cursor.at..cursor.end], remark)

@@ -104,6 +104,23 @@ fn a_relative_move_of_krl_moves_its_external_axes() {
     }
 }
 
+#[test]
+fn a_position_of_krl_whose_axis_is_written_is_refused_by_name() {
+    let rail = profile(&rail("E1"), &[SCALE]);
+    let text = "DEF t()\nDECL E6POS XP1\nXP1={X 640.000,Y 200.000,Z 700.000,A 10.000,B 5.000,C \
+        170.000,E1 100}\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {A1 0,A2 0,A3 10,A4 0,A5 60,A6 \
+        0,E1 100}\nXP1.E1=400\nPTP XP1\nEND\n";
+    let done = run(&rail, &[("t.src", text)]).expect("read");
+    assert_eq!(
+        errors(&done),
+        ["external-value-unknown"],
+        "{:?}",
+        done.findings
+    );
+    let mut said = done.findings.iter();
+    assert!(said.any(|finding| finding.message.contains("external axis E1")));
+}
+
 /// A job with the rail at 100 and 400 mm.
 fn job(lines: &str) -> String {
     format!(
