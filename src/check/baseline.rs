@@ -1,10 +1,12 @@
 //! A check against one that was stored: what got worse, what better.
 //!
 //! The stored run is the JSON report of a check. Moves are paired by file and by their place among
-//! the file's moves, so that a line inserted above changes nothing.
+//! the file's moves, so that a line inserted above changes nothing. A file is the same where its
+//! absolute path is, `.` and double slashes left out.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Differences below these are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,25 +94,51 @@ pub fn read(text: &str) -> Result<Value, BaselineError> {
     Ok(value)
 }
 
+/// The names of files as the present run spells them, whatever the stored one wrote.
+struct Spelling<'a>(BTreeMap<PathBuf, &'a str>);
+
+impl<'a> Spelling<'a> {
+    fn of(now: &'a Value) -> Self {
+        let entries = [&now["moves"], &now["findings"]].map(Value::as_array);
+        let names = entries.into_iter().flatten().flatten();
+        let names = names.filter_map(|entry| entry["file"].as_str());
+        Self(names.map(|name| (place(name), name)).collect())
+    }
+
+    /// The file of a move or a finding.
+    fn file(&self, entry: &'a Value) -> &'a str {
+        let name = entry["file"].as_str().unwrap_or_default();
+        self.0.get(&place(name)).copied().unwrap_or(name)
+    }
+}
+
+/// The absolute path of a name; the name where there is no folder that it could begin at.
+fn place(name: &str) -> PathBuf {
+    std::path::absolute(name).unwrap_or_else(|_| name.into())
+}
+
 /// Moves by file, in the order of the report.
-fn by_file(report: &Value) -> BTreeMap<&str, Vec<&Value>> {
+fn by_file<'a>(report: &'a Value, spelling: &Spelling<'a>) -> BTreeMap<&'a str, Vec<&'a Value>> {
     let mut files: BTreeMap<&str, Vec<&Value>> = BTreeMap::new();
     for entry in report["moves"].as_array().into_iter().flatten() {
-        let file = entry["file"].as_str().unwrap_or_default();
+        let file = spelling.file(entry);
         files.entry(file).or_default().push(entry);
     }
     files
 }
 
 /// How many findings of each id each file has on each move's line, notes left out.
-fn findings_by(report: &Value) -> BTreeMap<(&str, &str), Vec<u64>> {
+fn findings_by<'a>(
+    report: &'a Value,
+    spelling: &Spelling<'a>,
+) -> BTreeMap<(&'a str, &'a str), Vec<u64>> {
     let mut found: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
     for finding in report["findings"].as_array().into_iter().flatten() {
         if finding["severity"] == "note" {
             continue;
         }
         let key = (
-            finding["file"].as_str().unwrap_or_default(),
+            spelling.file(finding),
             finding["id"].as_str().unwrap_or_default(),
         );
         let line = finding["line"].as_u64().unwrap_or(0);
@@ -123,7 +151,8 @@ fn findings_by(report: &Value) -> BTreeMap<(&str, &str), Vec<u64>> {
 #[must_use]
 pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Comparison {
     let mut comparison = Comparison::default();
-    let (old, new) = (by_file(before), by_file(now));
+    let spelling = Spelling::of(now);
+    let (old, new) = (by_file(before, &spelling), by_file(now, &spelling));
     let none = Vec::new();
     let files: std::collections::BTreeSet<_> = old.keys().chain(new.keys()).copied().collect();
     for file in files {
@@ -144,7 +173,7 @@ pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Compariso
             compare_move(file, old, new, tolerances, &mut comparison);
         }
     }
-    let (old, new) = (findings_by(before), findings_by(now));
+    let (old, new) = (findings_by(before, &spelling), findings_by(now, &spelling));
     let keys: std::collections::BTreeSet<_> = old.keys().chain(new.keys()).copied().collect();
     for key in keys {
         let lines =
@@ -336,6 +365,28 @@ mod tests {
         assert_eq!(compare(&with_room(2.0)).worse[0].what, "room_mm");
         assert_eq!(compare(&with_room(0.5)).better[0].what, "room_mm");
         assert_eq!(compare(&run(0.1, 5.0, 1.0, 0)).same, 1);
+    }
+
+    #[test]
+    fn a_file_is_the_same_however_its_path_is_spelled() {
+        let spelled = |file: &str| {
+            let mut run = run(0.1, 5.0, 1.0, 1);
+            run["moves"][0]["file"] = json!(file);
+            run["findings"][0]["file"] = json!(file);
+            run
+        };
+        let compare = |a: &str, b: &str| compare(&spelled(a), &spelled(b), Tolerances::default());
+        let here = std::path::absolute("cells/a.mod").expect("a present folder");
+        let here = here.to_str().expect("UTF-8");
+        let spellings = ["cells/a.mod", "./cells//a.mod", "cells/./a.mod", here];
+        for (a, b) in spellings.iter().flat_map(|a| spellings.map(|b| (*a, b))) {
+            let found = compare(a, b);
+            assert!(found.worse.is_empty() && found.same == 1, "{a} {b}");
+        }
+        let other = compare("cells/a.mod", "../cells/a.mod");
+        assert_eq!((other.same, other.better.len()), (0, 1));
+        // moves more, moves fewer and a new finding
+        assert_eq!(other.worse.len(), 3);
     }
 
     #[test]

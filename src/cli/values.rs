@@ -36,8 +36,13 @@ pub(super) fn check_size(option: &str, value: f64, least: f64) -> Result<(), Fai
     if value >= least && value.is_finite() {
         return Ok(());
     }
+    let range = if least > 0.0 {
+        "above 0"
+    } else {
+        "not negative"
+    };
     Err(Failure::new(format!(
-        "{option} is {value}; it must be a finite number, not negative"
+        "{option} is {value}; it must be a finite number, {range}"
     )))
 }
 

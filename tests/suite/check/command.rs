@@ -481,6 +481,25 @@ fn joints_in_no_unit_at_all_are_refused_before_they_are_followed() {
 }
 
 #[test]
+fn a_limit_of_the_path_error_is_above_zero() {
+    let folder = scratch();
+    let program = folder.path().join("t.mod");
+    std::fs::write(&program, PROGRAM).expect("scratch");
+    let command = ["check", name(&program), "--profile", PROFILE];
+    let cases = [
+        ("--max-path-error", "0", "above 0"),
+        ("--horizon", "-1", "not negative"),
+    ];
+    for (option, value, range) in cases {
+        let option = format!("{option}={value}");
+        let (status, _, error) = run(&[&command[..], &[&option]].concat());
+        assert_eq!(status, 2, "{option}");
+        let said = format!("is {value}; it must be a finite number, {range}");
+        assert!(error.contains(&said), "{error}");
+    }
+}
+
+#[test]
 fn what_is_worse_in_a_file_that_is_gone_is_a_failure_for_the_build_server() {
     let folder = scratch();
     let programs = folder.path().join("programs");
