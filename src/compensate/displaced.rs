@@ -63,6 +63,12 @@ pub(super) fn check(
         let finding = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
+                // from which side nobody knows: that is a finding of its own
+                let uses = uses.iter().map(|of| Approach {
+                    direction: approach.direction,
+                    ..*of
+                });
+                let uses: Vec<Approach> = uses.collect();
                 let near = uses
                     .iter()
                     .flat_map(|of| somehow().filter_map(|shift| landing(job, of, fake, &shift)));

@@ -345,7 +345,10 @@ fn with(
         |motion| approach::needs(&program, joints, motion),
     )?;
     if let Some(offset) = &options.work_offset {
-        check_offset(&ground, |motion| approach::needs(&program, joints, motion))?;
+        let is_moved = *offset != Pose::identity();
+        check_offset(&ground, |motion| {
+            is_moved && approach::needs(&program, joints, motion)
+        })?;
         ground.move_part(offset);
     }
     plausibility::units(&ground, Severity::Error, &mut findings);

@@ -173,9 +173,9 @@ pub(super) fn comments(source: &Source, marker: &Marker, sign: &str) -> Vec<u8> 
 }
 
 /// A load that the text does not say.
-pub(super) fn load_chosen(hint: &'static str) -> Remark {
+pub(super) fn load_chosen(id: &'static str, hint: &'static str) -> Remark {
     Remark {
-        id: "load-chosen-at-run-time",
+        id,
         severity: Severity::Warning,
         text:
             "only the running program knows the load that is set here; moves are taken with that \

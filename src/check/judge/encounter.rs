@@ -97,9 +97,15 @@ impl Job<'_> {
         report.nominal_clearance_m =
             nominal.map(|near| [near.nearest.clearance_m, near.nearest.sampled_m]);
         let found = Some(found);
-        findings.extend(self.encounter(index, &REAL, found, nominal, first));
+        findings.extend(self.encounter(index, &REAL, found.as_ref(), nominal.as_ref(), first));
         if !alike {
-            findings.extend(self.encounter(index, &NOMINAL, nominal, found, first));
+            findings.extend(self.encounter(
+                index,
+                &NOMINAL,
+                nominal.as_ref(),
+                found.as_ref(),
+                first,
+            ));
         }
     }
 
@@ -109,8 +115,8 @@ impl Job<'_> {
         &self,
         index: usize,
         reported: &Reported,
-        found: Option<Near>,
-        other: Option<Near>,
+        found: Option<&Near>,
+        other: Option<&Near>,
         first: bool,
     ) -> Option<Finding> {
         let found = found?.least_room;

@@ -87,7 +87,7 @@ pub(crate) fn conclude(
         others.remove(i);
         again(&others)
     });
-    let written = written(profile, attempt, &mut found, verdict);
+    let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
@@ -149,18 +149,19 @@ pub(crate) fn conclude(
 /// for the robot to be where they left it; says of each effect whether the profile has it.
 ///
 /// Where not all that was found is believed, an effect that was found again too seldom was not in
-/// the predictions that the answer rests on: the profile is without it.
+/// the predictions that the answer rests on: the profile is without it, unless all that was found
+/// predicts rows left out as well.
 fn written(
     profile: &Profile,
     attempt: &Attempt,
     found: &mut [Found],
-    verdict: Verdict,
+    (verdict, all_predict): (Verdict, bool),
 ) -> (Estimate, Vec<Effect>) {
     let mut unsure = Vec::new();
     for one in found.iter_mut().filter(|f| !f.accepted) {
         let is_improved = verdict == Verdict::Improved;
         let of_data = one.effect.definition().of_data;
-        one.in_profile = !(is_improved && is_seldom(one));
+        one.in_profile = all_predict || !(is_improved && is_seldom(one));
         if of_data && is_improved && one.standing == Standing::Possible {
             one.in_profile = false;
             unsure.push(one.effect.clone());

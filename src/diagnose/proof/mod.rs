@@ -92,6 +92,9 @@ pub(crate) struct Proof {
     /// The profile as it is, against all this, where it was not calibrated with these measurements:
     /// no answer may be worse.
     pub present: Option<Compared>,
+    /// All effects found, fitted without the rows left out, predict them no worse than those that
+    /// are found again without them.
+    pub all_predict: bool,
     /// For each effect, in how many parts it was found again, and of how many.
     pub again: Vec<(usize, usize)>,
 }
@@ -104,6 +107,7 @@ impl Proof {
             profile: None,
             equal: None,
             present: None,
+            all_predict: true,
             again: vec![(0, 0); effects],
         }
     }
@@ -179,6 +183,8 @@ fn like(a: &Candidate, b: &Candidate) -> bool {
 struct Part {
     lengths: Vec<Vec<f64>>,
     equal: [Vec<f64>; 2],
+    /// By all effects found.
+    all: Vec<f64>,
     again: Vec<bool>,
     configurations: Vec<usize>,
 }
@@ -227,6 +233,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         Part {
             lengths,
             equal: [predicted(&anew, &[]), predicted(&anew, &found)],
+            all: predicted(&world, &attempt.chosen),
             again: again.collect(),
             configurations: test.iter().map(|r| configurations[*r]).collect(),
         }
@@ -234,6 +241,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
     // one after the other: each holds a basis of its own, and its search runs on all cores
     let parts = tests.iter().filter(|t| !t.is_empty()).map(one);
     let (mut equal, mut of_rows) = ([Vec::new(), Vec::new()], Vec::new());
+    let mut of_all: Vec<f64> = Vec::new();
     for part in parts {
         for (all, own) in lengths.iter_mut().zip(part.lengths) {
             all.extend(own);
@@ -242,6 +250,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
             all.extend(own);
         }
         of_rows.extend(part.configurations);
+        of_all.extend(part.all);
         for ((times, of), found) in again.iter_mut().zip(part.again) {
             *of += 1;
             *times += usize::from(found);
@@ -254,8 +263,10 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
     let present = (options.is_new)
         .then(|| Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false))
         .flatten();
+    let all_predict = of_all.iter().sum::<f64>() <= lengths[steps - 1].iter().sum::<f64>();
     Proof {
         present,
+        all_predict,
         lengths,
         profile,
         equal: Compared::of(&equal[0], &equal[1], &of_rows, true),

@@ -141,7 +141,10 @@ pub(crate) fn peaks(
             let gain = |order: u32| seen.gain(wave(0, order).site.periods(), variance);
             let all = fine.map(|order| (gain(order), order));
             let best = all.max_by(|a, b| a.0.total_cmp(&b.0));
-            best.filter(|(gain, _)| *gain > gains[k] + BETWEEN)
+            // by the residual with the wave: without it the noise seems louder than it is
+            let rest = |gain: f64| (fit.freedom - gain).max(0.01 * fit.freedom);
+            let by = |gain: f64| fit.freedom * (rest(gains[k]) / rest(gain)).ln();
+            best.filter(|(gain, _)| by(*gain) > BETWEEN)
                 .map_or(orders[k], |(_, order)| order)
         };
         found.into_iter().map(|k| wave(joint, between(k))).collect()

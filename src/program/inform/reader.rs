@@ -134,7 +134,7 @@ fn written_external(sources: &[Source], positions: &Positions) -> HashSet<Writte
         let is_named = number.is_some() || digits.starts_with(b"[");
         let is_variable = matches!(letters, b"BP" | b"EX") && is_named;
         let changes = !is_move(first) && effect(first) != Effect::None;
-        (is_variable && changes).then(|| (*letters, number))
+        (is_variable && changes).then_some((*letters, number))
     });
     written.collect()
 }
@@ -465,7 +465,7 @@ impl<'a> Reader<'a> {
         let is_station = name.starts_with(b"E") || name.starts_with(b"LE");
         let known = &self.positions.jobs[self.here.job].external;
         let named = super::job::external(name);
-        let named = named.filter(|named| !self.is_written_external(named));
+        let named = named.filter(|named| !self.is_written_external(*named));
         let moved = named.and_then(|external| known.get(&external));
         let what = if is_station { "station" } else { "base" };
         let shown = Source::text(&name[..name.len().min(20)]);
@@ -513,9 +513,9 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether a job writes a variable with the axes of a base or station.
-    fn is_written_external(&self, (letters, number): &super::job::External) -> bool {
-        let any = (*letters, None);
-        let one = (*letters, Some(*number));
+    fn is_written_external(&self, (letters, number): super::job::External) -> bool {
+        let any = (letters, None);
+        let one = (letters, Some(number));
         self.written_external.contains(&any) || self.written_external.contains(&one)
     }
 

@@ -189,5 +189,8 @@ pub(super) fn angle() -> Remark {
 
 /// A load that the text does not say.
 pub(super) fn carried() -> Remark {
-    kit::load_chosen("write the load with numbers, or choose an entry of LOAD_DATA")
+    kit::load_chosen(
+        "load-chosen-at-run-time",
+        "write the load with numbers, or choose an entry of LOAD_DATA",
+    )
 }

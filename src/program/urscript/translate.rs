@@ -109,6 +109,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             short(script.guards.len() - 1)
         });
         let unknown_load = script.unknown(kit::load_chosen(
+            "load-chosen-at-run-time",
             "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
         ));
         let mut events = parsed.functions.iter().flat_map(|of| &of.events);

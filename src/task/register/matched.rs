@@ -106,7 +106,9 @@ fn by_planes(
     if let (true, Some(weights)) = (absolute, &mut weights) {
         // relative to the surest row, so that deviations stay lengths
         let most = weights.iter().copied().fold(0.0, f64::max);
-        weights.iter_mut().for_each(|w| *w /= most);
+        for weight in weights.iter_mut() {
+            *weight /= most;
+        }
         given = Some(1.0 / most.sqrt());
     }
     let radius = options.probe_radius_m;

@@ -26,6 +26,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "geometry",
             "inverse",
             "model",
+            "nearest",
             "printable",
             "program",
         ],

@@ -1,8 +1,9 @@
 //! Values of external axes that only statements between targets tell, and points that are derived
 //! from a target elsewhere on the rail.
 //!
-//! The rail goes 1/1000 farther than the controller believes and has no other error: at a value e
-//! along x everything lands e/1000 farther along x, so the correction of a target is that by hand.
+//! The rail goes 1/1000 farther than the controller believes, from the middle of its limits at 1000 mm,
+//! and has no other error: at a value e along x everything lands (e − 1000)/1000 farther along x, so
+//! the correction of a target is that by hand.
 
 use super::{errors, profile, rapid, run, written};
 
@@ -26,7 +27,7 @@ fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
     let rail = profile(&rail("eax_a"), &[SCALE]);
     for (body, lands) in [
         ("MoveJ Offs(p1,0,0,1),v100,fine,t;\n", "lands 0.000 mm off"),
-        // corrected by 0.1 mm, and 0.4 mm would be right
+        // corrected by 0.9 mm, and 0.6 mm would be right
         (
             "EOffsSet [300,0,0,0,0,0];\nMoveJ Offs(p1,0,0,1),v100,fine,t;\n",
             "lands 0.300 mm off",
@@ -34,7 +35,7 @@ fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
         // the correction along -x of the target's frame is one along -y of the world
         (
             "MoveJ Offs(p1,0,0,1),v100,fine,t\\WObj:=w;\n",
-            "lands 0.141 mm off",
+            "lands 1.273 mm off",
         ),
     ] {
         let text = rapid(POINT, &format!("{HOME}{body}"));
@@ -86,10 +87,10 @@ fn a_relative_move_of_krl_moves_its_external_axes() {
     let rail = profile(&rail("E1"), &[SCALE]);
     let pose = "X 640.000,Y 200.000,Z 700.000,A 10.000,B 5.000,C 170.000";
     for (relative, x) in [
-        ("PTP_REL {Z 1}", 639.9),
-        ("PTP_REL {Z 1,E1 100}", 639.8),
-        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1}", 639.8),
-        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1,E1 50}", 639.75),
+        ("PTP_REL {Z 1}", 640.9),
+        ("PTP_REL {Z 1,E1 100}", 640.8),
+        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1}", 640.8),
+        ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1,E1 50}", 640.75),
     ] {
         let text = format!(
             "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 \
@@ -99,7 +100,7 @@ fn a_relative_move_of_krl_moves_its_external_axes() {
         let [first, last] = found[..] else {
             panic!("{found:?}")
         };
-        assert!((first - 639.9).abs() < ROUNDING_MM, "{relative}: {first}");
+        assert!((first - 640.9).abs() < ROUNDING_MM, "{relative}: {first}");
         assert!((last - x).abs() < ROUNDING_MM, "{relative}: {last}");
     }
 }
@@ -144,8 +145,8 @@ fn a_base_of_inform_that_moves_alone_counts_for_the_positions_behind_it() {
         first.and_then(|x| x.parse().ok()).expect("a position")
     };
     let (first, last) = (x("C00001="), x("C00002="));
-    assert!((first - 639.9).abs() < ROUNDING_MM, "{first}");
-    assert!((last - 639.6).abs() < ROUNDING_MM, "{last}");
+    assert!((first - 640.9).abs() < ROUNDING_MM, "{first}");
+    assert!((last - 640.6).abs() < ROUNDING_MM, "{last}");
 }
 
 #[test]
