@@ -253,7 +253,7 @@ impl Measurements {
     }
 
     /// The number of the configuration of each row, from 0 by first appearance: rows with external
-    /// axes at the same places and joint angles nearer than [`SAME_RAD`] are one, whenever they were
+    /// axes at the same places and joint angles nearer than 0.01° are one, whenever they were
     /// measured.
     #[must_use]
     pub fn configurations(&self) -> Vec<usize> {
