@@ -222,6 +222,7 @@ pub(crate) fn diagnose(
         reject: picks("reject", reject)?,
         quick,
         steps,
+        ..engine::Options::default()
     };
     let file = Arc::clone(&profile.file);
     let rows = read(py, &file, tables)?;

@@ -52,7 +52,7 @@ impl Diagnose {
             reject: picks("--reject", Some(&self.reject.join(",")))?,
             quick: self.quick,
             steps: self.report.is_wanted(),
-            is_new: false,
+            ..Options::default()
         };
         let files = Files::default();
         let profile = files.profile(&self.profile)?;

@@ -29,7 +29,7 @@ pub struct Options {
     pub accept: Vec<Pick>,
     /// Effects that are not considered.
     pub reject: Vec<Pick>,
-    /// The profile was not calibrated with these measurements.
+    /// The profile was calibrated with other measurements than these.
     pub is_new: bool,
     /// Leave out cross-validation.
     pub quick: bool,
