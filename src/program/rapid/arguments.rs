@@ -127,7 +127,7 @@ impl Reader<'_> {
     /// Whether no routine of the files hides Offs or `RelTool`, this token.
     fn is_built_in(&mut self, token: Token) -> bool {
         let name = self.parsed.symbols.intern(self.text(token));
-        self.verbs.displaces(name)
+        self.verbs.displaces(name, self.context.module)
     }
 
     /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token

@@ -140,7 +140,7 @@ impl Translator<'_> {
         let of = resolved.parsed.functions[function as usize];
         let all = &resolved.parsed.given[indices(of.arguments)];
         self.here.offset = of.offset;
-        if let Known::Writes(position) = resolved.known(&of) {
+        if let Known::Writes(position) = resolved.known(&of, self.context) {
             let mut positional = all.iter().filter(|argument| argument.option.is_none());
             if let Some(argument) = positional.nth(usize::from(position)) {
                 self.becomes_unknown(argument);

@@ -235,7 +235,7 @@ impl Reader<'_> {
     /// A function is called; the present token is its bracket.
     fn open_call(&mut self, name: Symbol, offset: u32) {
         let token = &self.bytes[offset as usize..self.behind as usize];
-        let known = self.verbs.function(name, token);
+        let known = self.verbs.function(name, token, self.context.module);
         if known != Known::Harmless {
             self.calls.push(OpenCall {
                 name,

@@ -8,7 +8,7 @@ use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Expr, Held, How, Instruction, Modal, Remark, Span, Write, Written};
-use crate::program::{Motion, SpeedZone};
+use crate::program::{Motion, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
 struct Parts {
@@ -57,6 +57,13 @@ fn plain(argument: &Argument) -> Option<Symbol> {
     }
 }
 
+/// The index of the argument with this option.
+fn option(all: &[Argument], word: Option<Symbol>) -> Option<usize> {
+    let word = word?;
+    all.iter()
+        .position(|argument| argument.option == Some(word))
+}
+
 impl Translator<'_> {
     /// Whether an argument can be a target.
     pub(super) fn is_target(&self, argument: &Argument) -> bool {
@@ -98,11 +105,7 @@ impl Translator<'_> {
             start + 1
         };
         // options stand behind the argument they belong to
-        let option = |word: Option<Symbol>| {
-            let word = word?;
-            all.iter()
-                .position(|argument| argument.option == Some(word))
-        };
+        let option = |word| option(all, word);
         let words = &self.words;
         let wobj = option(words.wobj);
         let (mut declared, mut last, mut before_wobj, mut inside) = (None, None, None, None);
@@ -139,6 +142,35 @@ impl Translator<'_> {
             unshifted: option(words.noeoffs).is_some(),
             speed_zone,
         })
+    }
+
+    /// Speed and zone of a move with what `\V`, `\T` and `\Z` replace of them: with a time for the
+    /// whole path the speed is not known.
+    fn switched(&self, all: &[Argument], mut speed_zone: SpeedZone) -> SpeedZone {
+        let words = &self.words;
+        if let Some(at) = option(all, words.v) {
+            speed_zone.speed_m_s = self.millimetres(&all[at]);
+        }
+        if option(all, words.t).is_some() {
+            speed_zone.speed_m_s = None;
+        }
+        // the robot stops at `fine`, whatever the size of the zone
+        if let Some(at) = option(all, words.z)
+            && speed_zone.zone_m != Some(0.0)
+        {
+            speed_zone.zone_m = self.millimetres(&all[at]);
+            speed_zone.blends = speed_zone.zone_m.is_none();
+        }
+        speed_zone
+    }
+
+    /// The length of `\Z:=3`, in metres; `None` where it is no literal number.
+    fn millimetres(&self, argument: &Argument) -> Option<f64> {
+        let (start, end) = argument.span;
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let text = &bytes[start as usize..end as usize];
+        let value = text.rsplit(|byte| *byte == b'=').next()?;
+        number::parse(value.trim_ascii()).map(|mm| mm * MM)
     }
 
     /// Names that a move instruction uses as targets or frames.
@@ -197,6 +229,7 @@ impl Translator<'_> {
             return;
         };
         let load = parts.load.map_or(Expr::Absent, |at| self.carried(&all[at]));
+        let speed_zone = self.switched(all, parts.speed_zone);
         self.tell(&parts);
         let tool = match parts.tool {
             Some(at) => self.frame_from(all[at].expression),
@@ -252,7 +285,7 @@ impl Translator<'_> {
                 wrist,
                 guards,
                 expected: 0,
-                speed_zone: parts.speed_zone,
+                speed_zone,
             };
             self.emit_move(instruction, modal);
         }

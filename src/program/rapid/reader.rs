@@ -399,7 +399,8 @@ impl<'a> Reader<'a> {
             }
             Kind::Assign | Kind::Sign(b'{' | b'.') => self.assignment(first.start, name),
             _ => {
-                let verb = self.verbs.of(name, self.text(first));
+                let module = self.context.module;
+                let verb = self.verbs.of(name, self.text(first), module);
                 self.recognised |= matches!(verb, Verb::Move { .. } | Verb::Mode(..));
                 self.call(first.start, Callee::Named(name), verb)
             }

@@ -103,9 +103,9 @@ impl<'a> Resolved<'a> {
         self.data.several(list)
     }
 
-    /// What a function of this name does if it is one of the language.
-    pub(super) fn known(&self, function: &Function) -> Known {
-        self.verbs.known(function.name)
+    /// What a function that is called here does if it is one of the language.
+    pub(super) fn known(&self, function: &Function, context: Context) -> Known {
+        self.verbs.known(function.name, context.module)
     }
 
     pub(super) fn is_written(&self, entity: Entity) -> bool {
@@ -338,7 +338,7 @@ impl<'a> Resolved<'a> {
                         context,
                         file,
                     };
-                    if let Known::Writes(position) = self.known(&function) {
+                    if let Known::Writes(position) = self.known(&function, context) {
                         self.mark_argument(given, position);
                     } else {
                         calls.push(given);

@@ -218,6 +218,29 @@ fn odd_instructions_find_their_arguments() {
 }
 
 #[test]
+fn switches_replace_speed_and_zone() {
+    for (with, speed_m_s, zone_m, cuts_corner) in [
+        ("v10,fine", Some(0.01), Some(0.0), false),
+        ("v10\\V:=2000,z10", Some(2.0), Some(0.01), true),
+        ("v10\\v := 2000 ,z10\\Z:=3", Some(2.0), Some(0.003), true),
+        ("v10\\V:=fast,z10", None, Some(0.01), true),
+        ("v1000\\T:=10,fine", None, Some(0.0), false),
+        ("v1000\\T:=time,z10\\Z:=size", None, None, true),
+        ("v10,fine\\Z:=3", Some(0.01), Some(0.0), false),
+    ] {
+        let program = path(&format!("MoveL p1,{with},t;"));
+        let said = program.speed_zone(&program.moves[0]);
+        let near = |found: Option<f64>, wanted: Option<f64>| match (found, wanted) {
+            (Some(found), Some(wanted)) => (found - wanted).abs() < 1e-12,
+            (found, wanted) => found == wanted,
+        };
+        assert!(near(said.speed_m_s, speed_m_s), "{with}: {said:?}");
+        assert!(near(said.zone_m, zone_m), "{with}: {said:?}");
+        assert_eq!(said.cuts_corner(), cuts_corner, "{with}");
+    }
+}
+
+#[test]
 fn comments_and_strings_hold_no_targets() {
     let program = path(
         "! CONST robtarget x:=[[1\nTPWrite \"MoveL [[1,2,3],[1,0,0,0]! ;\";\n! MoveL p1,v5,z5,t;",

@@ -19,6 +19,9 @@ use foldhash::{HashMap, HashMapExt, HashSet};
 #[derive(Debug, Default)]
 pub(super) struct Words {
     pub wobj: Option<Symbol>,
+    pub v: Option<Symbol>,
+    pub t: Option<Symbol>,
+    pub z: Option<Symbol>,
     pub tload: Option<Symbol>,
     pub id: Option<Symbol>,
     pub corr: Option<Symbol>,
@@ -101,6 +104,9 @@ pub(super) fn translate(
         handlers: Handlers::default(),
         words: Words {
             wobj: find(b"wobj"),
+            v: find(b"v"),
+            t: find(b"t"),
+            z: find(b"z"),
             tload: find(b"tload"),
             id: find(b"id"),
             noeoffs: find(b"noeoffs"),

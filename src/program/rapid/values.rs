@@ -212,7 +212,7 @@ impl Translator<'_> {
     /// The position that a function gives.
     fn given_by(&mut self, function: u32, wanted: Type) -> Expr {
         let of = self.resolved.parsed.functions[function as usize];
-        if self.resolved.known(&of) != Known::Actual {
+        if self.resolved.known(&of, self.context) != Known::Actual {
             return match self.result_of(function) {
                 Some(result) => Expr::Variable(result),
                 None => self.computed(),

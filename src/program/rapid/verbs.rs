@@ -4,6 +4,7 @@ use super::builtins::{self, Known};
 use super::syntax::{Mode, Path, Routine, Set, Verb};
 use crate::program::Source;
 use crate::program::names::Symbol;
+use foldhash::HashSet;
 
 /// First parts of the names of instructions that move; J, L, C or `AbsJ` follows.
 const MOVING: [&[u8]; 16] = [
@@ -22,55 +23,65 @@ const TOOL_INSIDE: [&[u8]; 4] = [b"do", b"ao", b"go", b"sync"];
 pub(super) struct Verbs {
     instructions: Vec<Option<Verb>>,
     functions: Vec<Option<Known>>,
-    /// Whether Offs and `RelTool`, where they were met, are those of the language.
-    displacing: Vec<Option<bool>>,
+    /// Offs and `RelTool`, where they were met.
+    displacing: HashSet<Symbol>,
+    /// What routines of the files hide of these: names, and the module of a local one.
+    hidden: HashSet<(Symbol, Option<u32>)>,
 }
 
 impl Verbs {
-    /// What an instruction of this name does.
-    pub(super) fn of(&mut self, name: Symbol, spelling: &[u8]) -> Verb {
-        *slot(&mut self.instructions, name).get_or_insert_with(|| verb(spelling))
+    /// What an instruction of this name does in a module.
+    pub(super) fn of(&mut self, name: Symbol, spelling: &[u8], module: u32) -> Verb {
+        let known = *slot(&mut self.instructions, name).get_or_insert_with(|| verb(spelling));
+        if known == Verb::Harmless && self.is_hidden(name, module) {
+            return Verb::Other;
+        }
+        known
     }
 
-    /// What a function of this name does.
-    pub(super) fn function(&mut self, name: Symbol, spelling: &[u8]) -> Known {
-        *slot(&mut self.functions, name)
-            .get_or_insert_with(|| builtins::function(&Source::text(spelling).to_ascii_lowercase()))
+    /// What a function of this name does in a module.
+    pub(super) fn function(&mut self, name: Symbol, spelling: &[u8], module: u32) -> Known {
+        slot(&mut self.functions, name).get_or_insert_with(|| {
+            builtins::function(&Source::text(spelling).to_ascii_lowercase())
+        });
+        self.known(name, module)
     }
 
-    /// Whether the function of this name, Offs or `RelTool`, is that of the language.
-    pub(super) fn displaces(&mut self, name: Symbol) -> bool {
-        *slot(&mut self.displacing, name).get_or_insert(true)
+    /// Whether the function of this name, Offs or `RelTool`, is that of the language in a module.
+    pub(super) fn displaces(&mut self, name: Symbol, module: u32) -> bool {
+        self.displacing.insert(name);
+        !self.is_hidden(name, module)
     }
 
     /// Within its scope a routine hides the instruction or function of its name: calls of what
     /// these routines hide mean something, too. Whether any was passed over.
     pub(super) fn hide(&mut self, routines: &[Routine]) -> bool {
-        let mut hidden = false;
         for routine in routines {
             let at = routine.name.0 as usize;
-            if let Some(verb @ Some(Verb::Harmless)) = self.instructions.get_mut(at) {
-                *verb = Some(Verb::Other);
-                hidden = true;
-            }
-            if let Some(Some(known)) = self.functions.get_mut(at)
-                && *known != Known::Other
+            let instruction = self.instructions.get(at).copied().flatten();
+            let function = self.functions.get(at).copied().flatten();
+            if instruction == Some(Verb::Harmless)
+                || function.is_some_and(|known| known != Known::Other)
+                || self.displacing.contains(&routine.name)
             {
-                *known = Known::Other;
-                hidden = true;
-            }
-            if let Some(Some(displaces @ true)) = self.displacing.get_mut(at) {
-                *displaces = false;
-                hidden = true;
+                let module = routine.local.then_some(routine.module);
+                self.hidden.insert((routine.name, module));
             }
         }
-        hidden
+        !self.hidden.is_empty()
     }
 
-    /// What a function of this name does that was met before.
-    pub(super) fn known(&self, name: Symbol) -> Known {
-        let known = self.functions.get(name.0 as usize);
-        known.copied().flatten().unwrap_or(Known::Other)
+    /// What a function of this name does in a module, where it was met before.
+    pub(super) fn known(&self, name: Symbol, module: u32) -> Known {
+        let known = self.functions.get(name.0 as usize).copied().flatten();
+        known
+            .filter(|_| !self.is_hidden(name, module))
+            .unwrap_or(Known::Other)
+    }
+
+    fn is_hidden(&self, name: Symbol, module: u32) -> bool {
+        let hidden = |module| self.hidden.contains(&(name, module));
+        hidden(None) || hidden(Some(module))
     }
 }
 

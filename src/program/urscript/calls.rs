@@ -240,20 +240,20 @@ impl<'a> Reader<'a> {
         };
         let speed = places.speed.and_then(|_| find(places.speed, b"v"));
         let radius = places.radius.and_then(|_| find(places.radius, b"r"));
+        // with a time for the whole path the speed is not obeyed
+        let time = places.time.and_then(|_| find(places.time, b"t"));
+        let is_timed = time.is_some_and(|time| time.number() != Some(0.0));
         let speed_zone = if places.radius.is_none() {
             SpeedZone::default()
         } else {
             // not given is none: the robot stops; a variable says how far
             let zone_m = radius.map_or(Some(0.0), Argument::number);
             SpeedZone {
-                speed_m_s: speed.and_then(Argument::number),
+                speed_m_s: speed.filter(|_| !is_timed).and_then(Argument::number),
                 zone_m,
                 blends: zone_m.is_none(),
             }
         };
-        // with a time for the whole way the speed is not obeyed
-        let time = places.time.and_then(|_| find(places.time, b"t"));
-        let is_timed = time.is_some_and(|time| time.number() != Some(0.0));
         let end = self.scanner.at;
         let text = &self.scanner.bytes[offset as usize..end];
         let is_broken = memchr::memchr3(b'\n', b'\r', b'#', text).is_some();

@@ -183,6 +183,29 @@ fn a_local_routine_hides_an_instruction_in_its_own_module_only() {
 }
 
 #[test]
+fn a_local_function_hides_offs_in_its_own_module_only() {
+    for name in ["Offs", "RelTool"] {
+        let a = format!(
+            "MODULE a\nCONST robtarget p1:=[[1,2,3],[1,0,0,0],CONF;\nPROC main()\nMoveL \
+             {name}(p1,0,0,5),v5,z5,tool0;\nother;\nENDPROC\nENDMODULE"
+        );
+        let b = format!(
+            "MODULE b\nCONST robtarget p2:=[[4,5,6],[1,0,0,0],CONF;\nPROC other()\nMoveL \
+             {name}(p2,0,0,5),v5,z5,tool0;\nENDPROC\nLOCAL FUNC robtarget {name}(robtarget p,num \
+             x,num y,num z)\nRETURN p;\nENDFUNC\nENDMODULE"
+        );
+        let program = read_files(&[&a, &b]).expect("two modules");
+        assert_eq!(to(&program), ["p1", "p2"], "{name}");
+        let [in_a, in_b] = &program.moves[..] else {
+            panic!("two moves");
+        };
+        assert!(matches!(in_a.displacement, Displacement::By(_)), "{name}");
+        assert_eq!(in_b.displacement, Displacement::None, "{name}");
+        assert_eq!(ids(&program), [""; 0], "{name}");
+    }
+}
+
+#[test]
 fn options_that_are_handed_on_are_left_out_where_nothing_is_given() {
     let program = path(
         "go p1,t;\ngo p2,t\\w2:=w;\nENDPROC\nPROC go(robtarget p,PERS tooldata g\\PERS wobjdata \

@@ -396,6 +396,21 @@ fn speed_and_radius_are_arguments_by_place_or_name() {
 }
 
 #[test]
+fn with_a_time_a_move_has_no_speed() {
+    for (behind, speed_m_s) in [
+        ("a=1.2, v=0.25, t=2", None),
+        ("a=1.2, v=0.25, t=seconds", None),
+        ("1.2, 0.25, 2, 0.01", None),
+        ("1.2, 0.25, 0, 0.01", Some(0.25)),
+        ("a=1.2, v=0.25, t=0", Some(0.25)),
+    ] {
+        let program = path(&format!("movel(p[1,2,3,0,0,0], {behind})"));
+        let speed_zone = program.speed_zone(&program.moves[0]);
+        assert_eq!(speed_zone.speed_m_s, speed_m_s, "{behind}");
+    }
+}
+
+#[test]
 fn threads_begin_with_what_is_set_where_they_are_run() {
     let tools = |lines: &str| {
         let program = path(lines);
