@@ -33,7 +33,8 @@ pub struct Difference {
     pub file: String,
     /// Line in the present file (in the stored one where the move is gone); 0 for the whole file.
     pub line: u64,
-    /// What differs: a key of the report, `target`, `moves`, or the id of a finding.
+    /// What differs: a key of the report, `target`, `moves`, `body` (one that is gone: the moves
+    /// have no clearance to it), or the id of a finding.
     pub what: String,
     /// The stored value.
     pub before: Value,
@@ -173,6 +174,7 @@ pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Compariso
             compare_move(file, old, new, tolerances, &mut comparison);
         }
     }
+    comparison.worse.extend(bodies_gone(before, now));
     let (old, new) = (findings_by(before, &spelling), findings_by(now, &spelling));
     let keys: std::collections::BTreeSet<_> = old.keys().chain(new.keys()).copied().collect();
     for key in keys {
@@ -204,6 +206,24 @@ pub fn compare(before: &Value, now: &Value, tolerances: Tolerances) -> Compariso
         list.sort_by(|a, b| (&a.file, a.line, &a.what).cmp(&(&b.file, b.line, &b.what)));
     }
     comparison
+}
+
+/// Bodies that only the stored run knows; a run stored before bodies were reported says nothing.
+fn bodies_gone(before: &Value, now: &Value) -> impl Iterator<Item = Difference> {
+    let listed = |run: &Value| run["bodies"].as_array().cloned().unwrap_or_default();
+    let kept = listed(now);
+    let gone = listed(before)
+        .into_iter()
+        .filter(move |b| !kept.contains(b));
+    let input = now["input"].as_str().or(now["input"][0].as_str());
+    let file = input.unwrap_or_default().to_owned();
+    gone.map(move |body| Difference {
+        file: file.clone(),
+        line: 0,
+        what: "body".into(),
+        before: body,
+        now: Value::Null,
+    })
 }
 
 fn compare_move(
@@ -365,6 +385,24 @@ mod tests {
         assert_eq!(compare(&with_room(2.0)).worse[0].what, "room_mm");
         assert_eq!(compare(&with_room(0.5)).better[0].what, "room_mm");
         assert_eq!(compare(&run(0.1, 5.0, 1.0, 0)).same, 1);
+    }
+
+    #[test]
+    fn a_body_that_is_gone_is_worse_though_the_clearance_to_others_is_larger() {
+        let with = |bodies: Value, clearance: f64| {
+            let mut run = run(0.1, clearance, 1.0, 0);
+            run["input"] = json!("a.mod");
+            run["bodies"] = bodies;
+            run
+        };
+        let old = with(json!(["link1", "table"]), 5.0);
+        let found = compare(&old, &with(json!(["link1"]), 90.0), Tolerances::default());
+        assert_eq!((found.worse.len(), found.better.len()), (1, 1));
+        assert!(text(&found).contains("a.mod: worse: body \"table\" -> none"));
+        let more = with(json!(["link1", "table", "jig"]), 5.0);
+        assert_eq!(compare(&old, &more, Tolerances::default()).same, 1);
+        let older = run(0.1, 5.0, 1.0, 0);
+        assert!(compare(&older, &old, Tolerances::default()).worse.is_empty());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::geometry::{Pose, Vector};
 use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
 use crate::motion::course::Leg;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Meshes by the name that a profile or cell file gives them.
 pub type Meshes = BTreeMap<String, Mesh>;
@@ -286,6 +286,15 @@ impl Scene {
             }
         }
         self.watched = watched;
+    }
+
+    /// The names of all bodies: links and tool of the robot that have a shape, what is attached to
+    /// them, and the cell's.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<&str> {
+        let moving = self.moving.iter().map(|body| body.name);
+        let used: BTreeSet<usize> = moving.chain(self.fixed.iter().map(|f| f.name)).collect();
+        used.into_iter().map(|at| self.names[at].as_str()).collect()
     }
 
     /// Name of the moving body of a pair, and of the other.

@@ -8,6 +8,7 @@ use crate::geometry::{Pose, Rotation, Separation, add, scale};
 use crate::model::Conditions;
 use crate::motion::walk::NOWHERE;
 use crate::program::{Shape, Value};
+use foldhash::HashSet;
 
 /// Numbers that differ by less serve all.
 const SAME: Separation = Separation {
@@ -119,6 +120,13 @@ fn mean(fakes: &[Fake]) -> Fake {
 fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
     let ground = &job.ground;
     let target = group[0].approach.target as usize;
+    let mass_kg = |solved: &Solved| {
+        let tool = ground.setting.tools[solved.approach.tool as usize].as_ref();
+        tool.and_then(|tool| tool.load).map(|(mass_kg, _)| mass_kg)
+    };
+    let same_load = group
+        .iter()
+        .all(|solved| mass_kg(solved) == mass_kg(&group[0]));
     let mut each: Vec<String> = group
         .iter()
         .map(|solved| {
@@ -147,17 +155,24 @@ fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
                     Some(format!(" with the {what} of line {line}"))
                 })
                 .collect();
-            format!("{file} line {}{set}: {by}", ground.line_of(motion))
+            let load = match mass_kg(solved) {
+                _ if same_load => String::new(),
+                Some(mass_kg) => format!(" with a load of {mass_kg} kg"),
+                None => " without a load".into(),
+            };
+            format!("{file} line {}{set}{load}: {by}", ground.line_of(motion))
         })
         .collect();
+    let mut named = HashSet::default();
+    each.retain(|one| named.insert(one.clone()));
     let more = each.len().saturating_sub(MOST_NAMED);
     each.truncate(MOST_NAMED);
     if more > 0 {
         each.push(format!("and {more} more"));
     }
     let message = format!(
-        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, work \
-         frame, posture, or side from \
+        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, load, \
+         work frame, posture, or side from \
          which a joint comes); with the best common numbers each would miss by: {}",
         ground.name_of(target),
         group.len(),

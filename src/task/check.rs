@@ -427,6 +427,9 @@ pub struct Checked<'a> {
     pub language: &'static str,
     /// SHA-256 of the profile.
     pub profile_sha256: &'a str,
+    /// All bodies: links and tool of the robot that have a shape, what is attached to them, and the
+    /// cell's.
+    pub bodies: Vec<&'a str>,
     /// Every move.
     #[schemars(with = "Vec<Move>")]
     pub moves: Moves<'a>,
@@ -476,6 +479,7 @@ impl<'a> Checked<'a> {
             nominal: header.nominal.into(),
             language: header.language.about().id,
             profile_sha256: header.profile_sha256,
+            bodies: header.scene.bodies(),
             moves: Moves { header, check },
             summary: Summary {
                 moves: s.moves,

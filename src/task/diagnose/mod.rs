@@ -282,11 +282,16 @@ fn check_accepted(found: &Found, pick: &Pick) -> Result<(), Failure> {
     }
     let counted = definition.site.iter().filter(|p| p.numbers().is_some());
     let not_given = counted.count().saturating_sub(pick.places.len());
-    if not_given > 0 && definition.site.contains(&SiteKey::Order) {
+    if not_given > 0 && !pick.together {
         let given = pick.places.iter().map(|(first, _)| format!(":{first}"));
         let word = definition.id.to_owned() + &given.collect::<String>();
+        let missing = if definition.site.contains(&SiteKey::Order) {
+            "no order is given, and none shows in these measurements"
+        } else {
+            "which one is not given, and none shows in these measurements"
+        };
         return Err(Failure::with_hint(
-            format!("--accept {word}: no order is given, and none shows in these measurements"),
+            format!("--accept {word}: {missing}"),
             format!("name one: {word}{}", ":1".repeat(not_given)),
         ));
     }
