@@ -70,6 +70,7 @@ pub const TABLE: &[Kind] = &[
     row("absolutely-accurate", Error, "S bit 4: the controller corrects the target itself; with `--force` a warning, once a file", "compensate a program that was written without absolute accuracy", &["compensate", "check"], &["krl"]),
     row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate", "check"], &[]),
     row("angle-too-large", Error, "an angle of a target, tool or frame is in another unit than the language's", "degrees; radians in URScript: write angles of a few revolutions at most", &["compensate", "check"], &[]).never_accepted(),
+    row("arc-chain", Error, "an arc has more than two points: each part of its path lies on another circle", "end each arc with its second point", &["compensate", "check"], &["kawasaki"]),
     row("at-singularity", Warning, "a target at the singularity of the wrist, where the real arm has no posture on the meant side, is solved as --at-singularity says", "check the move slowly, or move the target", &["compensate"], &[]),
     row("axes-unlike", Warning, "two measured joint axes lie otherwise to one another than in the profile", "is it this robot? does one joint move at a time?", &["axes"], &[]),
     row("bad-touch", Warning, "a touch contradicts the others and is left out (--robust)", "touch it again", &["register"], &[]),

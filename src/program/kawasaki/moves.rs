@@ -99,8 +99,15 @@ impl<'a> Reader<'a> {
                 if is_end {
                     self.here.arc = 0;
                 }
+                let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
-                self.go(part, Some(first), found, motion, false);
+                let target = self.expr(found);
+                let mut modal = self.modal_of(motion);
+                if is_chain {
+                    modal.guards = self.reason(Cause::ArcChain);
+                }
+                self.put(part, Some(first), target, motion, false, modal);
+                self.here.last = Some(found);
             }
             Verb::Near(motion) => {
                 let found = self.position(first).in_tool(second.map(back));

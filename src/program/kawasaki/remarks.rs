@@ -12,6 +12,7 @@ pub(super) enum Cause {
     Assigned,
     Relative,
     Search,
+    ArcChain,
     Switched,
     Saved,
 }
@@ -57,6 +58,13 @@ impl Cause {
                 Severity::Error,
                 "a signal decides where the move (XMOVE) ends",
                 "searches are not compensated",
+            ),
+            Self::ArcChain => (
+                "arc-chain",
+                Severity::Error,
+                "C1MOVE follows C1MOVE: each part of the path lies on the circle through its two \
+                 ends and the next point, and is not followed",
+                "end each arc with C2MOVE",
             ),
             Self::Switched => (
                 "configuration-not-understood",

@@ -234,6 +234,7 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("LMOVE q7", "target-not-in-files"),
         ("RIGHTY\nJMOVE p1", "configuration-not-understood"),
         ("XMOVE p1 TILL 3", "search-move"),
+        ("C1MOVE p[1]\nC1MOVE p[2]\nC2MOVE p1", "arc-chain"),
         ("HERE .#q\nJMOVE .#q", "run-time-position"),
         ("LDEPART 5", "relative-move"),
         ("LMOVE p1\nTOOL grip\nLDEPART 5", "relative-move"),
