@@ -402,7 +402,11 @@ mod tests {
         let more = with(json!(["link1", "table", "jig"]), 5.0);
         assert_eq!(compare(&old, &more, Tolerances::default()).same, 1);
         let older = run(0.1, 5.0, 1.0, 0);
-        assert!(compare(&older, &old, Tolerances::default()).worse.is_empty());
+        assert!(
+            compare(&older, &old, Tolerances::default())
+                .worse
+                .is_empty()
+        );
     }
 
     #[test]

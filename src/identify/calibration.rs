@@ -370,6 +370,12 @@ pub(super) fn identify(
         &uncertainty.sigma,
         frames_only_quality.main().map_or(0.0, |spread| spread.rms),
     )?);
+    remarks.extend(plausibility::check_scale(
+        profile,
+        &solution.parameters,
+        &solution.estimate,
+        &uncertainty.sigma,
+    ));
     let observability = observability_of(&problem, &solution, &fit);
     let expected_m = expected_error_m(
         &problem,

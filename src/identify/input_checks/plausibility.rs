@@ -10,7 +10,8 @@ use crate::identify::parameters::{FIRST_PHYSICAL, Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, quantile};
 use crate::model::Slot;
-use crate::model::effects::Unit;
+use crate::model::effects::{Kind, Unit};
+use crate::model::profile::Profile;
 use std::collections::BTreeSet;
 
 /// A fit that misses by more is not of this robot, metres.
@@ -31,6 +32,11 @@ const UNUSUAL: f64 = 20.0;
 const TOUCH_FACTOR: f64 = 5.0;
 /// An expected error elsewhere is reported from here on, metres.
 const FAR_OFF_M: f64 = 0.3 * MM;
+/// One factor of all lengths is reported that is this many times its standard deviation, if each
+/// length has its typical deviation,
+const SCALED: f64 = 5.0;
+/// and this many without the longest.
+const SCALED_REST: f64 = 3.0;
 /// A compliance is negative that is so by this many standard deviations.
 const SURELY: f64 = 3.0;
 
@@ -219,6 +225,62 @@ pub(crate) fn check_rows(outliers: &[Outlier]) -> Option<Remark> {
     let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong \
         rows out; `poseshift calibrate --loss tukey` ignores them";
     Some(remark("outliers", worst.line.clone(), message, hint))
+}
+
+/// Checks whether the lengths of all links differ by one factor from the profile's: a device whose
+/// scale is wrong measures such an arm. The factor is that of weighted least squares through the
+/// origin; it is reported where it stands out with the longest length and without it.
+#[must_use]
+pub(crate) fn check_scale(
+    profile: &Profile,
+    parameters: &[Parameter],
+    estimate: &Estimate,
+    sigma: &[f64],
+) -> Option<Remark> {
+    // moments of nominal length and deviation, in typical deviations, and the nominal length
+    let lengths = parameters.iter().zip(sigma).filter_map(|(p, sigma)| {
+        let Subject::Effect(slot) = p.subject else {
+            return None;
+        };
+        let effect = &estimate.effects[slot.effect];
+        let is_geometry = effect.kind == Kind::LinkGeometry;
+        let link = is_geometry.then(|| &profile.links[effect.site.index])?;
+        let nominal_m = match effect.definition().parameters[slot.parameter].key {
+            "a_mm" => link.a_m,
+            "d_mm" => link.d_m,
+            _ => return None,
+        };
+        let weight = 1.0 / (p.scale * p.scale + sigma * sigma);
+        let deviation_m = estimate.value(p.subject);
+        let moments = [nominal_m * nominal_m, nominal_m * deviation_m].map(|m| m * weight);
+        (nominal_m != 0.0).then_some((moments, nominal_m.abs()))
+    });
+    let lengths: Vec<_> = lengths.collect();
+    let longest = lengths
+        .iter()
+        .map(|(_, length)| *length)
+        .max_by(f64::total_cmp)?;
+    let factor_of = |most: f64| {
+        let kept = lengths.iter().filter(|(_, length)| *length <= most);
+        let [squares, products] = kept.fold([0.0; 2], |sum, ([squares, products], _)| {
+            [sum[0] + squares, sum[1] + products]
+        });
+        (squares > 0.0).then(|| (products / squares, products / squares.sqrt()))
+    };
+    let (factor, times) = factor_of(longest)?;
+    let (_, rest) = factor_of(longest.next_down())?;
+    if times.abs() < SCALED || rest * times.signum() < SCALED_REST {
+        return None;
+    }
+    let message = format!(
+        "the lengths of all links come out {} by {:.2} %, {:.1} times what is usual",
+        if factor > 0.0 { "longer" } else { "shorter" },
+        100.0 * factor.abs(),
+        times.abs()
+    );
+    let hint = "a device whose scale is wrong measures such an arm: see its temperature, pressure \
+        and prism constant, and that the profile is of this robot";
+    Some(remark("scale", WHOLE_FILE, message, hint))
 }
 
 /// Checks identified values that no arm has.

@@ -416,3 +416,18 @@ fn missing_masses_negative_springs_and_unlikely_sigmas_are_reported() {
         found.remarks
     );
 }
+
+#[test]
+fn a_device_whose_scale_is_wrong_is_reported() {
+    let scaled =
+        |seen: &Measurements, by: f64| changed(seen, |_, row| moved(row, |p| p.map(|x| by * x)));
+    for seed in [43, 44, 45] {
+        let (truth, commands) = robot(seed);
+        let seen = measure(&truth, &commands, &session());
+        for (by, expected) in [(1.0, false), (1.01, true), (0.99, true)] {
+            let other = scaled(&seen, by);
+            let found = calibrate(&nominal(), &other, &Options::default()).expect("an answer");
+            assert_eq!(reported(&found, "scale"), expected, "{seed}, {by}");
+        }
+    }
+}
