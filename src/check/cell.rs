@@ -181,7 +181,8 @@ impl Cell {
     /// # Errors
     /// Anything the format does not allow, with line and column.
     pub fn from_yaml(text: &str) -> Result<Self, ProfileError> {
-        let file: CellFile = serde_yaml::from_str(text).map_err(ProfileError::from)?;
+        let file: CellFile =
+            serde_yaml::from_str(text).map_err(|error| ProfileError::of(text, FORMAT, error))?;
         if file.poseshift.value != FORMAT {
             return Err(Fault::Format {
                 found: file.poseshift.value,

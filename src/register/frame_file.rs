@@ -139,7 +139,8 @@ impl Frame {
     /// # Errors
     /// Anything that the format does not allow, with line and column.
     pub fn from_yaml(text: &str) -> Result<Self, FrameFileError> {
-        let file: File = serde_yaml::from_str(text).map_err(ProfileError::from)?;
+        let file: File =
+            serde_yaml::from_str(text).map_err(|error| ProfileError::of(text, FORMAT, error))?;
         if file.poseshift.value != FORMAT {
             let at = file.poseshift.defined;
             #[allow(clippy::cast_possible_truncation)]

@@ -27,18 +27,12 @@ pub struct LeftOut {
 /// # Errors
 /// There is none.
 pub fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
-    let known = || {
-        LANGUAGES
-            .iter()
-            .map(|l| l.about().id)
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
     let found = LANGUAGES.iter().find(|language| language.about().id == id);
     found.copied().ok_or_else(|| {
+        let ids = LANGUAGES.iter().map(|known| known.about().id);
         Failure::with_hint(
             format!("no language is called `{id}`"),
-            format!("languages are: {}", known()),
+            nearest::hint(id, "languages", ids),
         )
     })
 }

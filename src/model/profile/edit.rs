@@ -32,6 +32,12 @@ pub enum EditError {
         /// The path to it.
         path: String,
     },
+    /// A number with a decimal comma.
+    #[error("`{value}` is no number")]
+    Comma {
+        /// The value as it was given.
+        value: String,
+    },
     /// What came out is not what was meant.
     #[error("the file's layout is too unusual to set `{path}` in place")]
     Layout {
@@ -68,6 +74,16 @@ pub fn with_value(text: &str, path: &str, value: &str) -> Result<String, EditErr
     let out = put(text, &root, &steps, value)?;
     let mut meant = data;
     let layout = || EditError::Layout { path: path.into() };
+    let digits = value.strip_prefix('-').unwrap_or(value);
+    if let Some((whole, part)) = digits.split_once(',')
+        && [whole, part]
+            .iter()
+            .all(|half| !half.is_empty() && half.bytes().all(|b| b.is_ascii_digit()))
+    {
+        return Err(EditError::Comma {
+            value: value.into(),
+        });
+    }
     let new: Value = serde_yaml::from_str(value).map_err(|_| layout())?;
     set(&mut meant, &steps, new).ok_or_else(layout)?;
     if self::data(&out).is_ok_and(|found| found == meant) {

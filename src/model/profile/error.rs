@@ -410,17 +410,51 @@ impl ProfileError {
     }
 }
 
+/// What the parser says, without the options that only a caller of it has.
+fn message_of(error: &serde_yaml::Error) -> String {
+    let message = error.without_snippet().to_string();
+    // the parser repeats the place at the end of its message
+    let message = message.split(" at line ").next().unwrap_or(&message);
+    if message.starts_with("multiple YAML documents") {
+        return "a second document begins (`---`); the file may hold one".into();
+    }
+    let twice = message.strip_prefix("duplicate mapping key: ");
+    match twice.map(|rest| rest.split(", set ").next().unwrap_or(rest)) {
+        Some(key) => format!("the key `{key}` stands twice"),
+        None => message.to_owned(),
+    }
+}
+
+impl ProfileError {
+    /// A text that cannot be read as `format`: it is of another one, or something in it is wrong.
+    pub(crate) fn of(text: &str, format: &'static str, error: serde_yaml::Error) -> Self {
+        let lines = text.lines().zip(1..);
+        let declared = lines.filter_map(|(text, line)| {
+            let value = text.strip_prefix("poseshift:")?;
+            let value = value.split('#').next().unwrap_or(value);
+            Some((value.trim().trim_matches(['"', '\'']), line))
+        });
+        match declared.into_iter().next() {
+            Some((found, line)) if found != format => Self {
+                line,
+                column: 1,
+                span: None,
+                fault: Fault::Format {
+                    found: found.into(),
+                    reads: format,
+                },
+            },
+            _ => error.into(),
+        }
+    }
+}
+
 impl From<serde_yaml::Error> for ProfileError {
     fn from(error: serde_yaml::Error) -> Self {
         let location = error.location();
-        let message = error.without_snippet().to_string();
-        // the parser repeats the place at the end of its message
-        let message = message
-            .split(" at line ")
-            .next()
-            .unwrap_or(&message)
-            .to_owned();
-        let fault = Fault::Yaml { message };
+        let fault = Fault::Yaml {
+            message: message_of(&error),
+        };
         match location {
             Some(location) => fault.at(location),
             None => Self {

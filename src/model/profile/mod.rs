@@ -149,7 +149,8 @@ impl Profile {
     /// # Errors
     /// Anything the format does not allow, with line and column.
     pub fn from_yaml(text: &str) -> Result<Self, ProfileError> {
-        let file: ProfileFile = serde_yaml::from_str(text).map_err(ProfileError::from)?;
+        let file: ProfileFile =
+            serde_yaml::from_str(text).map_err(|error| ProfileError::of(text, FORMAT, error))?;
         Self::from_file(file)
     }
 

@@ -3,7 +3,7 @@
 use super::{Difference, diff};
 use crate::model::profile::{EditError, Profile, ToolOfProfile, flow_tool, with_value};
 use crate::nearest;
-use crate::program::LANGUAGES;
+use crate::task::programs::language_by_id;
 use crate::task::{Document, Failure, ProfileFile};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -43,7 +43,7 @@ pub fn set(file: &ProfileFile, values: &[String], output: &str) -> Result<Change
         })?;
         let (path, value) = (path.trim(), value.trim());
         if path == "controller.language" {
-            check_language(value)?;
+            language_by_id(value)?;
         }
         text = with(&file.name, &text, path, &as_yaml(path, value))?;
     }
@@ -95,6 +95,9 @@ fn with(name: &str, text: &str, path: &str, value: &str) -> Result<String, Failu
                 nearest::hint(key, "there are", known.iter().map(String::as_str))
             }
             EditError::Layout { .. } => "edit the file by hand".into(),
+            EditError::Comma { value } => {
+                format!("decimals stand behind a point: {}", value.replace(',', "."))
+            }
             EditError::Yaml { .. } | EditError::Block { .. } => String::new(),
         };
         Failure::with_hint(format!("{name}: {error}"), hint)
@@ -119,16 +122,4 @@ pub(super) fn changed(file: &ProfileFile, text: String, output: &str) -> Result<
         notes,
         text,
     })
-}
-
-/// That a language is one of those that are read.
-pub(super) fn check_language(language: &str) -> Result<(), Failure> {
-    let ids = || LANGUAGES.iter().map(|known| known.about().id);
-    if ids().any(|id| id == language) {
-        return Ok(());
-    }
-    Err(Failure::with_hint(
-        format!("no language is called `{language}`"),
-        nearest::hint(language, "languages", ids()),
-    ))
 }

@@ -1,6 +1,5 @@
 //! A profile of a URDF, and back.
 
-use super::change::check_language;
 use super::export::tools;
 use super::inverse;
 use crate::geometry::Pose;
@@ -9,6 +8,7 @@ use crate::model::profile::{MAKERS, Maker, Profile, ToolOfProfile};
 use crate::model::{Chain, Conditions, Geometry, Model};
 use crate::nearest;
 use crate::program::Source;
+use crate::task::programs::language_by_id;
 use crate::task::{Document, Failure, text};
 use crate::urdf::{About, Choice, Drawing, Meshes, UrdfArm, UrdfError, profile_text, urdf_text};
 use schemars::JsonSchema;
@@ -64,7 +64,7 @@ pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
     let failure = |error: UrdfError| Failure::with_hint(format!("{name}: {error}"), error.hint());
     let [maker, language, serial] = inputs.about;
     if let Some(language) = language {
-        check_language(language)?;
+        language_by_id(language)?;
     }
     let arm = UrdfArm::read(&text(inputs.urdf)?, &inputs.choice).map_err(failure)?;
     let about = About {
