@@ -338,10 +338,10 @@ impl ProfileError {
                     .into()
             }
             Fault::DuplicateEffect { .. } => "add the two up into one entry".into(),
-            Fault::Format {
-                reads: super::FORMAT,
-                ..
-            } => "`poseshift profile schema` prints the format".into(),
+            Fault::Format { reads, .. } => {
+                let name = reads.split('/').next().unwrap_or(reads);
+                format!("`poseshift schema {name}` prints the format")
+            }
             Fault::Quality { message } if !message.starts_with("unknown field") => {
                 "`calibrate` writes this block: take it from the file as it was written, or leave \
                  it out"
