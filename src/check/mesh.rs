@@ -6,7 +6,7 @@
 
 use crate::geometry::units::m_from_mm;
 use crate::geometry::{Vector, cross, norm, sub};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 #[cfg(feature = "mesh")]
@@ -35,6 +35,8 @@ pub struct Mesh {
     pub degenerate: usize,
     /// Edges that belong to an odd number of triangles: a closed mesh has none.
     pub open_edges: usize,
+    /// Triangles next to each other face to the same side.
+    pub faces_alike: bool,
     /// The file that it was read from; empty where it is of none.
     pub file: String,
     /// Neither the file nor anybody else says how long its unit is: a millimetre is assumed.
@@ -152,13 +154,23 @@ impl Mesh {
             let longest = norm(u).max(norm(v)).max(norm(w));
             norm(cross(u, v)) > DEGENERATE * longest * longest && longest > 0.0
         };
-        let triangles: Vec<Triangle> = all.iter().filter(has_area).copied().collect();
-        if triangles.is_empty() {
+        let solid: Vec<Triangle> = all.iter().filter(has_area).copied().collect();
+        if solid.is_empty() {
             return Err(MeshError::Empty { found: all.len() });
         }
+        let degenerate = all.len() - solid.len();
+        // drawings for the screen have each face twice, seen from both sides
+        let mut seen = HashSet::new();
+        let is_new = |triangle: &Triangle| {
+            let mut corners = triangle.map(|corner| key(&corner));
+            corners.sort_unstable();
+            seen.insert(corners)
+        };
+        let triangles: Vec<Triangle> = solid.into_iter().filter(is_new).collect();
         let mesh = Self {
-            degenerate: all.len() - triangles.len(),
+            degenerate,
             open_edges: open_edges(&triangles),
+            faces_alike: faces_alike(&triangles),
             triangles,
             ..Self::default()
         };
@@ -186,24 +198,36 @@ impl Mesh {
         sub(high, low).into_iter().fold(0.0, f64::max)
     }
 
-    /// Whether a point is inside: an odd number of triangles lies on a ray from it. Meaningless
-    /// where the mesh is open.
+    /// Whether a point is inside: an odd number of triangles lies on a ray from it, or, where all
+    /// face alike, more are passed from one side than from the other: shells may overlap.
+    /// Meaningless where the mesh is open.
     #[must_use]
     pub fn contains(&self, point: Vector) -> bool {
         // a direction that no drawing has: no ray along an edge
         let toward = [0.537_281, 0.712_934, 0.450_623];
-        let hits = self.triangles.iter().filter(|[a, b, c]| {
+        let passes = |[a, b, c]: &Triangle| {
             let (u, v) = (sub(*b, *a), sub(*c, *a));
             let across = cross(toward, v);
-            let by = 1.0 / crate::geometry::dot(u, across);
+            let side = crate::geometry::dot(u, across);
+            let by = 1.0 / side;
             let from = sub(point, *a);
             let s = by * crate::geometry::dot(from, across);
             let turned = cross(from, u);
             let t = by * crate::geometry::dot(toward, turned);
             let along = by * crate::geometry::dot(v, turned);
-            s >= 0.0 && t >= 0.0 && s + t <= 1.0 && along > 0.0
-        });
-        hits.count() % 2 == 1
+            let is_hit = s >= 0.0 && t >= 0.0 && s + t <= 1.0 && along > 0.0;
+            match (is_hit, side > 0.0) {
+                (false, _) => 0_i64,
+                (true, true) => 1,
+                (true, false) => -1,
+            }
+        };
+        let (mut hits, mut sum) = (0_u64, 0_i64);
+        for pass in self.triangles.iter().map(passes) {
+            hits += pass.unsigned_abs();
+            sum += pass;
+        }
+        hits % 2 == 1 || self.faces_alike && sum != 0
     }
 }
 
@@ -216,11 +240,28 @@ fn triangles(_: &str, _: &[u8], _: Neighbour) -> Result<Vec<Triangle>, MeshError
     Err(MeshError::NotBuilt)
 }
 
+/// A corner to be compared: 0.0 and -0.0 are one place.
+fn key(point: &Vector) -> [u64; 3] {
+    point.map(|x| (x + 0.0).to_bits())
+}
+
+/// Whether each edge is run along as often in one direction as in the other: triangles next to each
+/// other then face to the same side.
+fn faces_alike(triangles: &[Triangle]) -> bool {
+    let mut edges: HashMap<[[u64; 3]; 2], i64> = HashMap::new();
+    for triangle in triangles {
+        for i in 0..3 {
+            let (a, b) = (key(&triangle[i]), key(&triangle[(i + 1) % 3]));
+            let (edge, sign) = if a < b { ([a, b], 1) } else { ([b, a], -1) };
+            *edges.entry(edge).or_default() += sign;
+        }
+    }
+    edges.values().all(|sum| *sum == 0)
+}
+
 /// Edges that an odd number of triangles share; corners are the same where their coordinates are.
 fn open_edges(triangles: &[Triangle]) -> usize {
     let mut edges: HashMap<[[u64; 3]; 2], usize> = HashMap::new();
-    // 0.0 and -0.0 are one place
-    let key = |point: &Vector| point.map(|x| (x + 0.0).to_bits());
     for triangle in triangles {
         for i in 0..3 {
             let (a, b) = (key(&triangle[i]), key(&triangle[(i + 1) % 3]));
@@ -271,6 +312,42 @@ mod tests {
         assert!(mesh.contains([0.02, 0.02, 0.02]));
         assert!(!mesh.contains([0.09, 0.09, 0.09]));
         assert!(!mesh.contains([-0.01, 0.02, 0.02]));
+    }
+
+    /// A box between two corners, and its faces seen from inside, too, where it is double.
+    fn block(low: f64, high: f64, is_double: bool) -> Vec<Triangle> {
+        let corner = |at: usize| [0, 1, 2].map(|i| if at >> i & 1 == 0 { low } else { high });
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let halves = faces
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        let outside: Vec<Triangle> = halves.map(|half| half.map(corner)).collect();
+        let inside = outside
+            .iter()
+            .filter(|_| is_double)
+            .map(|&[a, b, c]| [a, c, b]);
+        inside.chain(outside.iter().copied()).collect()
+    }
+
+    #[test]
+    fn what_is_deep_in_a_double_or_overlapping_mesh_is_inside() {
+        let (centre, outside) = ([0.03, 0.01, 0.02], [2.0, 0.1, 0.1]);
+        let two = [block(-1.0, 0.5, false), block(-0.5, 1.0, false)].concat();
+        for triangles in [block(-1.0, 1.0, false), block(-1.0, 1.0, true), two] {
+            let mesh = Mesh::of(&triangles, 1.0).expect("a mesh");
+            assert_eq!(
+                (mesh.contains(centre), mesh.contains(outside)),
+                (true, false)
+            );
+            assert_eq!(mesh.open_edges, 0);
+        }
     }
 
     #[test]

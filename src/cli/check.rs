@@ -10,7 +10,6 @@ use crate::check::{Options, ToolRotation, baseline};
 use crate::finding::Acceptance;
 use crate::geometry::units::{DEG, MM};
 use crate::model::profile::Profile;
-use crate::motion::Given;
 use crate::printable::name_of;
 use crate::report;
 use crate::report::html::programs::check_page;
@@ -197,18 +196,7 @@ impl Check {
     }
 
     fn options(&self, profile: &Profile) -> Result<Options, Failure> {
-        let mut given = Given {
-            is_needed: true,
-            ..Given::default()
-        };
-        for text in &self.tools {
-            let (name, tool) = values::tool(text, profile)?;
-            given.tools.insert(name, tool);
-        }
-        for text in &self.frames {
-            let (name, frame) = values::frame(text)?;
-            given.frames.insert(name, frame);
-        }
+        let given = values::given(&self.tools, &self.frames, profile)?;
         Ok(Options {
             given,
             turning: match self.orientation {

@@ -6,7 +6,7 @@ use super::layout;
 use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
 use super::progress::Progress;
 use super::{Answer, Output, values};
-use crate::compensate::{AtSingularity, Compensation, Draft, Given, Methods, Options};
+use crate::compensate::{AtSingularity, Compensation, Draft, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
 use crate::printable::name_of;
@@ -257,18 +257,7 @@ impl Compensate {
     /// `each`: each target is reported on.
     fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
         values::check_size("--max-derived-error", self.max_derived_error, 0.0)?;
-        let mut given = Given {
-            is_needed: true,
-            ..Given::default()
-        };
-        for text in &self.tools {
-            let (name, tool) = values::tool(text, profile)?;
-            given.tools.insert(name, tool);
-        }
-        for text in &self.frames {
-            let (name, frame) = values::frame(text)?;
-            given.frames.insert(name, frame);
-        }
+        let mut given = values::given(&self.tools, &self.frames, profile)?;
         for text in &self.wobjs {
             let (name, file) = values::named(text);
             let name = name.ok_or_else(|| {

@@ -3,6 +3,7 @@
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Separation, Vector};
 use crate::model::profile::{Mounted, Profile};
+use crate::motion::Given;
 use crate::nearest;
 use crate::task::Failure;
 
@@ -144,6 +145,42 @@ pub(super) fn frame(text: &str) -> Result<(Option<String>, Pose), Failure> {
         ))
     })?;
     Ok((name, pose))
+}
+
+/// Tools and frames of the command line, each name once.
+pub(super) fn given(
+    tools: &[String],
+    frames: &[String],
+    profile: &Profile,
+) -> Result<Given, Failure> {
+    let twice = |option: &str, name: &Option<String>| {
+        let of = name
+            .as_ref()
+            .map_or(String::new(), |name| format!(" {name}"));
+        Failure::with_hint(
+            format!("{option}{of} is given twice"),
+            format!(
+                "one {option} a name: {option} NAME=x,y,z,rx,ry,rz, and at most one without a name"
+            ),
+        )
+    };
+    let mut given = Given {
+        is_needed: true,
+        ..Given::default()
+    };
+    for text in tools {
+        let (name, tool) = tool(text, profile)?;
+        if given.tools.insert(name.clone(), tool).is_some() {
+            return Err(twice("--tool", &name));
+        }
+    }
+    for text in frames {
+        let (name, frame) = frame(text)?;
+        if given.frames.insert(name.clone(), frame).is_some() {
+            return Err(twice("--frame", &name));
+        }
+    }
+    Ok(given)
 }
 
 /// So many finite numbers with commas between, the value of an option.

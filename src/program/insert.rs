@@ -246,7 +246,12 @@ impl<'a> Repeated<'a> {
         };
         Some(Self {
             source,
-            blanks: indent(&source.bytes, span.start)?,
+            // a split puts nothing before the move
+            blanks: if insertion.is_split() {
+                b""
+            } else {
+                indent(&source.bytes, span.start)?
+            },
             via,
             end: instruction.target_span.range()?,
             longest,

@@ -94,6 +94,12 @@ pub fn common_language(
                 && of_profile != "csv"
                 && language.about().id != "csv" =>
         {
+            language_by_id(of_profile).map_err(|error| {
+                Failure::with_hint(
+                    format!("controller.language of the profile: {}", error.message),
+                    error.hint,
+                )
+            })?;
             Err(Failure::with_hint(
                 format!(
                     "{name} is {}, and the profile's controller speaks {of_profile}",

@@ -149,7 +149,7 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
                 "all {} rows have the same orientation though the joints move",
                 rows.len()
             ),
-            "leave qw,qx,qy,qz out where the device measures positions only",
+            "leave the columns of the orientation out where the device measures positions only",
         ));
     }
     let points: Vec<Vector> = rows.iter().filter_map(|r| r.observed.point_m()).collect();

@@ -80,6 +80,11 @@ impl Euler {
         })
     }
 
+    /// Every convention.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        CONVENTIONS.iter().map(|own| own.euler)
+    }
+
     /// The columns that hold its numbers.
     #[must_use]
     pub fn columns(self) -> [&'static str; 3] {

@@ -23,12 +23,15 @@ pub use units::{Unit, Units};
 
 use super::fault::{MeasurementError, MeasurementFault};
 use super::input_checks::Remark;
-use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS};
+use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
 use crate::geometry::units::DEG;
 
 /// A joint that moves by less has not moved: a controller's readings differ in their last digits.
 /// Radians.
 const STILL_RAD: f64 = 0.005 * DEG;
+
+/// As many names of columns are listed.
+const LISTED: usize = 6;
 
 /// Rows of one file, or of two that are joined, with columns of the format.
 #[derive(Clone, Debug)]
@@ -144,7 +147,43 @@ impl Table {
         if table.in_order {
             table.derive_directions()?;
         }
+        table.remarks.extend(table.not_read());
         Ok(table)
+    }
+
+    /// Columns that nothing is read from.
+    fn not_read(&self) -> Vec<Remark> {
+        let mut remarks = Vec::new();
+        let has = |column: &&str| self.index(column).is_some();
+        let angles = Euler::all().find(|own| own.columns().iter().all(has));
+        let quaternion = QUATERNION_COLUMNS.iter().all(has);
+        if let Some(angles) = angles.filter(|_| self.euler.is_none() && !quaternion) {
+            let message = format!(
+                "the orientation in {} is not read: nothing names the convention of its angles",
+                angles.columns().join(", ")
+            );
+            let hint =
+                "--euler xyz, zyx, zyz, rotation-vector or the name of the controller's maker";
+            remarks.push(Remark {
+                warning: true,
+                ..note("orientation-not-read", message, hint)
+            });
+        }
+        let unknown = |column: &&Column| column.of_point().is_none() && !is_of_format(&column.name);
+        let unknown = self.columns.iter().filter(unknown);
+        let names: Vec<String> = unknown.map(|column| format!("`{}`", column.name)).collect();
+        if let Some((first, more)) = names.split_at_checked(names.len().min(LISTED))
+            && !first.is_empty()
+        {
+            let more = match more.len() {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let message = format!("no column of the format: {}{more}", first.join(", "));
+            let hint = "where one is, name it with --columns, as x=X,q1=J1";
+            remarks.push(note("columns-not-read", message, hint));
+        }
+        remarks
     }
 
     /// The column of a name.

@@ -419,9 +419,22 @@ fn message_of(error: &serde_yaml::Error) -> String {
         return "a second document begins (`---`); the file may hold one".into();
     }
     let twice = message.strip_prefix("duplicate mapping key: ");
-    match twice.map(|rest| rest.split(", set ").next().unwrap_or(rest)) {
-        Some(key) => format!("the key `{key}` stands twice"),
-        None => message.to_owned(),
+    if let Some(rest) = twice {
+        let key = rest.split(", set ").next().unwrap_or(rest);
+        return format!("the key `{key}` stands twice");
+    }
+    let lengths = message.strip_prefix("invalid length ");
+    if let Some((found, wanted)) =
+        lengths.and_then(|rest| rest.split_once(", expected an array of length "))
+    {
+        return format!("{wanted} values are needed here, there are {found}");
+    }
+    match message {
+        "invalid floating point" => "a number is expected here".into(),
+        "invalid u8" | "invalid i8" => "a whole number is expected here".into(),
+        "expected sequence start" => "a list is expected here: [first, second]".into(),
+        "expected mapping start" => "keys with their values are expected here".into(),
+        _ => message.to_owned(),
     }
 }
 

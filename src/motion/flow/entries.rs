@@ -4,7 +4,7 @@
 use super::{Flow, From, MOST_ROUNDS, NO_INSTANCE, State};
 use crate::motion::before::{ANYWHERE, START};
 use crate::motion::readers::read_elsewhere;
-use crate::program::script::{RoutineId, Start, Statement, VariableId, Written, short};
+use crate::program::script::{Expr, RoutineId, Start, Statement, VariableId, Written, short};
 use std::rc::Rc;
 
 impl Flow<'_> {
@@ -184,14 +184,37 @@ impl Flow<'_> {
             .extend(noted.map(|((variable, _), site)| (variable, site)));
     }
 
+    /// Whether a move that nothing reaches goes to a parameter that no call gives, in a routine that
+    /// is called.
+    fn is_never_given(&self, routine: usize, instruction: u32) -> bool {
+        let script = self.script;
+        let of = &script.routines[routine];
+        let mut target = script.instructions[instruction as usize].target;
+        while let Expr::Displaced { base, .. } = target {
+            target = script.lists[base as usize];
+        }
+        let Expr::Variable(parameter) = target else {
+            return false;
+        };
+        let given = script.arguments.iter();
+        let mut given = given.filter(|argument| argument.parameter == Some(parameter));
+        let owner = script.variables[parameter as usize].routine;
+        owner == Some(short(routine))
+            && self.visited[of.statements.start as usize]
+            && given.clone().next().is_some()
+            && given.all(|argument| matches!(argument.value, Expr::Unknown(_)))
+    }
+
     /// Text that nothing reaches: its moves start from the declarations.
     pub(super) fn run_dead(&mut self) {
         for routine in 0..self.script.routines.len() {
             let of = &self.script.routines[routine];
             let mut own = None;
             for at in of.statements.clone() {
-                let is_move = matches!(self.script.statements[at as usize], Statement::Move(_));
-                if !is_move || self.visited[at as usize] {
+                let Statement::Move(instruction) = self.script.statements[at as usize] else {
+                    continue;
+                };
+                if self.visited[at as usize] || self.is_never_given(routine, instruction) {
                     continue;
                 }
                 let instance = *own.get_or_insert_with(|| {

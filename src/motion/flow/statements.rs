@@ -7,7 +7,8 @@ use super::{
 use crate::motion::before::{ANYWHERE, Stop};
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
-    Argument, Call, Expected, Expr, Held, Label, ModalId, RoutineId, Statement, VariableId, short,
+    Argument, Call, Condition, Expected, Expr, Held, Label, ModalId, RoutineId, Statement,
+    VariableId, short,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -243,6 +244,16 @@ impl<'a> Flow<'a> {
                     return visits;
                 }
                 Statement::Branch(label) => self.arrive(instance, label, &state),
+                Statement::BranchUnless(condition) => {
+                    let condition = script.conditions[condition as usize];
+                    let (may_be, may_not_be) = self.may_be(&state, condition);
+                    if may_not_be {
+                        self.arrive(instance, condition.otherwise, &state);
+                    }
+                    if !may_be {
+                        return visits;
+                    }
+                }
                 Statement::Jump(label) => {
                     self.arrive(instance, label, &state);
                     return visits;
@@ -387,6 +398,30 @@ impl<'a> Flow<'a> {
             .iter()
             .all(|(atom, _)| is_other(atom))
             .then_some(*site)
+    }
+
+    /// Whether a variable may hold what a branch depends on, and whether it may hold something
+    /// else; both where nothing is known of it, and in text that nothing reaches.
+    fn may_be(&self, state: &State, condition: Condition) -> (bool, bool) {
+        let held = match self.slots[condition.variable as usize] {
+            Some(slot) => state.holds[slot as usize],
+            None => self.fixed[condition.variable as usize],
+        };
+        let atoms = self.holdings.of(held);
+        let flag = |atom: &Atom| match atom {
+            Atom::Value(value) => match self.value(*value) {
+                Held::Flag(flag) => Some(*flag == condition.wanted),
+                _ => None,
+            },
+            _ => None,
+        };
+        let may = |is: bool| {
+            atoms.is_empty() || self.dead.is_some() || {
+                let mut all = atoms.iter();
+                all.any(|(atom, _)| flag(atom).is_none_or(|flag| flag == is))
+            }
+        };
+        (may(true), may(false))
     }
 
     /// Whether an expression says the same whatever was before.

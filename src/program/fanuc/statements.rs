@@ -93,7 +93,9 @@ impl Reader<'_> {
             }
             (b"LBL" | b"LABEL", _) => self.jump(rest, false),
             (b"JMP" | b"SPRUNG", _) => self.jump(&rest[word_length(rest)..], false),
-            (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => self.builder.begin_if(),
+            (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => {
+                self.builder.begin_if(None);
+            }
             (b"ENDIF", _) => self.builder.end_choice(),
             (b"FOR", _) => self.builder.begin_loop(true),
             (b"ENDFOR", _) => self.builder.end_loop(false),
@@ -143,7 +145,7 @@ impl Reader<'_> {
         let mut known = text;
         if let Some(comma) = comma.filter(|_| is_condition) {
             known = &text[..comma];
-            self.builder.begin_if();
+            self.builder.begin_if(None);
             self.behind_comma(text, depth);
             self.builder.end_choice();
         }
@@ -389,7 +391,7 @@ impl Reader<'_> {
             let variable = self.written(target);
             // a register says which: each may be written
             if one.is_none() {
-                self.builder.begin_if();
+                self.builder.begin_if(None);
             }
             self.set(variable, holds);
             if one.is_none() {

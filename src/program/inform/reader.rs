@@ -196,7 +196,7 @@ impl<'a> Reader<'a> {
         match first {
             b"WHILE" | b"WHILEEXP" | b"FOR" => self.builder.begin_loop(true),
             b"NEXT" | b"ENDWHILE" => self.builder.end_loop(false),
-            b"IFTHEN" | b"IFTHENEXP" => self.builder.begin_if(),
+            b"IFTHEN" | b"IFTHENEXP" => self.builder.begin_if(None),
             b"SWITCH" => {
                 self.builder.begin_choice();
                 if rest.any(|word| word == b"CASE") {
@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
             return;
         }
         if conditional {
-            self.builder.begin_if();
+            self.builder.begin_if(None);
         }
         match first {
             b"RET" => self.builder.back(),
@@ -422,7 +422,7 @@ impl<'a> Reader<'a> {
                 self.write(line, written, How::part(value, computed));
             }
             Effect::Perhaps => {
-                self.builder.begin_if();
+                self.builder.begin_if(None);
                 self.write(line, written, How::Whole(Expr::Unknown(computed)));
                 self.builder.end_choice();
             }

@@ -263,7 +263,7 @@ impl<'a> Reader<'a> {
                 self.builder.may_go_to(label);
             }
         } else if is(b"IF") {
-            self.builder.begin_if();
+            self.builder.begin_if(None);
         } else if is(b"ELSEIF") {
             self.builder.next_branch(false);
         } else if is(b"ELSE") {

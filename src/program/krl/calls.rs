@@ -126,7 +126,7 @@ enum Given {
 impl Reader {
     /// `routine(a, b)`; the cursor stands in front of the bracket.
     pub(super) fn call(&mut self, name: Token, mut cursor: Cursor) {
-        self.last = None;
+        self.lose_place();
         self.call_here(name, &mut cursor, true);
     }
 

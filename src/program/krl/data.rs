@@ -91,6 +91,9 @@ impl Reader {
         if kind == DataKind::Fdat {
             return Ok(Some(Stored::Fdat(fdat(cursor)?)));
         }
+        if kind == DataKind::Ldat {
+            return Ok(Some(Stored::Keeps(keeps_orientation(cursor)?)));
+        }
         let start = cursor.at;
         let aggregate = aggregate::read(cursor)?;
         let text = &cursor.bytes[name.start as usize..start];
@@ -224,6 +227,20 @@ impl Reader {
         }
         Ok(true)
     }
+}
+
+/// `{VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #CONSTANT}`
+pub(super) fn keeps_orientation(cursor: &mut Cursor) -> Read<bool> {
+    let bytes = cursor.bytes;
+    let mut keeps = false;
+    aggregate::each(cursor, |key, _, field| {
+        if let (b"ORI_TYP", aggregate::Field::Enum(name)) = (key, field) {
+            let name = &bytes[name.start as usize..name.end as usize];
+            keeps = name.eq_ignore_ascii_case(b"CONSTANT");
+        }
+        Ok(())
+    })?;
+    Ok(keeps)
 }
 
 /// What a load says.

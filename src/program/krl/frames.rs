@@ -3,7 +3,7 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{angle, chosen, frame_assigned, moving, of_another_robot};
+use super::remarks::{angle, chosen, frame_assigned, keeps_orientation, moving, of_another_robot};
 use super::targets::Owner;
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
@@ -120,10 +120,13 @@ pub(super) enum State {
     FdatIpo,
     ActTool,
     ActBase,
+    /// Whether straight moves and arcs keep their orientation.
+    Orientation,
+    LdatOrientation,
 }
 
 impl State {
-    const NAMES: [&str; 9] = [
+    const NAMES: [&str; 11] = [
         "$TOOL",
         "$BASE",
         "$LOAD",
@@ -133,6 +136,8 @@ impl State {
         "FDAT_ACT.IPO_FRAME",
         "$ACT_TOOL",
         "$ACT_BASE",
+        "$ORI_TYPE",
+        "LDAT_ACT.ORI_TYP",
     ];
 
     /// The state of a name in capitals.
@@ -144,6 +149,7 @@ impl State {
             b"$IPO_MODE" => Self::Ipo,
             b"$ACT_TOOL" => Self::ActTool,
             b"$ACT_BASE" => Self::ActBase,
+            b"$ORI_TYPE" => Self::Orientation,
             _ => return None,
         })
     }
@@ -160,7 +166,7 @@ pub(super) enum Choice {
 /// States of the controller in the script, and values that are needed often.
 #[derive(Debug)]
 pub(super) struct States {
-    pub states: [VariableId; 9],
+    pub states: [VariableId; 11],
     pub tables: [TableId; 3],
     entries: HashMap<(Table, u32), VariableId>,
     /// What $TOOL and $BASE were before the program.
@@ -171,10 +177,16 @@ pub(super) struct States {
     pub on: ValueId,
     off: ValueId,
     external: ValueId,
+    /// The orientation stays what it is.
+    keeps: ValueId,
     /// Indices in the script's guards: by `$IPO_MODE` and `$LOAD`, by it and an angle, by a fixed
     /// tool, by an unknown mode.
     pub guards: u32,
     pub angle_guards: u32,
+    /// Of moves on which the tool rotates: by the states and `$ORI_TYPE`, and where the move itself
+    /// keeps its orientation.
+    pub turning_guards: u32,
+    pub keeping_guards: u32,
     fixed_guards: u32,
     chosen_guards: u32,
     /// Of moves to axes.
@@ -243,7 +255,7 @@ impl States {
             let declared = match at {
                 0 | 1 => Expr::Value(initial[at]),
                 2 => Expr::Value(off),
-                3 => Expr::Value(on),
+                3 | 9 | 10 => Expr::Value(on),
                 _ => Expr::Unknown(chosen),
             };
             script.variable(Variable {
@@ -259,10 +271,13 @@ impl States {
         let external = script.value(Held::Remark(external));
         let angle = script.remark(angle());
         let angle = script.value(Held::Remark(angle));
-        let [angle, fixed, chosen] = [
+        let keeps = script.remark(keeps_orientation());
+        let keeps = script.value(Held::Remark(keeps));
+        let [angle, fixed, chosen, kept] = [
             Expr::Value(angle),
             Expr::Value(external),
             Expr::Unknown(chosen),
+            Expr::Value(keeps),
         ]
         .map(|declared| script.variable(Variable::new("the move", NOWHERE, declared)));
         let mode = states[State::Ipo as usize];
@@ -272,8 +287,11 @@ impl States {
             script.guards.push([of, &apart].concat().into());
             short(script.guards.len() - 1)
         };
+        let load = states[State::Load as usize];
         Self {
-            guards: guard(&[mode, states[State::Load as usize]]),
+            guards: guard(&[mode, load]),
+            turning_guards: guard(&[mode, load, states[State::Orientation as usize]]),
+            keeping_guards: guard(&[mode, load, kept]),
             angle_guards: guard(&[mode, angle]),
             fixed_guards: guard(&[fixed]),
             chosen_guards: guard(&[chosen]),
@@ -288,6 +306,7 @@ impl States {
             on,
             off,
             external,
+            keeps,
         }
     }
 
@@ -481,6 +500,15 @@ impl Reader {
             Some(true) => Expr::Value(self.states.external),
             None => self.chosen(),
         }
+    }
+
+    /// Whether the orientation stays what it is; what is not known may keep it.
+    pub(super) fn orientation_value(&self, keeps: bool) -> Expr {
+        Expr::Value(if keeps {
+            self.states.keeps
+        } else {
+            self.states.on
+        })
     }
 
     /// What the chosen entry of a table holds.

@@ -2,12 +2,13 @@
 
 use super::aggregate::{self, EXTERNAL};
 use super::frames::State;
+use super::points::Point;
 use super::reader::Reader;
 use super::remarks::{from_nowhere, turned};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
-use crate::program::script::{Expr, Instruction, Modal, Place, Remark, short};
+use crate::program::script::{Expr, Instruction, Modal, NOT_DISPLACED, Place, Remark, short};
 use crate::program::{
     Displacement, External, ExternalUse, Motion, Shape, Shift, SpeedZone, number,
 };
@@ -40,6 +41,7 @@ pub(super) struct With {
     base: Option<Expr>,
     load: Option<Expr>,
     mode: Option<Expr>,
+    orientation: Option<Expr>,
 }
 
 /// Where the robot is, for moves relative to it.
@@ -73,6 +75,7 @@ impl Reader {
         let rest = self.rest(cursor)?;
         let (place, context) = (self.place(first), rest.with);
         self.last = None;
+        let is_referred = std::mem::take(&mut self.is_referred);
         for (at, point) in points[..count].iter().enumerate() {
             if point.is_here {
                 // to its joints a program goes before its first move
@@ -87,9 +90,16 @@ impl Reader {
                 Path::Arc => Motion::ArcEnd,
             };
             let mut modal = self.modal_of(motion, point.target, &rest);
+            if !is_via {
+                let heading = self.heading_of(point);
+                let before = std::mem::replace(&mut self.heading, heading);
+                if motion != Motion::Joint && (before.is_none() || before != self.heading) {
+                    self.guard_orientation(&mut modal, &rest.with);
+                }
+            }
             let mut instruction = move_to(point.target, place, motion, &rest);
             instruction.displacement = point.displacement;
-            if point.is_plain && !rest.has_angle {
+            if point.is_plain && !rest.has_angle && !is_referred {
                 instruction.target_span = point.span;
             }
             if rest.has_angle {
@@ -108,6 +118,37 @@ impl Reader {
         Ok(())
     }
 
+    /// The angles of a position, to 0.001 deg; none where they are not known.
+    fn heading_of(&self, point: &Point) -> Option<[f64; 3]> {
+        let script = &self.builder.script;
+        let mut target = point.target;
+        if let Expr::Variable(variable) = target {
+            target = script.variables[variable as usize].declared;
+        }
+        let Expr::Target(target) = target else {
+            return None;
+        };
+        let target = &script.targets[target];
+        let numbers = &script.numbers[target.numbers.start as usize..target.numbers.end as usize];
+        let angles = numbers
+            .get(3..6)
+            .filter(|_| target.layout.shape == Shape::Pose)?;
+        let rounded = |at: usize| (angles[at].value * 1e3).round();
+        (point.displacement == NOT_DISPLACED).then(|| [0, 1, 2].map(rounded))
+    }
+
+    /// A move on which the tool rotates is refused where the orientation is kept.
+    fn guard_orientation(&self, modal: &mut Modal, with: &With) {
+        let of_states = [self.states.guards, 0].contains(&modal.guards);
+        if of_states {
+            modal.guards = match with.orientation.or(self.spline.orientation) {
+                Some(own) if own == self.orientation_value(false) => modal.guards,
+                Some(Expr::Value(_)) => self.states.keeping_guards,
+                _ => self.states.turning_guards,
+            };
+        }
+    }
+
     /// With what a move runs.
     fn modal_of(&self, motion: Motion, target: Expr, rest: &Rest) -> Modal {
         let With {
@@ -115,6 +156,7 @@ impl Reader {
             base,
             load,
             mode,
+            orientation: _,
         } = rest.with;
         let state = |own: Option<Expr>, of: Option<Expr>, state| {
             own.or(of).unwrap_or(self.states.expr(state))
@@ -200,6 +242,7 @@ impl Reader {
                 (b"$BASE", None) => with.base = Some(self.state_value(State::Base, cursor)?),
                 (b"$LOAD", None) => with.load = Some(self.state_value(State::Load, cursor)?),
                 (b"$IPO_MODE", None) => with.mode = Some(self.state_value(State::Ipo, cursor)?),
+                (b"$ORI_TYPE", None) => with.orientation = Some(self.orientation(cursor)),
                 (b"$TOOL", Some(_)) => with.tool = Some(self.chosen()),
                 (b"$BASE", Some(_)) => with.base = Some(self.chosen()),
                 (b"$VEL", _) => speed_zone.speed_m_s = speed(cursor, part)?,
@@ -214,6 +257,7 @@ impl Reader {
     /// `LIN_REL {Z 100} #BASE`
     pub(super) fn relative(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
         let last = self.last.take();
+        (self.heading, self.is_referred) = (None, false);
         let (mut axes, mut by, mut external) = (false, None, [None; 6]);
         if cursor.blanks() == b'{' {
             let found = aggregate::read(&mut cursor)?;

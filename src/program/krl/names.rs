@@ -59,6 +59,8 @@ pub(super) enum DataKind {
     Axes,
     /// FDAT: numbers of a tool and a base.
     Fdat,
+    /// LDAT: whether straight moves and arcs keep their orientation.
+    Ldat,
     /// INT.
     Number,
     /// Anything else.
@@ -73,6 +75,7 @@ impl DataKind {
             b"POS" | b"E3POS" | b"E6POS" => Self::Position,
             b"AXIS" | b"E3AXIS" | b"E6AXIS" => Self::Axes,
             b"FDAT" => Self::Fdat,
+            b"LDAT" => Self::Ldat,
             b"INT" => Self::Number,
             _ => Self::Other,
         }
@@ -102,6 +105,8 @@ pub(super) enum Stored {
     Target(TargetId),
     /// Numbers of a tool and a base.
     Fdat(Fdat),
+    /// The orientation stays what it is.
+    Keeps(bool),
     /// A whole number.
     Number(u32),
     /// Not written out.

@@ -50,6 +50,10 @@ pub(super) struct Reader {
     pub(super) spline: super::moves::With,
     /// Where the robot is, for moves relative to it.
     pub(super) last: Option<Last>,
+    /// The angles of the position where the robot is.
+    pub(super) heading: Option<[f64; 3]>,
+    /// A trigger or stop stands before the next move and counts from its end.
+    pub(super) is_referred: bool,
 }
 
 /// What a line is.
@@ -101,7 +105,14 @@ impl Reader {
             here: Place { file: 0, offset: 0 },
             spline: super::moves::With::default(),
             last: None,
+            heading: None,
+            is_referred: false,
         }
+    }
+
+    /// Nothing is known of where the robot is.
+    pub(super) fn lose_place(&mut self) {
+        (self.last, self.heading) = (None, None);
     }
 
     /// Reads what a file declares, and which names its statements write.
@@ -238,7 +249,8 @@ impl Reader {
         self.routine = Some(self.begun);
         self.begun += 1;
         self.spline = super::moves::With::default();
-        self.last = None;
+        self.lose_place();
+        self.is_referred = false;
     }
 
     fn line<'a>(&self, bytes: &'a [u8], start: usize, end: usize) -> Line<'a> {

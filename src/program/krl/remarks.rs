@@ -107,6 +107,16 @@ pub(super) fn home(name: &str) -> Remark {
     }
 }
 
+/// Against a straight move or arc whose target has another orientation than where it starts.
+pub(super) fn keeps_orientation() -> Remark {
+    Remark::error(
+        "orientation-kept",
+        "with $ORI_TYPE=#CONSTANT the tool keeps the orientation that it has where the move starts, \
+         and that of the target is another or not known to be the same",
+        "write A, B and C of the start into the target, or set $ORI_TYPE=#VAR",
+    )
+}
+
 /// Only the running program knows the tool or base.
 pub(super) fn chosen() -> Remark {
     Remark::error(

@@ -46,6 +46,22 @@ pub(super) fn action(mut cursor: Cursor) -> Option<(Token, Cursor)> {
     (name.kind == Kind::Name).then_some((name, cursor))
 }
 
+/// Whether a trigger is at the end of the next move, or at a point of it: `TRIGGER WHEN PATH=-50`,
+/// `WHEN DISTANCE=1`.
+fn refers_to_end(mut cursor: Cursor) -> bool {
+    loop {
+        let token = cursor.next();
+        match token.kind {
+            Kind::End => return true,
+            Kind::Name if cursor.text(token).eq_ignore_ascii_case(b"DISTANCE") => {
+                return !(cursor.take(b'=') && cursor.text(cursor.peek()) == b"0");
+            }
+            Kind::Name if cursor.text(token).eq_ignore_ascii_case(b"PATH") => return true,
+            _ => {}
+        }
+    }
+}
+
 /// Whether what stands behind DO and a name is read at the end of the file: an assignment, or
 /// arguments of a routine.
 pub(super) fn is_kept(mut rest: Cursor) -> bool {
@@ -221,7 +237,7 @@ impl Reader {
             }
         }
         if !cursor.peek().is(b'=') && self.flow(word, cursor) {
-            self.last = None;
+            self.lose_place();
             return Ok(());
         }
         match word {
@@ -245,7 +261,12 @@ impl Reader {
                 self.bas(first, cursor);
                 return Ok(());
             }
+            b"STOP" | b"CONST_VEL" if !cursor.peek().is(b'=') => {
+                self.is_referred = true;
+                return Ok(());
+            }
             b"INTERRUPT" | b"TRIGGER" => {
+                self.is_referred |= word == b"TRIGGER" && refers_to_end(cursor);
                 if let Some((name, rest)) = action(cursor)
                     && is_kept(rest)
                 {
@@ -284,7 +305,7 @@ impl Reader {
             Kind::Sign(b':') if cursor.peek().kind == Kind::End => {
                 let label = self.symbol(&cursor, first);
                 self.builder.label(u64::from(label.0));
-                self.last = None;
+                self.lose_place();
                 Ok(())
             }
             Kind::Sign(b'(') => {
@@ -357,7 +378,7 @@ impl Reader {
         match word {
             b"IF" => {
                 self.calls_in(cursor);
-                self.builder.begin_if();
+                self.builder.begin_if(None);
             }
             b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
             b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
@@ -435,6 +456,15 @@ impl Reader {
         if let Some(state) = State::named(word) {
             self.calls_in(cursor);
             return self.write_state(place, state, part, &mut cursor);
+        }
+        if word == b"LDAT_ACT" {
+            let value = match part {
+                None => self.ldat(&mut cursor),
+                Some(b"ORI_TYP") => self.orientation(&mut cursor),
+                Some(_) => return Ok(()),
+            };
+            self.set(place, State::LdatOrientation, value);
+            return Ok(());
         }
         if word == b"FDAT_ACT" {
             return match part {

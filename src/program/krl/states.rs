@@ -1,7 +1,7 @@
 //! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, FDAT, entries of tables.
 
 use super::aggregate;
-use super::data::{Carried, fdat, is_external, load};
+use super::data::{Carried, fdat, is_external, keeps_orientation, load};
 use super::frames::{
     Choice, State, Table, carried_record, part, part_of, pose_of, record, unit, write_pose,
 };
@@ -20,7 +20,7 @@ impl Reader {
     /// Sets a state of the controller.
     pub(super) fn set(&mut self, place: Place, state: State, value: Expr) {
         if matches!(state, State::Tool | State::Base | State::Ipo) {
-            self.last = None;
+            self.lose_place();
         }
         let variable = self.states.states[state as usize];
         self.put(place, variable, value);
@@ -109,6 +109,7 @@ impl Reader {
                 let mode = self.mode(cursor);
                 self.mode_value(mode)
             }
+            State::Orientation => self.orientation(cursor),
             _ => {
                 let choice = self.choice(*cursor, Table::Tool);
                 self.number_of(choice)
@@ -134,6 +135,45 @@ impl Reader {
         let name = self.symbol(&inner, token);
         let at = Index::of(inner.brackets().ok()?, &inner);
         self.fdat_of(name, at)?.is_external
+    }
+
+    /// `#CONSTANT`, `SORI_TYP(LCPDAT1)`, `LDAT_ACT.ORI_TYP`
+    pub(super) fn orientation(&mut self, cursor: &mut Cursor) -> Expr {
+        if cursor.take(b'#') {
+            let name = cursor.next();
+            let keeps = !matches!(
+                capitals(cursor.text(name), &mut [0; 24]),
+                b"VAR" | b"JOINT" | b"IGNORE"
+            );
+            return self.orientation_value(keeps);
+        }
+        let name = cursor.next();
+        match capitals(cursor.text(name), &mut [0; 24]) {
+            b"SORI_TYP" => {
+                let mut ldat = inside(cursor);
+                let ldat = ldat.as_mut().map(|inner| self.ldat(inner));
+                ldat.unwrap_or_else(|| self.orientation_value(true))
+            }
+            b"LDAT_ACT" => self.states.expr(State::LdatOrientation),
+            _ => self.orientation_value(true),
+        }
+    }
+
+    /// The orientation of `LCPDAT1`, `{VEL 2,…}` or `LDAT_ACT`.
+    pub(super) fn ldat(&mut self, cursor: &mut Cursor) -> Expr {
+        if cursor.blanks() == b'{' {
+            let keeps = keeps_orientation(cursor).unwrap_or(true);
+            return self.orientation_value(keeps);
+        }
+        let token = cursor.next();
+        if cursor.text(token).eq_ignore_ascii_case(b"LDAT_ACT") {
+            return self.states.expr(State::LdatOrientation);
+        }
+        let name = self.symbol(cursor, token);
+        let at = Index::of(cursor.brackets().unwrap_or(None), cursor);
+        let stored = self.names.constant(name, at, self.context());
+        // LDAT that the files do not have mostly leaves the orientation to the targets
+        self.orientation_value(matches!(stored, Some(Stored::Keeps(true))))
     }
 
     /// A tool or base up to a comma or the end of the line; one that is written out is called
@@ -335,12 +375,7 @@ impl Reader {
         let place = self.place(first);
         cursor.take(b'(');
         if !cursor.take(b'#') {
-            // a command that only the running program knows
-            for state in [State::Tool, State::Base] {
-                let chosen = self.chosen();
-                self.set(place, state, chosen);
-            }
-            return;
+            return self.anything_chosen(place);
         }
         let command = cursor.next();
         let argument = cursor.take(b',').then(|| {
@@ -359,6 +394,7 @@ impl Reader {
                 self.set(place, State::Tool, tool);
                 self.set(place, State::Base, base);
                 self.set(place, State::Ipo, Expr::Value(self.states.on));
+                self.set(place, State::Orientation, Expr::Value(self.states.on));
             }
             b"TOOL" => {
                 let choice = choice(self, Table::Tool);
@@ -368,14 +404,40 @@ impl Reader {
                 let choice = choice(self, Table::Base);
                 self.choose(place, Table::Base, choice);
             }
-            b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS" => {
+            b"EX_BASE" => {
+                let carried = self.unknown(moving());
+                self.set(place, State::Base, carried);
+            }
+            command @ (b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS") => {
                 let [tool, base] = [State::FdatTool, State::FdatBase]
                     .map(|state| Choice::By(self.states.states[state as usize]));
                 self.choose(place, Table::Tool, Some(tool));
                 self.choose(place, Table::Base, Some(base));
                 self.set(place, State::Ipo, self.states.expr(State::FdatIpo));
+                if command == b"CP_PARAMS" {
+                    let kept = self.states.expr(State::LdatOrientation);
+                    self.set(place, State::Orientation, kept);
+                }
             }
-            _ => {}
+            b"CP_DAT" => {
+                let kept = self.states.expr(State::LdatOrientation);
+                self.set(place, State::Orientation, kept);
+            }
+            b"PTP_DAT" | b"GROUP" => {}
+            // speeds and outputs
+            command
+                if [&b"ACC"[..], b"VEL", b"OUT"]
+                    .iter()
+                    .any(|of| command.starts_with(of)) => {}
+            _ => self.anything_chosen(place),
+        }
+    }
+
+    /// A command that nobody knows may set any tool and base.
+    fn anything_chosen(&mut self, place: Place) {
+        for state in [State::Tool, State::Base] {
+            let chosen = self.chosen();
+            self.set(place, state, chosen);
         }
     }
 
@@ -453,7 +515,7 @@ impl Reader {
                 self.set(place, state, value);
             }
             Some(part) if matches!(state, State::Tool | State::Base) => {
-                self.last = None;
+                self.lose_place();
                 self.write_part(place, variable, part, *cursor);
             }
             Some(_) => {

@@ -3,6 +3,7 @@
 use super::reader::{OpenLoop, Reader};
 use super::syntax::{Expression, StatementKind};
 use super::tokens::{Fault, Kind};
+use crate::program::names::Symbol;
 
 /// Words that begin, part or end a block, or leave one.
 pub(super) const BLOCK_WORDS: [&[u8]; 22] = [
@@ -36,8 +37,9 @@ impl Reader<'_> {
         self.advance()?;
         match word {
             b"if" => {
+                let asked = self.presence()?;
                 let is_block = self.condition()?;
-                self.note(start, StatementKind::If);
+                self.note(start, StatementKind::If(asked));
                 self.short_ifs += u32::from(!is_block);
             }
             b"elseif" | b"case" => {
@@ -122,7 +124,7 @@ impl Reader<'_> {
                 .is_some_and(|word| word.eq_ignore_ascii_case(b"do"));
         let calls = self.parsed.statements.len() > at + 1;
         if calls {
-            self.note(start, StatementKind::If);
+            self.note(start, StatementKind::If(None));
             self.note(start, StatementKind::Leave);
             self.note(start, StatementKind::EndChoice);
         } else if !forever {
@@ -145,6 +147,43 @@ impl Reader<'_> {
         }
         self.note(start, StatementKind::Handler);
         Ok(())
+    }
+
+    /// The parameter that `Present(name)` or `NOT Present(name)` asks for, where that is the whole
+    /// condition; nothing is passed over.
+    fn presence(&mut self) -> Result<Option<(Symbol, bool)>, Fault> {
+        let Some(routine) = self.context.routine else {
+            return Ok(None);
+        };
+        let mark = self.mark();
+        let mut asked = None;
+        let wanted = !self.is_word(b"not");
+        if !wanted {
+            self.advance()?;
+        }
+        if self.is_word(b"present") {
+            self.advance()?;
+            if self.token.is(b'(') {
+                self.advance()?;
+                let name = self.token;
+                if name.kind == Kind::Name {
+                    self.advance()?;
+                    let is_closed = self.token.is(b')');
+                    self.advance()?;
+                    let goes_on = [&b"and"[..], b"or", b"xor"]
+                        .iter()
+                        .any(|word| self.is_word(word));
+                    if is_closed && self.token.kind == Kind::Name && !goes_on {
+                        asked = Some((self.parsed.symbols.intern(self.text(name)), wanted));
+                    }
+                }
+            }
+        }
+        self.rewind(mark);
+        self.parsed
+            .asked
+            .extend(asked.map(|(name, _)| (routine, name)));
+        Ok(asked)
     }
 
     /// `condition THEN`, `1,2:` and their like, without the statements behind; whether a word or

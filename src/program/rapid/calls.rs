@@ -6,7 +6,7 @@ use super::resolved::{Callees, Entity, named};
 use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Call, Expr, How, Place, VariableId, Write, Written, short};
+use crate::program::script::{Call, Expr, Held, How, Place, VariableId, Write, Written, short};
 
 /// An instruction that is not known but has a target and a tool moves like the ones that are.
 const UNKNOWN_MOVE: Verb = Verb::Move {
@@ -213,6 +213,14 @@ impl Translator<'_> {
         for (datum, argument) in resolved.parameters(routine, all) {
             let parameter = *resolved.datum(datum);
             let kind = parameter.kind;
+            if let Some(presence) = self.presence(routine, parameter.name) {
+                let value = self.is_given(argument);
+                given.push(crate::program::script::Argument {
+                    parameter: Some(presence),
+                    value,
+                    back: None,
+                });
+            }
             if !kind.is_target() && !kind.is_frame() {
                 continue;
             }
@@ -238,6 +246,22 @@ impl Translator<'_> {
                 back,
             });
         }
+    }
+
+    /// Whether a call gives an optional parameter: one that is handed on (`\\name?own`) is given
+    /// where the caller was given it.
+    fn is_given(&mut self, argument: Option<&Argument>) -> Expr {
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let text = argument.map_or(&b""[..], |argument| {
+            &bytes[argument.span.0 as usize..argument.span.1 as usize]
+        });
+        if !text.contains(&b'?') {
+            return Expr::Value(self.builder.script.value(Held::Flag(argument.is_some())));
+        }
+        let own = argument.and_then(|argument| named(&argument.expression));
+        let own = own.zip(self.context.routine);
+        let presence = own.and_then(|(name, caller)| self.presence(caller, name));
+        presence.map_or(Expr::Absent, Expr::Variable)
     }
 
     /// Whether a work object that is not given is one that moves leave out, too (`\WObj?name`):

@@ -124,6 +124,7 @@ impl Reader<'_> {
         if let (Some(routine), Kind::Name) = (self.context.routine, self.token.kind) {
             let name = self.parsed.symbols.intern(self.text(self.token));
             self.parsed.if_given.insert((routine, name));
+            self.parsed.asked.insert((routine, name));
         }
     }
 

@@ -27,18 +27,29 @@ struct Parts {
     speed_zone: SpeedZone,
 }
 
-/// Millimetres that a predefined name ends on: `v100`, `z10`.
-fn predefined(name: &str, letter: char) -> Option<f64> {
+/// Predefined speeds (`v100`), mm/s, and zones (`z10`), mm.
+///
+/// # Source
+/// ABB, "Technical reference manual: RAPID Instructions, Functions and Data types", speeddata and
+/// zonedata.
+const SPEEDS: [u16; 25] = [
+    5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500,
+    3000, 4000, 5000, 6000, 7000,
+];
+const ZONES: [u16; 14] = [0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200];
+
+/// The number that a predefined name ends on.
+fn predefined(name: &str, letter: char, known: &[u16]) -> Option<f64> {
     let rest = name.strip_prefix([letter, letter.to_ascii_uppercase()])?;
-    let whole = !rest.is_empty() && rest.len() < 6 && rest.bytes().all(|b| b.is_ascii_digit());
-    whole.then(|| rest.parse().ok()).flatten()
+    let number = rest.parse().ok().filter(|number| known.contains(number))?;
+    Some(f64::from(number))
 }
 
 /// What a predefined name says of a move's speed and zone.
 fn read_speed_zone(name: &str, speed_zone: &mut SpeedZone) {
-    if let Some(mm) = predefined(name, 'v') {
+    if let Some(mm) = predefined(name, 'v', &SPEEDS) {
         speed_zone.speed_m_s = speed_zone.speed_m_s.or(Some(mm * MM));
-    } else if let Some(mm) = predefined(name, 'z') {
+    } else if let Some(mm) = predefined(name, 'z', &ZONES) {
         // z0 is 0.3 mm
         speed_zone.zone_m = speed_zone.zone_m.or(Some(mm.max(0.3) * MM));
     } else if name.eq_ignore_ascii_case("fine") {
@@ -112,9 +123,14 @@ impl Translator<'_> {
         let mut speed_zone = SpeedZone::default();
         for (place, (at, argument)) in positional().filter(|(at, _)| *at >= end).enumerate() {
             last = Some(at);
-            if let Some(name) = plain(argument) {
+            // what the files declare hides a predefined name
+            let undeclared =
+                plain(argument).filter(|name| self.resolved.kind(*name, self.context).is_none());
+            if let Some(name) = undeclared {
                 read_speed_zone(self.resolved.spelling(name), &mut speed_zone);
             }
+            // speed, zone and tool: a zone of the program's own is mostly no stop
+            speed_zone.blends = place >= 2 && speed_zone.zone_m.is_none();
             if place == 2 {
                 inside = Some(at);
             }
@@ -356,11 +372,13 @@ impl Translator<'_> {
 
     fn other_load(&mut self, load: Symbol) {
         let message = format!(
-            "{} is carried here; its mass is not in the tool's load",
+            "the robot carries {} from here on (GripLoad); the correction is that of the tool's load \
+             alone",
             self.resolved.spelling(load)
         );
-        let hint = "where joints bend under load, give the profile a tool with this load";
-        self.say("grip-load", Severity::Note, message, hint);
+        let hint = "where joints bend under load, name it at the moves with \\TLoad, or give the profile \
+            a tool with this load";
+        self.say("grip-load", Severity::Warning, message, hint);
     }
 
     fn tell(&mut self, parts: &Parts) {

@@ -35,6 +35,8 @@ pub(super) struct Parsed {
     pub indices: Vec<Index>,
     /// Parameters that a routine hands on with `?` where they are given: the routine and the name.
     pub if_given: HashSet<(u32, Symbol)>,
+    /// Parameters of which a routine asks whether they are given (`Present`).
+    pub asked: HashSet<(u32, Symbol)>,
     /// Elements that statements name by constants, with a number of each from 1 on.
     pub places: BTreeMap<(Symbol, [u32; 3]), u32>,
     /// Arguments of instructions.
@@ -405,7 +407,8 @@ pub(super) enum StatementKind {
     },
     /// A function of the files, or one that may write its arguments: one of [`Parsed::functions`].
     Function(u32),
-    If,
+    /// What its condition asks, where it is `Present(name)` (true) or `NOT Present(name)`.
+    If(Option<(Symbol, bool)>),
     /// `ELSEIF`, `CASE`; `ELSE`, `DEFAULT` where it is the last.
     Branch {
         is_last: bool,

@@ -10,7 +10,7 @@ use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Part as RecordPart, PartValue, Place,
-    Remark, RemarkId, Script, Start, TableId, ValueId, VariableId, Write, Written,
+    Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet};
@@ -58,6 +58,8 @@ pub(super) struct Translator<'a> {
     pub results: HashMap<u32, VariableId>,
     /// What functions that the present statement calls give, where that is kept apart.
     pub kept_results: HashMap<u32, VariableId>,
+    /// Whether optional parameters are given, by parameter.
+    presences: HashMap<u32, VariableId>,
     /// Targets whose numbers no robot can use and that are written over.
     dead: HashSet<TargetId>,
     /// Names that the files do not declare and that moves use: what for.
@@ -128,6 +130,7 @@ pub(super) fn translate(
         remarks: HashMap::new(),
         results: HashMap::new(),
         kept_results: HashMap::new(),
+        presences: HashMap::new(),
         dead,
         wanted: HashMap::new(),
         own: HashMap::new(),
@@ -260,7 +263,13 @@ impl Translator<'_> {
                 let is_last = !next.is_some_and(|n| matches!(n.kind, StatementKind::Function(_)));
                 self.function(function, is_last);
             }
-            StatementKind::If => self.builder.begin_if(),
+            StatementKind::If(asked) => {
+                let condition = asked.and_then(|(name, wanted)| {
+                    let routine = self.context.routine?;
+                    Some((self.presence(routine, name)?, wanted))
+                });
+                self.builder.begin_if(condition);
+            }
             StatementKind::Branch { is_last } => self.builder.next_branch(is_last),
             StatementKind::Test => self.builder.begin_choice(),
             StatementKind::EndChoice => self.builder.end_choice(),
@@ -280,6 +289,28 @@ impl Translator<'_> {
         if !matches!(statement.kind, StatementKind::Function(_)) {
             self.kept_results.clear();
         }
+    }
+
+    /// The variable that holds whether an optional parameter is given of which its routine asks.
+    pub(super) fn presence(&mut self, routine: u32, name: Symbol) -> Option<VariableId> {
+        let resolved = self.resolved;
+        if !resolved.parsed.asked.contains(&(routine, name)) {
+            return None;
+        }
+        let (first, end) = resolved.parsed.routines[routine as usize].parameters;
+        let datum = (first..end).find(|&datum| {
+            let of = resolved.datum(datum);
+            of.name == name && matches!(of.storage, Storage::Parameter { optional: true, .. })
+        })?;
+        if let Some(&known) = self.presences.get(&datum) {
+            return Some(known);
+        }
+        let variable = self.builder.script.variable(Variable {
+            routine: Some(routine),
+            ..Variable::new(resolved.spelling(name), self.here, Expr::Absent)
+        });
+        self.presences.insert(datum, variable);
+        Some(variable)
     }
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {

@@ -1,8 +1,8 @@
 //! Puts statements together: blocks become labels, branches and jumps.
 
 use super::{
-    Call, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start, Statement, Write,
-    short,
+    Call, Condition, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start,
+    Statement, VariableId, Write, short,
 };
 use foldhash::HashMap;
 
@@ -132,10 +132,24 @@ impl Builder {
         self.script.statements.push(Statement::Branch(label));
     }
 
-    /// `IF … THEN`: the statements that follow may be passed over.
-    pub fn begin_if(&mut self) {
+    fn branch_unless(&mut self, condition: Option<(VariableId, bool)>, otherwise: Label) {
+        let Some((variable, wanted)) = condition else {
+            return self.branch(otherwise);
+        };
+        let at = short(self.script.conditions.len());
+        self.script.conditions.push(Condition {
+            variable,
+            wanted,
+            otherwise,
+        });
+        self.script.statements.push(Statement::BranchUnless(at));
+    }
+
+    /// `IF … THEN`: the statements that follow may be passed over; where a variable tells, they are
+    /// run as it holds the flag `wanted`.
+    pub fn begin_if(&mut self, condition: Option<(VariableId, bool)>) {
         let (next, end) = (self.new_label(), self.new_label());
-        self.branch(next);
+        self.branch_unless(condition, next);
         self.open.push(Block::Choice {
             next: Some(next),
             end,

@@ -86,6 +86,8 @@ pub struct Script {
     pub calls: Vec<Call>,
     /// Arguments of calls.
     pub arguments: Vec<Argument>,
+    /// What branches depend on, where a variable tells.
+    pub conditions: Vec<Condition>,
     /// Sets of variables that may refuse a move, see [`Modal::guards`].
     pub guards: Vec<Box<[VariableId]>>,
     /// What speaks against targets themselves, should a move go to them.
@@ -129,6 +131,7 @@ impl Default for Script {
             writes: Vec::new(),
             calls: Vec::new(),
             arguments: Vec::new(),
+            conditions: Vec::new(),
             guards: vec![Box::default()],
             refused: Vec::new(),
             externals: Vec::new(),
@@ -403,12 +406,26 @@ pub enum Statement {
     Label(Label),
     /// Goes on there, or with the next statement.
     Branch(Label),
+    /// Goes on there or with the next statement as a variable says: index in
+    /// [`Script::conditions`].
+    BranchUnless(u32),
     /// Goes on there.
     Jump(Label),
     /// Back to the caller.
     Return,
     /// The program ends.
     Exit,
+}
+
+/// What a branch depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// It holds a [`Held::Flag`], or what only the running program knows.
+    pub variable: VariableId,
+    /// The next statement follows where the variable holds this, …
+    pub wanted: bool,
+    /// … else the one here.
+    pub otherwise: Label,
 }
 
 /// A range of bytes of the file of its instruction; empty where there is none.

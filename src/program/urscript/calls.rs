@@ -193,9 +193,17 @@ impl<'a> Reader<'a> {
                 let arguments = self.arguments()?;
                 let via = argument(&arguments, 0, &[b"pose_via"]);
                 let end = argument(&arguments, 1, &[b"pose_to"]);
+                let mode = arguments
+                    .iter()
+                    .enumerate()
+                    .find(|(at, argument)| argument.name.map_or(*at == 5, |name| name == b"mode"));
+                let rotates_with_arc = mode.is_some_and(|(_, mode)| mode.number() != Some(0.0));
                 for (motion, target) in [(Motion::ArcVia, via), (Motion::ArcEnd, end)] {
                     let step = self.step_at(offset, motion, target, &arguments, places);
-                    self.step(step);
+                    self.step(Step {
+                        rotates_with_arc,
+                        ..step
+                    });
                 }
             }
         }
@@ -263,6 +271,7 @@ impl<'a> Reader<'a> {
             motion,
             target: Some(target.unwrap_or(OTHER)),
             streamed: false,
+            rotates_with_arc: false,
             speed_zone,
             repeatable: !is_timed && !is_broken,
         }

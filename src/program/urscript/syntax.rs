@@ -139,6 +139,8 @@ pub(super) struct Step {
     pub target: Option<ExprId>,
     /// The controller follows it as a stream of set points.
     pub streamed: bool,
+    /// An arc on which the tool keeps its orientation to the path.
+    pub rotates_with_arc: bool,
     pub speed_zone: SpeedZone,
     /// The call can be written again with another target.
     pub repeatable: bool,

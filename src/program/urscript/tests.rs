@@ -174,6 +174,24 @@ fn targets_that_nobody_can_correct_are_errors() {
 }
 
 #[test]
+fn arcs_with_which_the_tool_rotates_are_refused() {
+    let arc = "movel(p[1,2,3,0,0,0])\nmovec(p[2,2,3,0,0,0],p[2,3,3,0,0,0],a=1,v=.1,r=0";
+    for (mode, is_refused) in [
+        (")", false),
+        (",mode=0)", false),
+        (",0)", false),
+        (",mode=1)", true),
+        (",1)", true),
+        (",mode=m)", true),
+    ] {
+        let program = path(&format!("{arc}{mode}"));
+        let all = ids(&program);
+        assert_eq!(!all.is_empty(), is_refused, "{mode}");
+        assert!(all.iter().all(|id| *id == "move-not-supported"), "{mode}");
+    }
+}
+
+#[test]
 fn what_the_program_computes_stays_and_is_reported() {
     for (lines, id, severity) in [
         ("movel(get_target())", "computed-target", Severity::Warning),

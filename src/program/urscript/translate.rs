@@ -45,8 +45,8 @@ struct Translator<'m, 'n, 'a> {
     unknown_load: script::Expr,
     /// Whether moves go along a frame that moves.
     tracking: VariableId,
-    /// Sets of guards: for moves, and for streams.
-    guards: [u32; 2],
+    /// Sets of guards: for moves, for streams, for arcs with which the tool rotates.
+    guards: [u32; 3],
     first_routine: RoutineId,
     loads: HashMap<[u64; 4], script::ValueId>,
     present: Present,
@@ -99,10 +99,19 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         )));
         let declared = script.held(streamed);
         let stream = script.variable(Variable::new("stream", place, declared));
+        let rotated = Held::Remark(script.remark(Remark::error(
+            "move-not-supported",
+            "the tool rotates with the arc (movec with another mode than 0) and does not arrive in \
+             the orientation of pose_to",
+            "write mode=0, or the arc as movel or movep through points on it",
+        )));
+        let declared = script.held(rotated);
+        let rotated = script.variable(Variable::new("arc", place, declared));
         let load_remark = script.variable(Variable::new("load", place, script::Expr::Absent));
         let guards = [
             vec![tracking, load_remark],
             vec![tracking, load_remark, stream],
+            vec![tracking, load_remark, rotated],
         ]
         .map(|of| {
             script.guards.push(of.into());
@@ -375,13 +384,13 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     self.write(Some(self.tracking), how, offset);
                 }
                 Event::Call(call) => self.call(&parsed.calls[call as usize]),
-                Event::If => builder.begin_if(),
+                Event::If => builder.begin_if(None),
                 Event::Switch | Event::Never => builder.begin_choice(),
                 Event::Branch { is_last } => builder.next_branch(is_last),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
                 Event::Condition => {
-                    builder.begin_if();
+                    builder.begin_if(None);
                     builder.leave_loop();
                     builder.end_choice();
                 }
@@ -570,6 +579,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             }
             if is_stream {
                 modal.guards = self.guards[1];
+            } else if step.rotates_with_arc {
+                modal.guards = self.guards[2];
             }
             if step.repeatable && !step.streamed {
                 instruction.target_span = goal.span;

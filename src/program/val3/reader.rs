@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
             b"begin" | b"end" => {}
             b"if" => {
                 self.uses(line);
-                self.builder.begin_if();
+                self.builder.begin_if(None);
             }
             b"elseIf" | b"case" => self.builder.next_branch(false),
             b"else" | b"default" => self.builder.next_branch(true),
@@ -358,7 +358,7 @@ impl<'a> Reader<'a> {
                 key: None,
                 ..target
             };
-            self.builder.begin_if();
+            self.builder.begin_if(None);
             self.write_something(&target, line.span().start, false);
             self.builder.end_choice();
         }

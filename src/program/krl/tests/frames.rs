@@ -479,3 +479,98 @@ fn numbers_that_choose_are_followed_through_parameters_of_other_names() {
         tools("DECL INT k\nk=3\nuse(k)\nEND\nDEF use(t:IN)\nINT t\n$TOOL=TOOL_DATA[t]\nLIN XP1");
     assert_eq!((names, &*ids), (vec!["TOOL_DATA[3]".into()], ""));
 }
+
+#[test]
+fn a_kept_orientation_is_refused_where_the_target_has_another() {
+    let points = "PTP {X 1,Y 2,Z 3,A 0,B 90,C 0,S 2,T 2}\n";
+    let (same, other) = (
+        "LIN {X 9,Y 2,Z 3,A 0,B 90,C 0}",
+        "LIN {X 9,Y 2,Z 3,A 10,B 90,C 0}",
+    );
+    let keeps = "$ORI_TYPE=#CONSTANT";
+    let kept: &[&str] = &["orientation-kept"];
+    for (text, expected) in [
+        (format!("{keeps}\n{points}{same}"), &[][..]),
+        (format!("{keeps}\n{points}{other}"), kept),
+        (format!("{points}{other}"), &[]),
+        (format!("{keeps}\n{points}$ORI_TYPE=#VAR\n{other}"), &[]),
+        (
+            format!("{keeps}\nBAS(#INITMOV,0)\nBAS(#TOOL,1)\nBAS(#BASE,2)\n{points}{other}"),
+            &[],
+        ),
+        (format!("{points}S{other} WITH {keeps}"), kept),
+        (
+            format!("{keeps}\n{points}S{other} WITH $ORI_TYPE=#VAR"),
+            &[],
+        ),
+        // where the move starts is not known
+        (
+            format!("{keeps}\n{points}IF $IN[1] THEN\nPTP XHOME\nENDIF\n{same}"),
+            kept,
+        ),
+        // the inline form
+        (
+            format!(
+                "LDAT_ACT=LCPDAT1\nBAS(#CP_PARAMS,2)\nBAS(#TOOL,1)\nBAS(#BASE,2)\nPTP XP1\n{other}"
+            ),
+            kept,
+        ),
+        (
+            format!("$ORI_TYPE=SORI_TYP(LCPDAT1)\n{points}{other}"),
+            kept,
+        ),
+        (format!("$ORI_TYPE=SORI_TYP(LCPDAT2)\n{points}{other}"), &[]),
+    ] {
+        let text = format!("DEF M()\nBAS(#INITMOV,0)\nBAS(#TOOL,1)\nBAS(#BASE,2)\n{text}\nEND\n");
+        let data = "DEFDAT M\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP \
+            #CONSTANT}\nDECL LDAT LCPDAT2={VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #VAR}\n\
+            DECL E6AXIS XHOME={A1 0.0,A2 -90.0,A3 90.0,A4 0.0,A5 0.0,A6 0.0,E1 0.0}\n\
+            DECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 90,C 0,S 2,T 2}\nENDDAT\n";
+        let program = read_files(&[("m.src", &text), ("m.dat", data)]);
+        assert_eq!(reported(&program), expected, "{text}");
+    }
+}
+
+#[test]
+fn commands_of_bas_that_set_a_base_are_not_passed_over() {
+    let program = path("BAS(#EX_BASE,1)\nLIN XP1");
+    assert_eq!(reported(&program), ["moving-frame"]);
+    let program = path("BAS(#FOO,1)\nLIN XP1");
+    assert_eq!(reported(&program), ["frame-chosen-at-run-time"]);
+    for command in [
+        "ACC_CP,20",
+        "VEL_PTP,100",
+        "PTP_DAT",
+        "CP_DAT",
+        "OUT_SYNC,2",
+        "GROUP,1",
+    ] {
+        let program = path(&format!("BAS(#{command})\nLIN XP1"));
+        assert_eq!(reported(&program), [""; 0], "{command}");
+    }
+}
+
+#[test]
+fn a_move_to_which_a_trigger_counts_is_not_repeated() {
+    for (before, may_be_repeated) in [
+        ("TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[67]=TRUE", false),
+        (
+            "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[67]=TRUE\n;comment\nWAIT SEC 0",
+            false,
+        ),
+        ("TRIGGER WHEN PATH=-50 DELAY=0 DO $OUT[67]=TRUE", false),
+        ("STOP WHEN PATH=-50 IF $IN[1]", false),
+        ("CONST_VEL END=0", false),
+        ("TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[67]=TRUE", true),
+        ("$OUT[67]=TRUE", true),
+        (
+            "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[67]=TRUE\nLIN XP2",
+            true,
+        ),
+    ] {
+        let program = path(&format!("{before}\nLIN XP1"));
+        let used = program.moves.last().expect("a move");
+        let span = program.instructions[used.instruction as usize].target_span;
+        assert_eq!(span.range().is_some(), may_be_repeated, "{before}");
+    }
+}

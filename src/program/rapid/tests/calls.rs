@@ -9,16 +9,71 @@ fn parameters_are_what_each_call_gives() {
     let program = path(&format!(
         "rm p1,t;\nrm Offs(p2,0,0,5),t\\via:=p3;\nrm \\fast,p1,t2;\n{rm}"
     ));
-    assert_eq!(to(&program), ["p1", "p2", "p1", "?", "p3", "?"]);
-    assert_eq!(ids(&program), ["computed-target"], "the way without via");
+    assert_eq!(to(&program), ["p1", "p2", "p1", "p3"]);
+    assert_eq!(ids(&program), [""; 0]);
     let tools: Vec<_> = program
         .moves
         .iter()
         .map(|m| program.tools[m.tool].name.as_str())
         .collect();
-    assert_eq!(tools, ["t", "t", "t2", "t", "t", "t2"]);
+    assert_eq!(tools, ["t", "t", "t2", "t"]);
     let program = path("rm;\nENDPROC\nPROC rm(\\robtarget p)\nMoveL p,v5,z5,t;");
     assert_eq!(ids(&program), ["computed-target"]);
+}
+
+#[test]
+fn a_routine_that_asks_whether_a_parameter_is_given_goes_as_each_call_gives_it() {
+    let calls = "rm p1;\nrm p2\\via:=p3\\g:=t2;";
+    for (body, expected) in [
+        (
+            "IF Present(via) MoveL via,v5,z5,t;\nMoveL p,v5,z5,t;",
+            vec!["p1", "p3", "p2"],
+        ),
+        (
+            "IF NOT Present(via) THEN\nMoveL p,v5,z5,t;\nELSE\nMoveL via,v5,z5,t;\nENDIF",
+            vec!["p1", "p3"],
+        ),
+        ("sub\\to?via;\nMoveL p,v5,z5,t;", vec!["p1", "p3", "p2"]),
+    ] {
+        let sub = if body.starts_with("sub") {
+            "\nENDPROC\nPROC sub(\\robtarget to)\nIF Present(to) MoveL to,v5,z5,t;"
+        } else {
+            ""
+        };
+        let program = path(&format!(
+            "{calls}\nENDPROC\nPROC rm(robtarget p\\robtarget via\\PERS tooldata g)\n{body}{sub}"
+        ));
+        let mut reached = to(&program);
+        reached.sort_unstable();
+        let mut expected = expected;
+        expected.sort_unstable();
+        assert_eq!((reached, ids(&program)), (expected, vec![]), "{body}");
+    }
+    let tools = "IF Present(g) THEN\nMoveL p,v5,z5,g;\nELSE\nMoveL p,v5,z5,t;\nENDIF";
+    let program = path(&format!(
+        "{calls}\nENDPROC\nPROC rm(robtarget p\\robtarget via\\PERS tooldata g)\n{tools}"
+    ));
+    let name = |m: &crate::program::Move| program.tools[m.tool].name.clone();
+    let mut tools: Vec<_> = to(&program)
+        .into_iter()
+        .zip(program.moves.iter().map(name))
+        .collect();
+    tools.sort_unstable();
+    assert_eq!(tools, [("p1", "t".into()), ("p2", "t2".into())]);
+    // never given: the move to it runs nowhere
+    let program = path(
+        "rm p1;\nENDPROC\nPROC rm(robtarget p\\robtarget via)\nMoveL p,v5,z5,t;\nIF Present(via) \
+         THEN\nMoveL Offs(via,0,0,1),v5,z5,t;\nENDIF",
+    );
+    assert_eq!((to(&program), ids(&program)), (vec!["p1"], vec![]));
+    // what only the running program knows, and conditions with more than that, are followed both ways
+    for condition in ["Present(via) AND n>1", "n=1 OR Present(via)", "Present(p)"] {
+        let program = path(&format!(
+            "rm p1;\nENDPROC\nPROC rm(robtarget p\\robtarget via)\nIF {condition} THEN\nMoveL \
+             via,v5,z5,t;\nENDIF"
+        ));
+        assert_eq!(ids(&program), ["computed-target"], "{condition}");
+    }
 }
 
 #[test]
