@@ -94,7 +94,7 @@ fn every_move_and_every_form_of_its_target_is_read() {
     let program = path(
         "movej([0,-1.5,1.5,0,1,0],a=1,v=1)\nmovej(p[.1,.2,.3,0,0,1])\nmovel(pose=p[.1,.2,.3,0,0,1],a=1)\nmovep(p [.1,.2,.3,0,0,1], r=.01)\n\
          movec(p[.1,.2,.3,0,0,1], pose_to=p[.1,.2,.4,0,0,1], a=0.01, \
-             mode=1)\nmovej(get_inverse_kin(p[-.3,.2,.3,0,0,1], qnear=[-3.14,0,0,0,0,0]))\n\
+             mode=0)\nmovej(get_inverse_kin(p[-.3,.2,.3,0,0,1], qnear=[-3.14,0,0,0,0,0]))\n\
          movel([0,d2r(1),1,0,1,0])\nmovej([d2r(0),d2r(-90),d2r(90.5), d2r( 0 \
              ),d2r(90),d2r(0)])\nmovel(p[.1,.2,.3,d2r(180),d2r(0),d2r(0)])\n\
          servoj([0,1,2,3,4,5], t=0.008)\nif movel(p[1,\n 2,3,4,\n5,6]): sync() end",

@@ -511,7 +511,7 @@ fn a_kept_orientation_is_refused_where_the_target_has_another() {
         // the inline form
         (
             format!(
-                "LDAT_ACT=LCPDAT1\nBAS(#CP_PARAMS,2)\nBAS(#TOOL,1)\nBAS(#BASE,2)\nPTP XP1\n{other}"
+                "LDAT_ACT=LCPDAT1\nFDAT_ACT=FP1\nBAS(#CP_PARAMS,2)\nBAS(#TOOL,1)\nBAS(#BASE,2)\nPTP XP1\n{other}"
             ),
             kept,
         ),
@@ -524,6 +524,7 @@ fn a_kept_orientation_is_refused_where_the_target_has_another() {
         let text = format!("DEF M()\nBAS(#INITMOV,0)\nBAS(#TOOL,1)\nBAS(#BASE,2)\n{text}\nEND\n");
         let data = "DEFDAT M\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP \
             #CONSTANT}\nDECL LDAT LCPDAT2={VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #VAR}\n\
+            DECL FDAT FP1={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE,POINT2[] \" \"}\n\
             DECL E6AXIS XHOME={A1 0.0,A2 -90.0,A3 90.0,A4 0.0,A5 0.0,A6 0.0,E1 0.0}\n\
             DECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 90,C 0,S 2,T 2}\nENDDAT\n";
         let program = read_files(&[("m.src", &text), ("m.dat", data)]);
