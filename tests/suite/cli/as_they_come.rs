@@ -18,7 +18,9 @@ fn joined(points: &[u8], mapping: &Mapping) -> (Measurements, Vec<&'static str>)
     let [joints, points] = grids;
     let table =
         Table::joined(joints, points, mapping).unwrap_or_else(|e| panic!("{e}: {}", e.hint()));
-    let reported = table.remarks.iter().map(|remark| remark.id).collect();
+    // exports have columns that nothing is read from
+    let all = table.remarks.iter().map(|remark| remark.id);
+    let reported = all.filter(|id| *id != "columns-not-read").collect();
     (
         Measurements::from_table(&table).unwrap_or_else(|e| panic!("{e}: {}", e.hint())),
         reported,
@@ -47,6 +49,33 @@ fn near(a: &[[f64; 3]], b: &[[f64; 3]]) {
     for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
     }
+}
+
+#[test]
+fn columns_that_nothing_is_read_from_are_listed() {
+    let remarks = |header: &str, mapping: &Mapping| {
+        let text = format!(
+            "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,{header}\n\
+             1,2,3,4,5,6,7,8,9,10,20,30\n"
+        );
+        let table = Table::of(Grid::read("T", text.as_bytes()).expect("a table"), mapping);
+        let remarks = table.expect("a table").remarks;
+        let all = remarks
+            .iter()
+            .map(|r| format!("{} {} {}", r.id, r.warning, r.message));
+        all.collect::<Vec<_>>().join("; ")
+    };
+    let plain = Mapping::default();
+    let angles = remarks("rx_deg,ry_deg,rz_deg", &plain);
+    assert!(angles.starts_with("orientation-not-read true"), "{angles}");
+    assert!(angles.contains("rx_deg, ry_deg, rz_deg"), "{angles}");
+    let mut named = mapping("", "");
+    named.euler = Some((Euler::named("xyz").expect("a name"), true));
+    assert_eq!(remarks("rx_deg,ry_deg,rz_deg", &named), "");
+    let others = remarks("operator,temp,time_s", &plain);
+    assert!(others.starts_with("columns-not-read false"), "{others}");
+    assert!(others.ends_with("`operator`, `temp`"), "{others}");
+    assert_eq!(remarks("time_s,temperature_c,sigma_mm", &plain), "");
 }
 
 #[test]

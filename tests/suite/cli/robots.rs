@@ -471,7 +471,7 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
                 "kinematics.joints.3.max_deg=x",
                 "--in-place",
             ],
-            "invalid",
+            "a number is expected",
         ),
         (
             &[

@@ -121,7 +121,7 @@ fn profile_faults_name_the_place_and_the_way_out() {
     let cases: &[(&str, &str, &str)] = &[
         ("d_mm: 290", "d_mm: .nan", "not a finite number"),
         ("d_mm: 290", "d_mm: .inf", "not a finite number"),
-        ("d_mm: 290", "d_mm: 290 mm", "invalid"),
+        ("d_mm: 290", "d_mm: 290 mm", "a number is expected"),
         ("d_mm: 290, ", "", "missing field"),
         ("d_mm: 290", "d_m: 0.290", "unknown field"),
         ("poseshift: profile/1", "poseshift: profile/2", "profile/1"),
