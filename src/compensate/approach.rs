@@ -2,7 +2,7 @@
 
 use super::{Job, solve};
 use crate::finding::{Finding, Severity};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Rotation};
 use crate::inverse::{Branch, Outcome};
 use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
@@ -31,6 +31,8 @@ pub(super) struct Approach {
     pub direction: [i8; 6],
     /// The controller goes by the target's configuration data.
     pub honoured: bool,
+    /// As [`crate::motion::walk::Arrival::middle`].
+    pub middle: Option<Rotation>,
 }
 
 impl Approach {
@@ -44,8 +46,36 @@ impl Approach {
         job.ground.placed(self.frame as usize).meant * self.in_frame(job)
     }
 
-    /// Where the target's numbers say that the tool is, in the work frame.
+    /// Where the controller has the tool at a pose that the target's numbers give: in the middle of
+    /// an arc it looks at the position alone.
+    pub(super) fn taken(&self, mut numbers: Pose) -> Pose {
+        if let Some(middle) = self.middle {
+            numbers.rotation = numbers.rotation * middle;
+        }
+        numbers
+    }
+
+    /// The pose that the numbers must give for the controller to have the tool at one.
+    pub(super) fn numbers_for(&self, mut taken: Pose) -> Pose {
+        if let Some(middle) = self.middle {
+            taken.rotation = taken.rotation * middle.transpose();
+        }
+        taken
+    }
+
+    /// Whether the robot goes there in another orientation than the target's numbers give.
+    pub(super) fn is_turned(&self) -> bool {
+        self.middle
+            .is_some_and(|middle| middle != Rotation::identity())
+    }
+
+    /// Where the tool is with the target's numbers, in the work frame.
     pub(super) fn in_frame(&self, job: &Job) -> Pose {
+        self.taken(self.numbers_in_frame(job))
+    }
+
+    /// What the target's numbers say, in the work frame.
+    pub(super) fn numbers_in_frame(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
         let decoded =
@@ -81,6 +111,11 @@ impl<'a> Solved<'a> {
             outcome,
             in_frame: approach.in_frame(job),
         }
+    }
+
+    /// Whether the robot goes through on an arc, in whatever orientation.
+    pub(super) fn is_passed(&self) -> bool {
+        self.approach.middle.is_some()
     }
 
     /// As [`Approach::wanted`].
@@ -146,6 +181,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             branch: arrival.branch,
             direction: arrival.direction,
             honoured: arrival.honoured,
+            middle: arrival.middle,
         };
         if motion.displacement == Displacement::None {
             approaches.push(approach);
@@ -153,15 +189,28 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             derived.push(approach);
         }
     }
-    approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
+    sort(&mut approaches);
     add_derived(job, arrivals, derived, &mut approaches, findings);
     add_unused(job, &used, &mut approaches, findings);
-    approaches.sort_by_key(|approach| (approach.target, approach.motion, approach.arrival));
+    sort(&mut approaches);
     if !job.options.split_targets {
         drop_same(job, &mut approaches);
         drop_served(job, arrivals, &mut approaches, findings);
     }
     approaches
+}
+
+/// By target; where the robot stands goes before what it passes in the middle of arcs.
+fn sort(approaches: &mut [Approach]) {
+    approaches.sort_by_key(|approach| {
+        let is_passed = approach.middle.is_some();
+        (
+            approach.target,
+            is_passed,
+            approach.motion,
+            approach.arrival,
+        )
+    });
 }
 
 /// Leaves each of the approaches of one target once.
@@ -327,6 +376,7 @@ fn add_unused(
                 branch,
                 direction: [0; 6],
                 honoured: true,
+                middle: None,
             });
         }
     }

@@ -33,6 +33,11 @@ pub(super) fn arrivals(job: &Job, arrivals: &Arrivals) -> BTreeMap<usize, Vec<Ar
     displaced.map(|(at, _)| (at, known(at))).collect()
 }
 
+/// How far off its own wanted pose may land what takes the numbers of another.
+pub(super) fn limit_m(job: &Job) -> f64 {
+    job.options.max_derived_error_m.unwrap_or(LIMIT_DERIVED_M)
+}
+
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that
 /// points are derived from.
 pub(super) fn check(
@@ -43,7 +48,7 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) {
     let ground = &job.ground;
-    let limit_m = job.options.max_derived_error_m.unwrap_or(LIMIT_DERIVED_M);
+    let limit_m = limit_m(job);
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
@@ -91,7 +96,7 @@ pub(super) fn check(
             Displacement::Overwritten => {
                 // of numbers that are all written over nothing is left, of others some
                 let lost = uses.iter().flat_map(|of| {
-                    let given = [of.in_frame(job), *fake];
+                    let given = [of.numbers_in_frame(job), *fake];
                     let none = Shift::along([0.0; 3]);
                     given.map(|given| landing(job, of, &given, &none))
                 });
@@ -162,6 +167,7 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
         nominal_q: arrival.q,
         branch: arrival.branch,
         direction: arrival.direction,
+        middle: arrival.middle,
         ..there
     };
     arrivals.iter().map(of).collect()
@@ -190,8 +196,9 @@ fn landing(
 ) -> Option<Separation> {
     let ground = &job.ground;
     let placed = ground.placed(approach.frame as usize);
-    let wanted = placed.real * shift.apply(&approach.in_frame(job));
-    let given = placed.nominal * shift.apply(given_in_frame);
+    let at = |numbers: &Pose| approach.taken(shift.apply(numbers));
+    let wanted = placed.real * at(&approach.numbers_in_frame(job));
+    let given = placed.nominal * at(given_in_frame);
     let equipped = ground.arm_with(approach.tool as usize);
     let (q, reached) = equipped.controller_joints(&given, approach.branch, &approach.nominal_q);
     let real = &equipped.inverse.real;

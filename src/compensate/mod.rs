@@ -350,6 +350,9 @@ fn with(
             is_moved && approach::needs(&program, joints, motion)
         })?;
         ground.move_part(offset);
+        if is_moved && !joints {
+            findings.extend(remarks::staying(&ground));
+        }
     }
     plausibility::units(&ground, Severity::Error, &mut findings);
     plausibility::names(&ground, &mut findings);

@@ -6,7 +6,8 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Outcome, Status};
-use crate::program::{Move, Role, Shape};
+use crate::motion::ground::Ground;
+use crate::program::{Motion, Move, Role, Shape};
 use std::collections::BTreeMap;
 
 /// Nearer to a singularity than this the joints move much for a small shift.
@@ -68,6 +69,44 @@ pub(super) fn corners(job: &Job, approaches: &[Approach]) -> Vec<Finding> {
         job.ground.at_move(id, Severity::Note, first, message, hint)
     };
     files.values().map(note).collect()
+}
+
+/// Joint targets that do not move with the part: an error where the robot comes on a path of the
+/// tool, else a warning for each file.
+pub(super) fn staying(ground: &Ground) -> Vec<Finding> {
+    let id = "joint-target-stays";
+    let hint = "--joint-targets correct moves joint targets with the part; or give the target as a \
+        pose";
+    let mut findings = Vec::new();
+    let mut files: BTreeMap<u32, (usize, &Move)> = BTreeMap::new();
+    for motion in &ground.program.moves {
+        let is_context = ground.sources[motion.file as usize].is_context;
+        let Some(target) = motion
+            .target
+            .filter(|target| ground.is_joints(*target) && !is_context)
+        else {
+            continue;
+        };
+        if motion.motion == Motion::Joint {
+            files.entry(motion.file).or_insert((0, motion)).0 += 1;
+            continue;
+        }
+        let message = format!(
+            "this move goes on a path of the tool to {}, a joint target, which stays where it is \
+             while --work-offset moves the part",
+            ground.name_of(target)
+        );
+        findings.push(ground.at_move(id, Severity::Error, motion, message, hint));
+    }
+    let warning = |(count, first): &(usize, &Move)| {
+        let message = format!(
+            "{count} joint moves of this file, here the first, go to joint targets: these stay \
+             where they are while --work-offset moves the part"
+        );
+        ground.at_move(id, Severity::Warning, first, message, hint)
+    };
+    findings.extend(files.values().map(warning));
+    findings
 }
 
 pub(super) fn kept_configuration(job: &Job, approach: &Approach, joint: usize) -> Finding {

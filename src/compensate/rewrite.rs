@@ -158,7 +158,7 @@ impl<'a> Portion<'a> {
             let approach = alone[0].approach;
             let frame = job.ground.placed(approach.frame as usize).nominal;
             let meant = alone[0].meant(job);
-            let shift = meant.separation(&(frame * fake.frame_from_tool));
+            let shift = meant.separation(&(frame * approach.taken(fake.frame_from_tool)));
             if let Some(finding) = job.limits.judge(job, approach, &shift) {
                 self.findings.push(finding);
                 return false;
@@ -168,11 +168,8 @@ impl<'a> Portion<'a> {
                 return false;
             };
             let meant = Fake::meant(job, approach, &written.numbers);
-            let landed = worst(
-                alone
-                    .iter()
-                    .map(|solved| shared::landing(job, solved, &meant)),
-            );
+            let [landed, passed] = shared::landings(job, alone, &meant);
+            self.findings.extend(shared::passed(job, approach, &passed));
             if landed.distance_m > ROUNDING_LIMIT.distance_m
                 || landed.angle_rad > ROUNDING_LIMIT.angle_rad
             {
@@ -218,7 +215,8 @@ impl<'a> Portion<'a> {
         let Solved {
             approach, outcome, ..
         } = group[0];
-        let given = job.ground.placed(approach.frame as usize).nominal * fake.frame_from_tool;
+        let given = job.ground.placed(approach.frame as usize).nominal
+            * approach.taken(fake.frame_from_tool);
         let shift = group[0].meant(job).separation(&given);
         if !given.is_finite() || !limit::are_finite(&[shift.distance_m, shift.angle_rad]) {
             report.status = None;
@@ -246,10 +244,9 @@ impl<'a> Portion<'a> {
             return;
         };
         let numbers = Fake::meant(job, approach, &written.numbers);
-        let landed = group
-            .iter()
-            .map(|solved| shared::landing(job, solved, &numbers));
-        report.rounding = worst(landed);
+        let [landed, passed] = shared::landings(job, group, &numbers);
+        self.findings.extend(shared::passed(job, approach, &passed));
+        report.rounding = landed;
         let (left, before) = (report.rounding, report.before);
         let no_better = left.distance_m >= before.distance_m && left.angle_rad >= before.angle_rad;
         if no_better {
@@ -298,10 +295,8 @@ impl<'a> Portion<'a> {
         };
         let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let mut new = old.clone();
-        let (before, after) = (
-            posture_of(arm, &approach.nominal_q),
-            posture_of(arm, &fake.q),
-        );
+        let programmed = as_programmed(job, approach);
+        let (before, after) = (posture_of(arm, &programmed), posture_of(arm, &fake.q));
         ground.language.encode(
             target.layout,
             &value,
@@ -310,12 +305,20 @@ impl<'a> Portion<'a> {
             ground.settings,
             &mut new,
         );
+        if approach.is_turned() {
+            // the configuration data are of the orientation that is written
+            for (i, role) in roles.iter().enumerate() {
+                if *role == Role::Configuration {
+                    new[i] = old[i];
+                }
+            }
+        }
         if !limit::are_finite(&new) {
             let finding = limit::not_finite_finding(job, approach, "a number to be written");
             self.findings.push(finding);
             return None;
         }
-        if let Some(joint) = kept_configuration(job, approach, &fake.q, &new) {
+        if let Some(joint) = kept_configuration(job, approach, &programmed, &fake.q, &new) {
             self.findings
                 .push(remarks::kept_configuration(job, approach, joint));
             return None;
@@ -408,6 +411,19 @@ fn largest(a: Separation, b: Separation) -> Separation {
     }
 }
 
+/// The controller's joints where the program has the part.
+fn as_programmed(job: &Job, approach: &Approach) -> [f64; 6] {
+    let ground = &job.ground;
+    if !ground.part_moved {
+        return approach.nominal_q;
+    }
+    let programmed = ground.placed(approach.frame as usize).nominal * approach.in_frame(job);
+    ground
+        .arm_with(approach.tool as usize)
+        .controller_joints(&programmed, approach.branch, &approach.nominal_q)
+        .0
+}
+
 /// How far from the wanted pose the real tool lands with the target as it is.
 fn uncorrected(job: &Job, solved: &Solved) -> Separation {
     let approach = solved.approach;
@@ -420,13 +436,7 @@ fn uncorrected(job: &Job, solved: &Solved) -> Separation {
                 .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
                 .0
         }
-        _ if job.ground.part_moved => {
-            let as_programmed = solved.programmed(job);
-            equipped
-                .controller_joints(&as_programmed, approach.branch, &approach.nominal_q)
-                .0
-        }
-        _ => approach.nominal_q,
+        _ => as_programmed(job, approach),
     };
     let real = &equipped.inverse.real;
     real.forward(&q, &approach.conditions(job))
@@ -477,11 +487,21 @@ pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {
 
 /// A joint that the correction takes out of the range that the configuration data name, where these
 /// stay as they are because the language cannot write them for one target alone.
-fn kept_configuration(job: &Job, approach: &Approach, q: &[f64; 6], new: &[f64]) -> Option<usize> {
+fn kept_configuration(
+    job: &Job,
+    approach: &Approach,
+    before: &[f64; 6],
+    q: &[f64; 6],
+    new: &[f64],
+) -> Option<usize> {
     let target = &job.ground.program.targets[approach.target as usize];
     let roles = job.ground.language.roles(target.layout);
     let writes_its_own = roles.contains(&Role::Configuration);
-    if !approach.honoured || target.layout.shape != Shape::Pose || writes_its_own {
+    if approach.is_turned()
+        || !approach.honoured
+        || target.layout.shape != Shape::Pose
+        || writes_its_own
+    {
         return None;
     }
     let decoded = job
@@ -491,6 +511,6 @@ fn kept_configuration(job: &Job, approach: &Approach, q: &[f64; 6], new: &[f64])
     let is_inside = |q: f64, (low, high): (f64, f64)| (low..=high).contains(&q);
     (0..6).find(|&i| {
         decoded.configuration.joints[i]
-            .is_some_and(|range| is_inside(approach.nominal_q[i], range) && !is_inside(q[i], range))
+            .is_some_and(|range| is_inside(before[i], range) && !is_inside(q[i], range))
     })
 }

@@ -1,7 +1,7 @@
 //! One set of numbers for all approaches of a target.
 
-use super::Job;
 use super::approach::{Approach, Solved};
+use super::{Job, displaced};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation, add, scale};
@@ -21,7 +21,7 @@ const MOST_NAMED: usize = 6;
 /// The fake target of one approach, or of several that agree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fake {
-    /// `frame_from_tool` where it is a pose.
+    /// `frame_from_tool` of its numbers where it is a pose.
     pub frame_from_tool: Pose,
     /// The controller's joints.
     pub q: [f64; 6],
@@ -39,7 +39,7 @@ impl Fake {
             .forward(&outcome.q, &Conditions::default());
         let frame = ground.placed(approach.frame as usize).nominal;
         Self {
-            frame_from_tool: frame.inverse() * world_from_tool,
+            frame_from_tool: approach.numbers_for(frame.inverse() * world_from_tool),
             q: outcome.q,
         }
     }
@@ -85,13 +85,64 @@ pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake
         let gap = a.frame_from_tool.separation(&b.frame_from_tool);
         gap.distance_m < SAME.distance_m && gap.angle_rad < SAME.angle_rad
     };
-    let mean = mean(&fakes);
-    let all_alike =
-        (0..fakes.len()).all(|i| fakes[..i].iter().all(|other| alike(&fakes[i], other)));
-    if all_alike {
+    // where the robot stands goes before what it passes in the middle of arcs
+    let mut stops = group
+        .iter()
+        .zip(&fakes)
+        .filter(|(solved, _)| !solved.is_passed())
+        .peekable();
+    let are_stops = stops.peek().is_some();
+    let meant: Vec<Fake> = if are_stops {
+        stops.map(|(_, fake)| *fake).collect()
+    } else {
+        fakes.clone()
+    };
+    let mean = mean(&meant);
+    let passed = |solved: &&Solved| solved.is_passed();
+    let is_near =
+        |solved: &Solved| landing(job, solved, &mean).distance_m <= displaced::limit_m(job);
+    let stops_agree = !are_stops
+        || (0..meant.len()).all(|i| meant[..i].iter().all(|other| alike(&meant[i], other)));
+    if stops_agree && group.iter().filter(passed).all(is_near) {
         return Ok(mean);
     }
     Err((refused(job, group, &mean), mean))
+}
+
+/// How far from its wanted pose the real tool lands with numbers for all approaches of a target:
+/// where the robot stands, and where it passes the middle of an arc that is not all it does there.
+pub(super) fn landings(job: &Job, group: &[Solved], given: &Fake) -> [Separation; 2] {
+    let mut farthest = [Separation::default(); 2];
+    for solved in group {
+        let is_other = group.len() > 1 && solved.is_passed();
+        let most = &mut farthest[usize::from(is_other)];
+        let gap = landing(job, solved, given);
+        *most = Separation {
+            distance_m: most.distance_m.max(gap.distance_m),
+            angle_rad: most.angle_rad.max(gap.angle_rad),
+        };
+    }
+    farthest
+}
+
+/// What arcs miss at a target that serves others too; `None` where that is nothing.
+pub(super) fn passed(job: &Job, approach: &Approach, off: &Separation) -> Option<Finding> {
+    let message = format!(
+        "{} is passed in the middle of arcs in other rotations than it is written for: an arc \
+         passes it up to {:.3} mm off its wanted path (the limit is {:.3} mm)",
+        job.ground.name_of(approach.target as usize),
+        mm_from_m(off.distance_m),
+        mm_from_m(displaced::limit_m(job))
+    );
+    (off.distance_m > SAME.distance_m).then(|| {
+        job.ground.at_target(
+            "arc-shared",
+            Severity::Note,
+            approach.target as usize,
+            message,
+            "give the arc a point of its own; --max-derived-error sets the limit",
+        )
+    })
 }
 
 /// The mean of fake targets that lie near each other; joints as in the first.
@@ -172,8 +223,7 @@ fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
     }
     let message = format!(
         "the robot comes to {} in {} ways that one fake target cannot serve (another tool, load, \
-         work frame, posture, or side from \
-         which a joint comes); with the best common numbers each would miss by: {}",
+         work frame, posture, rotation on an arc, or side from which a joint comes); with the best common numbers each would miss by: {}",
         ground.name_of(target),
         group.len(),
         each.join("; ")
@@ -202,14 +252,23 @@ pub(super) fn landing(job: &Job, solved: &Solved, given: &Fake) -> Separation {
     let q = match target.layout.shape {
         Shape::Joints => given.q,
         Shape::Pose => {
-            let world_from_tool =
-                ground.placed(approach.frame as usize).nominal * given.frame_from_tool;
+            let world_from_tool = ground.placed(approach.frame as usize).nominal
+                * approach.taken(given.frame_from_tool);
             equipped
                 .controller_joints(&world_from_tool, approach.branch, &outcome.q)
                 .0
         }
     };
     let real = &equipped.inverse.real;
-    real.forward(&q, &approach.conditions(job))
-        .separation(&solved.wanted(job))
+    let gap = real
+        .forward(&q, &approach.conditions(job))
+        .separation(&solved.wanted(job));
+    match approach.middle {
+        // nobody goes by the orientation of these numbers
+        Some(_) => Separation {
+            angle_rad: 0.0,
+            ..gap
+        },
+        None => gap,
+    }
 }

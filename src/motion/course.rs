@@ -110,7 +110,7 @@ impl ToolCourse {
         Self { ride, ..course }
     }
 
-    /// The straight way.
+    /// The straight line.
     #[must_use]
     pub(crate) fn straight(from: &Pose, to: &Pose, turning: ToolRotation) -> Self {
         Self {
@@ -143,17 +143,13 @@ impl ToolCourse {
         let first = scale(-1.0, to_centre);
         let unit = scale(squared.sqrt().recip(), normal);
         let second = cross(unit, first);
-        let angle = |point: Vector| {
-            let seen = sub(point, centre);
-            let angle = dot(seen, second).atan2(dot(seen, first));
-            angle.rem_euclid(std::f64::consts::TAU)
-        };
+        let axes = [first, second];
         // the normal of start, via, end makes via come before the end
-        let angle_rad = angle(to.translation);
+        let angle_rad = angle_on(&axes, sub(to.translation, centre));
         Self {
             line: Line::Circle {
                 centre,
-                axes: [first, second],
+                axes,
                 angle_rad,
             },
             turn: PathRotation::between(from, to, turning),
@@ -185,6 +181,25 @@ impl ToolCourse {
         match &self.line {
             Line::Straight { .. } => turned + carried,
             Line::Circle { angle_rad, .. } => turned + angle_rad + carried,
+        }
+    }
+
+    /// The part of the path, 0 to 1, at a point that lies on it.
+    #[must_use]
+    pub(super) fn part_at(&self, point: Vector) -> f64 {
+        match &self.line {
+            Line::Straight { from, along } => {
+                let squared = dot(*along, *along);
+                if squared == 0.0 {
+                    return 0.0;
+                }
+                (dot(sub(point, *from), *along) / squared).clamp(0.0, 1.0)
+            }
+            Line::Circle {
+                centre,
+                axes,
+                angle_rad,
+            } => angle_on(axes, sub(point, *centre)) / angle_rad,
         }
     }
 
@@ -241,6 +256,12 @@ impl ToolCourse {
             Some(ride) => ride.home_from_part(s) * pose,
         }
     }
+}
+
+/// The angle from the first axis to a direction in the plane of both, 0 to 2 pi.
+fn angle_on(axes: &[Vector; 2], seen: Vector) -> f64 {
+    let angle = dot(seen, axes[1]).atan2(dot(seen, axes[0]));
+    angle.rem_euclid(std::f64::consts::TAU)
 }
 
 /// Rotation about a unit axis (O. Rodrigues).

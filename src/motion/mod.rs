@@ -31,6 +31,7 @@ mod flow;
 pub(crate) mod follow;
 pub(crate) mod ground;
 mod holding;
+mod middle;
 pub(crate) mod placed;
 pub(crate) mod plausibility;
 mod posture;

@@ -8,11 +8,12 @@
 use super::course::ToolRotation;
 use super::follow::{arrival_direction, course, follow, turned};
 use super::ground::Ground;
+use super::middle;
 use super::posture::{self, Asked, Posture};
 use super::ride::Ride;
 use crate::finding::{Finding, Severity};
-use crate::geometry::Pose;
 use crate::geometry::units::DEG;
+use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::program::{
@@ -50,6 +51,9 @@ pub(crate) struct Arrival {
     pub displaced: bool,
     /// The controller goes by the target's configuration data.
     pub honoured: bool,
+    /// In the middle of an arc: from the tool as the target's numbers have it to the tool as the
+    /// path has it there, where the controller looks at the position alone.
+    pub middle: Option<Rotation>,
 }
 
 /// Name of the finding about a path that ends in another configuration than the file gives.
@@ -301,6 +305,7 @@ impl Walker<'_, '_> {
             known: false,
             displaced: false,
             honoured,
+            middle: None,
         };
         let Some(target) = motion.target else {
             // its joints stand while external axes go
@@ -359,7 +364,17 @@ impl Walker<'_, '_> {
             (value, Displacement::Unknown | Displacement::Overwritten) => (*value, true),
             (value, _) => (*value, false),
         };
-        let wanted = ground.meant(&value, motion.tool, frame);
+        let mut wanted = ground.meant(&value, motion.tool, frame);
+        let middle = before.filter(|before| before.known).and_then(|before| {
+            let (at, walk_options) = (at as usize, self.walk_options);
+            middle::middle(ground, walk_options, at, &before, &wanted, self.findings)
+        });
+        let mut configuration = decoded.configuration;
+        if let Some(middle) = middle.filter(|middle| *middle != Rotation::identity()) {
+            wanted.rotation = wanted.rotation * middle;
+            // that is of another orientation
+            configuration = Configuration::default();
+        }
         // the point on the way of an arc comes before its end
         let (via, start) = match (motion.motion, before) {
             (Motion::ArcEnd, Some(before)) => self.arc_start(&before, start),
@@ -376,7 +391,7 @@ impl Walker<'_, '_> {
             motion,
             target,
             &wanted,
-            &decoded.configuration,
+            &configuration,
             (start, via.as_ref(), ride.clone()),
         ) else {
             return nowhere;
@@ -410,6 +425,7 @@ impl Walker<'_, '_> {
             direction,
             known: true,
             displaced,
+            middle,
             ..nowhere
         }
     }
@@ -464,10 +480,50 @@ impl Walker<'_, '_> {
         let asked = Asked {
             target,
             arm: &equipped.arm,
-            wanted: *wanted,
+            wanted: self.programmed(motion, wanted),
             configuration: *configuration,
             honoured: motion.configured && near.is_none(),
             start: near.or(start),
+        };
+        let posture = posture::choose(ground, &asked, self.findings)?;
+        self.carried(motion, target, wanted, posture)
+    }
+
+    /// A wanted pose where the program has it: the part may stand elsewhere.
+    fn programmed(&self, motion: &Move, wanted: &Pose) -> Pose {
+        let ground = self.ground;
+        if !ground.part_moved {
+            return *wanted;
+        }
+        let placed = ground.placed(ground.frame_of(motion));
+        placed.nominal * (placed.meant.inverse() * *wanted)
+    }
+
+    /// The posture of the program where the part stands elsewhere: the same branch, and joints as
+    /// near as can be.
+    fn carried(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        posture: Posture,
+    ) -> Option<Posture> {
+        let ground = self.ground;
+        if !ground.part_moved {
+            return Some(posture);
+        }
+        let arm = &ground.arm_with(motion.tool).arm;
+        let any = Configuration::default();
+        if let Some(there) = posture::on_branch(arm, wanted, posture.branch, &posture.q, &any) {
+            return Some(there);
+        }
+        let asked = Asked {
+            target,
+            arm,
+            wanted: *wanted,
+            configuration: any,
+            honoured: false,
+            start: Some(posture.q),
         };
         posture::choose(ground, &asked, self.findings)
     }
@@ -484,7 +540,16 @@ impl Walker<'_, '_> {
         q: [f64; 6],
     ) -> Posture {
         let ground = self.ground;
-        if motion.configured && !posture::holds(configuration, branch, &q) {
+        // the configuration data are of the pose that the program has
+        let as_programmed = if ground.part_moved && motion.configured {
+            let arm = &ground.arm_with(motion.tool).arm;
+            let there = self.programmed(motion, wanted);
+            posture::on_branch(arm, &there, branch, &q, &Configuration::default())
+                .map_or(q, |posture| posture.q)
+        } else {
+            q
+        };
+        if motion.configured && !posture::holds(configuration, branch, &as_programmed) {
             let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
             let mut message = format!(
                 "the path to {} ends in another configuration than the file gives (joints {shown} \
@@ -540,7 +605,7 @@ impl Walker<'_, '_> {
     /// The posture that the configuration data of a path's end name; `None` where there is none, or
     /// the program is only looked at.
     fn meant(
-        &self,
+        &mut self,
         motion: &Move,
         target: TargetId,
         wanted: &Pose,
@@ -553,12 +618,14 @@ impl Walker<'_, '_> {
         let asked = Asked {
             target,
             arm: &self.ground.arm_with(motion.tool).arm,
-            wanted: *wanted,
+            wanted: self.programmed(motion, wanted),
             configuration: *configuration,
             honoured: true,
             start: Some(*q),
         };
-        posture::choose(self.ground, &asked, &mut Vec::new()).filter(|posture| posture.configured)
+        let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
+        let meant = posture.configured.then_some(posture)?;
+        self.carried(motion, target, wanted, meant)
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.

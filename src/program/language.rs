@@ -88,6 +88,13 @@ pub trait Language: Sync {
         1e5
     }
 
+    /// Whether the controller takes up the orientation that is written for the point in the middle
+    /// of an arc; else it rotates the tool from the beginning of the arc to its end and looks at the
+    /// point's position alone.
+    fn turns_through_middle(&self) -> bool {
+        false
+    }
+
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a
     /// metre away where it is an angle or part of a quaternion. Most languages write
     /// millimetres and degrees: a thousandth of a millimetre is 6e-5 degrees there.

@@ -251,6 +251,9 @@ pub enum Motion {
     Joint,
     /// Straight line of the tool.
     Linear,
+    /// A curve through successive points, whose shape the controller alone knows: taken as straight
+    /// from point to point.
+    Spline,
     /// The point an arc passes through.
     ArcVia,
     /// The end of an arc.

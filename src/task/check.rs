@@ -2,7 +2,9 @@
 
 use super::meshes::{Loader, Reader};
 use super::parts::{Names, finite};
-use super::programs::{LeftOut, common_language, explain, refuse_other_origin};
+use super::programs::{
+    LeftOut, common_language, compared_with_itself, explain, refuse_other_origin, refuse_swapped,
+};
 use super::{Document, Failure, ProfileFile};
 use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
 use crate::check::cell::Cell;
@@ -102,6 +104,7 @@ pub fn check<'a>(
     let language = asked.map_or_else(|| common_language(sources, Some(&profile)), Ok)?;
     if let Some(originals) = request.nominal.filter(|_| !request.force) {
         refuse_other_origin(sources, originals, file)?;
+        refuse_swapped(sources, originals)?;
     }
     let subject = Subject {
         language,
@@ -119,6 +122,9 @@ pub fn check<'a>(
             "is it the program that this one was made from?",
         ),
     })?;
+    if request.nominal.is_none() {
+        check.findings.extend(compared_with_itself(sources));
+    }
     accept_errors(&mut check.findings, request.accepted, &sources[0].name);
     let names = |sources: &[Source]| -> Vec<String> {
         let own = sources.iter().filter(|source| !source.is_context);
@@ -294,6 +300,7 @@ pub(super) fn kind(motion: Motion) -> &'static str {
     match motion {
         Motion::Joint => "joint",
         Motion::Linear => "linear",
+        Motion::Spline => "spline",
         Motion::ArcVia => "arc-via",
         Motion::ArcEnd => "arc",
     }

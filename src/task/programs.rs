@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::profile_file::ProfileFile;
 use crate::compensate::CompensateError;
-use crate::finding::{Acceptance, AcceptanceError, TABLE};
+use crate::finding::{Acceptance, AcceptanceError, Finding, Severity, TABLE};
 use crate::model::effects::Effect;
 use crate::model::profile::{ControllerModel, Profile};
 use crate::nearest;
@@ -219,6 +219,48 @@ pub fn refuse_other_origin(
         }
     }
     Ok(())
+}
+
+/// That originals are not compensated programs, and what is compared with them the originals.
+///
+/// # Errors
+/// One is.
+pub fn refuse_swapped(sources: &[Source], originals: &[Source]) -> Result<(), Failure> {
+    let own = |all: &&Source| !all.is_context;
+    let marked = |source: &&Source| Marker::find(&source.bytes).is_some();
+    if sources.iter().filter(own).any(|source| marked(&source)) {
+        return Ok(());
+    }
+    match originals.iter().filter(own).find(marked) {
+        Some(original) => Err(Failure::with_hint(
+            format!(
+                "{}: --nominal takes original programs, and this one is compensated",
+                original.name
+            ),
+            "give the compensated program first and the original behind --nominal; --force \
+             compares all the same",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// A warning for each compensated program that is compared with nothing but itself: its targets are
+/// fake ones.
+pub fn compared_with_itself(sources: &[Source]) -> Vec<Finding> {
+    let own = sources.iter().filter(|source| !source.is_context);
+    let found = own.filter_map(|source| {
+        let offset = Marker::find(&source.bytes)?;
+        let message = "this program is compensated: its targets are not where the tool is wanted, \
+            and the errors below are those from its own targets";
+        Some(source.finding(
+            offset,
+            "nominal-missing",
+            Severity::Warning,
+            message.into(),
+            "--nominal ORIGINAL compares with the program that it was made from",
+        ))
+    });
+    found.collect()
 }
 
 /// The programs whose files are called so, in whatever folder; all of them where there is none.

@@ -66,7 +66,11 @@ impl Job<'_> {
         let leg = arriving.unwrap_or_else(|| self.walk.standing(index, &stop));
         let pieces = leg.pieces();
         if comes {
-            report.path = Some(self.path_error(&leg, &pieces, arms, index));
+            let path = self.path_error(&leg, &pieces, arms, index);
+            report.path = Some(PathError {
+                certified: path.certified && motion.motion != Motion::Spline,
+                ..path
+            });
         }
         // where it is unknown how the robot comes there, at the target alone
         let speed = self.walk.program.speed_zone(motion).speed_m_s;
@@ -83,6 +87,9 @@ impl Job<'_> {
                 &mut report,
                 &mut findings,
             );
+        }
+        if let Some(clearance) = &mut report.clearance {
+            clearance.certified &= motion.motion != Motion::Spline;
         }
         self.judge_path(index, &report, &mut findings);
         findings.extend(self.not_finite(index, &landed, &report));
@@ -164,14 +171,29 @@ impl Job<'_> {
             return;
         };
         if !path.certified {
-            let message = "bounds between samples cannot be guaranteed here: the move passes near \
-                a singularity, or the controller's own chain is calibrated";
+            let is_spline = self.walk.motion(index).motion == Motion::Spline;
+            let message = if is_spline {
+                "the controller alone knows the curve of a spline: its points are exact, between \
+                 them straight lines were looked at"
+            } else {
+                "bounds between samples cannot be guaranteed here: the move passes near a \
+                 singularity, external axes lean the base or begin nobody knows where, or the \
+                 controller's own chain is calibrated"
+            };
+            let (severity, hint) = if is_spline {
+                (
+                    Severity::Warning,
+                    "check the curve on the robot, or write straight moves",
+                )
+            } else {
+                (Severity::Note, "only samples were looked at")
+            };
             findings.push(self.subject.finding(
                 self.walk.motion(index),
                 "path-uncertified",
-                Severity::Note,
+                severity,
                 message.into(),
-                "only samples were looked at",
+                hint,
             ));
         }
         let Some(limit) = self.options.max_path_error_m else {

@@ -111,6 +111,10 @@ impl Language for Fanuc {
         reader::script(sources, &settings.external)
     }
 
+    fn turns_through_middle(&self) -> bool {
+        true
+    }
+
     fn pose_roles(&self, layout: Layout) -> &'static [Role] {
         match layout.variant {
             0 => &notation::WITH_ANGLES,

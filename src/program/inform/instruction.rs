@@ -46,6 +46,7 @@ impl Operand {
 pub(super) enum Kind {
     Joint,
     Linear,
+    Spline,
     Circular,
     /// `SMOVL`: the path is relative to a station or another robot.
     Coordinated,
@@ -65,7 +66,8 @@ impl Kind {
     pub(super) fn of(verb: &[u8]) -> Self {
         match verb {
             b"MOVJ" => Self::Joint,
-            b"MOVL" | b"MOVS" => Self::Linear,
+            b"MOVL" => Self::Linear,
+            b"MOVS" => Self::Spline,
             b"MOVC" => Self::Circular,
             b"IMOV" => Self::Incremental,
             [b'S', b'M', b'O', b'V', ..] => Self::Coordinated,
@@ -178,7 +180,7 @@ mod tests {
     fn verbs_tell_the_kind_of_move() {
         for (verb, kind) in [
             ("MOVJ", Kind::Joint),
-            ("MOVS", Kind::Linear),
+            ("MOVS", Kind::Spline),
             ("MOVC", Kind::Circular),
             ("SMOVL", Kind::Coordinated),
             ("IMOV", Kind::Incremental),

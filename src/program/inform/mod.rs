@@ -100,6 +100,10 @@ impl Language for Inform {
         script(sources, settings)
     }
 
+    fn turns_through_middle(&self) -> bool {
+        true
+    }
+
     fn pose_roles(&self, _: Layout) -> &'static [Role] {
         &notation::WITH_ANGLES[..6]
     }

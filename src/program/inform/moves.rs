@@ -224,6 +224,7 @@ impl<'a> Reader<'a> {
     fn motion(&mut self, kind: Kind) -> Motion {
         match kind {
             Kind::Joint => Motion::Joint,
+            Kind::Spline => Motion::Spline,
             Kind::Circular => {
                 let arc = &mut self.here.arc;
                 arc.points += 1;
@@ -390,7 +391,7 @@ impl<'a> Reader<'a> {
 /// Why the position of a move of this kind has to stay.
 fn cause_of(kind: Kind) -> Option<Cause> {
     match kind {
-        Kind::Joint | Kind::Linear | Kind::Circular | Kind::Incremental => None,
+        Kind::Joint | Kind::Linear | Kind::Spline | Kind::Circular | Kind::Incremental => None,
         Kind::Coordinated => Some(Cause::Coordinated),
         Kind::Conveyor => Some(Cause::Conveyor),
         Kind::Search => Some(Cause::Search),

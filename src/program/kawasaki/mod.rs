@@ -93,6 +93,10 @@ impl Language for Kawasaki {
         Ok(reader::script(sources, &sections?))
     }
 
+    fn turns_through_middle(&self) -> bool {
+        true
+    }
+
     fn pose_roles(&self, _: Layout) -> &'static [Role] {
         &WITH_ANGLES[..6]
     }

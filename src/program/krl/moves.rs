@@ -18,6 +18,7 @@ use crate::program::{
 pub(super) enum Path {
     Joint,
     Linear,
+    Spline,
     Arc,
 }
 
@@ -25,10 +26,12 @@ pub(super) enum Path {
 pub(super) fn motion(word: &[u8]) -> Option<(Path, bool)> {
     Some(match word {
         b"PTP" | b"SPTP" => (Path::Joint, false),
-        b"LIN" | b"SLIN" | b"SPL" => (Path::Linear, false),
+        b"LIN" | b"SLIN" => (Path::Linear, false),
+        b"SPL" => (Path::Spline, false),
         b"CIRC" | b"SCIRC" => (Path::Arc, false),
         b"PTP_REL" | b"SPTP_REL" => (Path::Joint, true),
-        b"LIN_REL" | b"SLIN_REL" | b"SPL_REL" => (Path::Linear, true),
+        b"LIN_REL" | b"SLIN_REL" => (Path::Linear, true),
+        b"SPL_REL" => (Path::Spline, true),
         b"CIRC_REL" | b"SCIRC_REL" => (Path::Arc, true),
         _ => return None,
     })
@@ -86,6 +89,7 @@ impl Reader {
             let motion = match path {
                 Path::Joint => Motion::Joint,
                 Path::Linear => Motion::Linear,
+                Path::Spline => Motion::Spline,
                 Path::Arc if is_via => Motion::ArcVia,
                 Path::Arc => Motion::ArcEnd,
             };
@@ -293,6 +297,7 @@ impl Reader {
         let motions: &[Motion] = match path {
             Path::Joint => &[Motion::Joint],
             Path::Linear => &[Motion::Linear],
+            Path::Spline => &[Motion::Spline],
             Path::Arc => &[Motion::ArcVia, Motion::ArcEnd],
         };
         let own = rest.with.tool.is_some() || rest.with.base.is_some();

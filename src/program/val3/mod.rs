@@ -94,6 +94,10 @@ impl Language for Val3 {
         Ok(reader::script(sources, project::read(sources)?))
     }
 
+    fn turns_through_middle(&self) -> bool {
+        true
+    }
+
     fn pose_roles(&self, layout: Layout) -> &'static [Role] {
         &notation::WITH_ANGLES[..6 + stated(layout).count()]
     }

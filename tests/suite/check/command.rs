@@ -549,3 +549,29 @@ fn of_a_move_that_begins_nobody_knows_where_the_text_says_the_error_of_its_end()
         "{out}"
     );
 }
+
+#[test]
+fn a_spline_is_known_at_its_points_alone() {
+    let folder = scratch();
+    let program = folder.path().join("t.src");
+    for (word, kind, certified) in [("SLIN", "linear", true), ("SPL", "spline", false)] {
+        let text = format!(
+            "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 60,A6 \
+             0}}\nSPLINE\n{word} {{X 430,Y 0,Z 400,A 0,B 180,C 0}}\n{word} {{X 430,Y 60,Z 400,A \
+             0,B 180,C 0}}\nENDSPLINE\nEND\n"
+        );
+        std::fs::write(&program, text).expect("scratch");
+        let language = ["--language", "krl"];
+        let command = ["check", name(&program), "--profile", PROFILE];
+        let (_, report) = json(&[&command[..], &language].concat());
+        let last = report["moves"].as_array().and_then(|all| all.last());
+        let last = last.expect("moves");
+        assert_eq!(last["kind"], kind, "{report}");
+        assert_eq!(last["path_certified"], certified, "{word} {last}");
+        let findings = report["findings"].as_array().expect("findings");
+        let is_warned = |finding: &Value| {
+            finding["id"] == "path-uncertified" && finding["severity"] == "warning"
+        };
+        assert_eq!(findings.iter().any(is_warned), !certified, "{report}");
+    }
+}

@@ -341,6 +341,24 @@ fn a_check_compares_with_the_files_of_the_marker() {
     let (status, said) = check("a.mod", "other.yaml", &[]);
     assert!(status == 2 && said.contains("other.yaml has"), "{said}");
     assert_eq!(check("b.mod", "other.yaml", &["--force"]).0, 0);
+    // in the places of each other, and alone
+    let swapped = [
+        "check",
+        "a.mod",
+        "--nominal",
+        "out.mod",
+        "--profile",
+        "robot.yaml",
+    ];
+    let (status, said) = run_in(at, &swapped);
+    assert!(
+        status == 2 && said.contains("out.mod: --nominal takes original programs"),
+        "{said}"
+    );
+    let (status, said) = run_in(at, &["check", "out.mod", "--profile", "robot.yaml"]);
+    assert!(status == 0 && said.contains("nominal-missing"), "{said}");
+    let (_, said) = run_in(at, &["check", "a.mod", "--profile", "robot.yaml"]);
+    assert!(!said.contains("nominal-missing"), "{said}");
 }
 
 #[test]

@@ -62,6 +62,10 @@ fn in_order() -> Vec<usize> {
 
 /// The last points of arcs and the points between them.
 const ARCS: [usize; 8] = [5, 6, 22, 23, 39, 40, 56, 57];
+/// The points between: most controllers pass them in the rotation that goes from the beginning of
+/// the arc to its end, which is a few degrees from the one that is written.
+const MIDDLES: [usize; 4] = [5, 22, 39, 56];
+const PASSED_DEG: f64 = 8.0;
 
 const POSTS: &[Post] = &[
     Post {
@@ -222,7 +226,16 @@ fn joints_that_were_meant_are_found_again() {
                     (joints[i] - sense * truth[point][i]).abs()
                 })
                 .fold(0.0, f64::max);
-            if given > post.tolerance_deg {
+            let takes_up = ["fanuc", "inform"]
+                .iter()
+                .any(|id| post.files[0].starts_with(id));
+            let is_passed = MIDDLES.contains(&point) && !takes_up;
+            let tolerance = if is_passed {
+                PASSED_DEG
+            } else {
+                post.tolerance_deg
+            };
+            if given > tolerance {
                 wrong.push(point);
             }
         }

@@ -356,6 +356,31 @@ fn the_correction_has_a_limit_and_the_displacement_of_the_part_has_none() {
 }
 
 #[test]
+fn joint_targets_that_stay_are_reported_where_the_part_is_moved() {
+    let text = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-0.35,0,0,1.0,0])\n  \
+        movel(p[0.43,0.0,0.4,0.0,1.5,0.0])\n  movel([0.1,0.0,0,0,1.0,0])\nend\n";
+    let moved = |by: f64, correct_joint_targets: bool| {
+        let options = Options {
+            work_offset: Some(Pose::from_translation(by, 0.0, 0.0)),
+            correct_joint_targets,
+            ..given()
+        };
+        let done = try_with(options, &[PLAIN], &[("t.script", text)]).expect("read");
+        let stay = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "joint-target-stays");
+        stay.map(|f| (f.line, f.severity)).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        moved(0.005, false),
+        [(3, Severity::Warning), (5, Severity::Error)]
+    );
+    assert_eq!(moved(0.005, true), []);
+    assert_eq!(moved(0.0, false), []);
+}
+
+#[test]
 fn an_effect_without_angles_has_room_for_those_of_the_search() {
     // a limit of no angle at all would refuse what the search leaves
     let files = from_both_sides();

@@ -1,6 +1,7 @@
 //! What a program makes the robot do: where straight moves end, from which side joints come, which
 //! tool holds.
 
+mod arcs;
 mod decided;
 mod krl;
 mod rows;

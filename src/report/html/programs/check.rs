@@ -203,6 +203,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     let kind = |row: &usize| match program.moves[moves[*row].motion].motion {
         Motion::Joint => "joint",
         Motion::Linear => "linear",
+        Motion::Spline => "spline",
         Motion::ArcVia => "arc-via",
         Motion::ArcEnd => "arc",
     };

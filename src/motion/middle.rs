@@ -1,0 +1,97 @@
+//! How the tool stands at the point that an arc passes through.
+//!
+//! Three points are an arc; how the tool rotates on it goes from its beginning to its end. Most
+//! controllers do not look at the orientation that is written for the point between: the robot
+//! passes it in the rotation that the path has there, and it must be corrected in that one.
+
+use super::course::ToolCourse;
+use super::follow::middle_of;
+use super::ground::Ground;
+use super::walk::{Arrival, WalkOptions};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::DEG;
+use crate::geometry::{Pose, Rotation};
+use crate::program::{Before, Displacement, Motion, Move, Value};
+
+/// A smaller rotation away from the path's is none.
+const SAME_RAD: f64 = 0.01 * DEG;
+/// A larger one is reported where the controller takes up the orientation of the point.
+const MOST_RAD: f64 = 1.0 * DEG;
+
+/// From the tool as the numbers of an arc's middle point have it to the tool as the path has it
+/// there: `path = numbers · middle`. `None` where the robot takes up the numbers' orientation, or
+/// nobody knows the path.
+pub(super) fn middle(
+    ground: &Ground,
+    walk_options: &WalkOptions,
+    at: usize,
+    start: &Arrival,
+    wanted: &Pose,
+    findings: &mut Vec<Finding>,
+) -> Option<Rotation> {
+    let motion = &ground.program.moves[at];
+    if motion.motion != Motion::ArcVia {
+        return None;
+    }
+    let end = end_pose(ground, at)?;
+    let equipped = ground.equipped(motion.tool)?;
+    let course = middle_of(equipped, &start.q, wanted, &end, walk_options);
+    let there = rotation_on(&course, wanted);
+    let middle = wanted.rotation.transpose() * there;
+    if ground.language.turns_through_middle() {
+        if middle.angle() > MOST_RAD {
+            findings.push(rotated(ground, motion, middle.angle()));
+        }
+        return None;
+    }
+    let same = middle.angle() < SAME_RAD;
+    Some(if same { Rotation::identity() } else { middle })
+}
+
+/// The rotation of a path at its point nearest to a pose.
+fn rotation_on(course: &ToolCourse, through: &Pose) -> Rotation {
+    course.pose(course.part_at(through.translation)).rotation
+}
+
+/// Where the arc through the point of a move ends; `None` where nobody knows, or external axes move
+/// on it.
+fn end_pose(ground: &Ground, at: usize) -> Option<Pose> {
+    let program = ground.program;
+    let via = crate::program::script::short(at);
+    let end: &Move = program.moves.get(at + 1)?;
+    let is_arc = end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(via));
+    let target = end.target.filter(|_| is_arc)?;
+    ground.equipped(end.tool)?;
+    let frame = ground.frame_of(end);
+    if ground.setting.frames[frame].is_none() || ground.is_adrift(end) {
+        return None;
+    }
+    let before = program.before(&program.moves[at]).iter();
+    let moves_axes = before
+        .filter_map(|before| match before {
+            Before::One(from) => ground.ride(Some(*from), end),
+            _ => None,
+        })
+        .any(|ride| ride.moves());
+    let decoded = crate::program::meaning(ground.language, program, ground.settings, target)?;
+    let value = match (decoded.value, &end.displacement) {
+        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
+        (value, Displacement::None) => value,
+        _ => return None,
+    };
+    (!moves_axes).then(|| ground.meant(&value, end.tool, frame))
+}
+
+/// That a controller which takes up the orientation of the point is asked for more than the rotation
+/// from the beginning to the end of the arc.
+fn rotated(ground: &Ground, motion: &Move, angle_rad: f64) -> Finding {
+    let message = format!(
+        "the tool at the middle of this arc is rotated by {:.1} deg from where the rotation from \
+         its beginning to its end has it there: the point is corrected as it is written, the path \
+         is taken with the rotation from beginning to end",
+        angle_rad / DEG
+    );
+    let hint = "write the middle in the orientation that the path has there, or divide the arc in \
+        two";
+    ground.at_move("arc-rotation", Severity::Warning, motion, message, hint)
+}

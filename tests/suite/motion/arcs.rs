@@ -1,0 +1,146 @@
+//! The point in the middle of an arc: the robot passes it in the rotation of the path, whatever
+//! orientation is written for it.
+
+use super::{PLAIN, done, errors, given, message, rapid, try_with};
+use poseshift::compensate::{Compensation, Options};
+use poseshift::finding::Severity;
+use poseshift::geometry::{Pose, sub};
+use poseshift::program::Shape;
+
+const EXTERNAL: &str = "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+const HOME: &str = "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;";
+
+/// An arc whose middle is written with an orientation.
+fn rapid_arc(middle: &str) -> String {
+    rapid(
+        &format!("CONST robtarget m := [[400,60,420],{middle},{EXTERNAL};"),
+        &format!(
+            "{HOME}\nMoveL [[430,0,400],[0,0,1,0],{EXTERNAL},v100,fine,tool0;\nMoveC \
+             m,[[370,0,440],[0,0,1,0],{EXTERNAL},v100,fine,tool0;"
+        ),
+    )
+}
+
+fn urscript_arc(middle: &str) -> String {
+    let down = "0.0,3.1415927,0.0";
+    format!(
+        "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,0,0,0,1.047,0])\n  \
+         movel(p[0.43,0.0,0.4,{down}])\n  movec(p[0.40,0.06,0.42,{middle}],p[0.37,0.0,0.44,{down}])\nend\n"
+    )
+}
+
+fn krl_arc(middle: &str) -> String {
+    format!(
+        "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 60,A6 0}}\nLIN {{X \
+         430,Y 0,Z 400,A 0,B 180,C 0}}\nCIRC {{X 400,Y 60,Z 420,{middle}}},{{X 370,Y 0,Z 440,A 0,B \
+         180,C 0}}\nEND\n"
+    )
+}
+
+/// The fake target of the arc's middle: the second pose.
+fn middle(done: &Compensation) -> Pose {
+    let is_pose = |at: &usize| done.program.targets[*at].layout.shape == Shape::Pose;
+    let mut poses = (0..done.targets.len()).filter(is_pose).collect::<Vec<_>>();
+    poses.sort_by_key(|at| {
+        let numbers = done.program.numbers_of(&done.program.targets[*at]);
+        // only the middle is off the plane y = 0
+        u8::from(numbers.iter().any(|n| n.value == 60.0 || n.value == 0.06))
+    });
+    let found = *poses.last().expect("poses");
+    done.targets[found].fake.expect("a fake target")
+}
+
+#[test]
+fn the_middle_of_an_arc_is_corrected_in_the_rotation_of_the_path() {
+    for (name, along, other) in [
+        (
+            "t.mod",
+            rapid_arc("[0,0,1,0]"),
+            rapid_arc("[0.3420201433,0,0.9396926208,0]"),
+        ),
+        // a posture that the arm never has there: the flange upwards
+        ("t.mod", rapid_arc("[0,0,1,0]"), rapid_arc("[1,0,0,0]")),
+        (
+            "t.script",
+            urscript_arc("0.0,3.1415927,0.0"),
+            urscript_arc("0,0,0"),
+        ),
+        ("t.src", krl_arc("A 0,B 180,C 0"), krl_arc("A 40,B 150,C 0")),
+    ] {
+        let [along, other] = [&along, &other].map(|text| done(&[PLAIN], &[(name, text)]));
+        assert_eq!(errors(&along), [""; 0], "{name} {:?}", along.findings);
+        assert_eq!(errors(&other), [""; 0], "{name} {:?}", other.findings);
+        let (meant, found) = (middle(&along), middle(&other));
+        let apart = sub(meant.translation, found.translation);
+        let apart = apart.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+        assert!(apart < 1e-7, "{name}: {apart} m");
+        // the orientation that nobody looks at takes the same small correction along
+        let [by, same] = [(&other, found), (&along, meant)].map(|(done, fake)| {
+            let corrected = done.targets.iter().map(|report| report.shift.angle_rad);
+            assert!(corrected.fold(0.0, f64::max) < 0.01, "{name}");
+            fake.rotation
+        });
+        let rotated = (by * same.transpose()).angle();
+        assert!(rotated > 0.1, "{name}: {rotated}");
+    }
+}
+
+#[test]
+fn a_middle_that_is_a_target_too_is_judged_for_both() {
+    let text = rapid_arc("[0.3420201433,0,0.9396926208,0]");
+    let there = "tool0;\nENDPROC";
+    let both = text.replace(there, "tool0;\nMoveL m,v100,fine,tool0;\nENDPROC");
+    assert_ne!(both, text);
+    let with = |limit_m: f64| {
+        let options = Options {
+            max_derived_error_m: Some(limit_m),
+            ..given()
+        };
+        try_with(options, &[PLAIN], &[("t.mod", &both)]).expect("read")
+    };
+    let found = with(1e-6);
+    assert_eq!(errors(&found), ["target-shared"], "{:?}", found.findings);
+    // what the arc misses is reported, and the straight move hits
+    let found = with(1e-3);
+    assert_eq!(errors(&found), [""; 0], "{:?}", found.findings);
+    let off = message(&found, "arc-shared").split(" mm off").next();
+    let off: f64 = off
+        .and_then(|text| text.rsplit(' ').next()?.parse().ok())
+        .expect("mm");
+    assert!((0.01..1.0).contains(&off), "{off}");
+    assert!(found.summary.max_rounding_m < 1e-6);
+    // in the orientation of the path one set of numbers serves both
+    let along = rapid_arc("[0,0,1,0]").replace(there, "tool0;\nMoveL m,v100,fine,tool0;\nENDPROC");
+    let found = done(&[PLAIN], &[("t.mod", &along)]);
+    assert_eq!(errors(&found), [""; 0], "{:?}", found.findings);
+}
+
+#[test]
+fn a_middle_whose_orientation_the_controller_takes_up_is_reported_where_it_differs() {
+    let arc = |w: &str| {
+        let point = |number: usize, xyz: [&str; 3], w: &str| {
+            format!(
+                "P[{number}]{{\n   GP1:\n    UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n    X = {} \
+                 mm, Y = {} mm, Z = {} mm,\n    W = {w} deg, P = 0.000 deg, R = 0.000 deg\n}};\n",
+                xyz[0], xyz[1], xyz[2]
+            )
+        };
+        format!(
+            "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:C P[2]\n    :  P[3] 100mm/sec FINE \
+             ;\n/POS\n{}{}{}/END\n",
+            point(1, ["430.000", "0.000", "400.000"], "180.000"),
+            point(2, ["400.000", "60.000", "420.000"], w),
+            point(3, ["370.000", "0.000", "440.000"], "180.000"),
+        )
+    };
+    let start = Options {
+        start_joints: Some([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+        ..given()
+    };
+    let rotated = try_with(start.clone(), &[PLAIN], &[("t.ls", &arc("170.000"))]).expect("read");
+    assert!(message(&rotated, "arc-rotation").contains("10.0 deg"));
+    let reported = rotated.findings.iter().find(|f| f.id == "arc-rotation");
+    assert!(reported.is_some_and(|f| f.severity == Severity::Warning && f.line == 4));
+    let along = try_with(start, &[PLAIN], &[("t.ls", &arc("180.000"))]).expect("read");
+    assert!(!along.findings.iter().any(|f| f.id == "arc-rotation"));
+}
