@@ -39,6 +39,7 @@ mod readers;
 mod resolve;
 pub(crate) mod ride;
 pub(crate) mod setting;
+mod standing;
 pub(crate) mod walk;
 
 pub use course::ToolRotation;

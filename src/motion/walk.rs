@@ -6,22 +6,17 @@
 //! of its rate at the end of the path; one that stands keeps its last.
 
 use super::course::ToolRotation;
-use super::follow::{arrival_direction, course, follow, turned};
+use super::follow::{arrival_direction, course, turned};
 use super::ground::Ground;
 use super::middle;
-use super::posture::{self, Asked, Posture};
-use super::ride::Ride;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
-use crate::program::{
-    Before, Configuration, Displacement, Motion, Move, Program, Role, TargetId, Value,
-};
+use crate::program::{Before, Configuration, Displacement, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::sync::Arc;
 
 /// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
@@ -224,10 +219,10 @@ impl Behind {
     }
 }
 
-struct Walker<'a, 'f> {
-    ground: &'a Ground<'a>,
-    walk_options: &'a WalkOptions,
-    findings: &'f mut Vec<Finding>,
+pub(super) struct Walker<'a, 'f> {
+    pub(super) ground: &'a Ground<'a>,
+    pub(super) walk_options: &'a WalkOptions,
+    pub(super) findings: &'f mut Vec<Finding>,
     arrivals: Arrivals,
     /// Moves to arrive at, and from which arrival: the first of the text first.
     open: BinaryHeap<Reverse<(u32, u32)>>,
@@ -445,187 +440,6 @@ impl Walker<'_, '_> {
             .equipped(motion.tool)
             .map(|equipped| equipped.controller.forward(&via.q, &Conditions::default()));
         (pose, self.arrivals.start_of(via).map(|before| before.q))
-    }
-
-    /// The posture at the end of a move.
-    fn posture(
-        &mut self,
-        motion: &Move,
-        target: TargetId,
-        wanted: &Pose,
-        configuration: &Configuration,
-        (start, via, ride): (Option<[f64; 6]>, Option<&Pose>, Option<Arc<Ride>>),
-    ) -> Option<Posture> {
-        let ground = self.ground;
-        let equipped = ground.arm_with(motion.tool);
-        let near = self.ground.program.near(motion).copied();
-        let along = start.filter(|_| {
-            motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
-        });
-        if let Some(start) = along {
-            let course = course(
-                motion,
-                equipped,
-                &start,
-                via,
-                wanted,
-                &start,
-                ride,
-                self.walk_options,
-            );
-            if let Some((branch, q)) = follow(equipped, &course, &start) {
-                return Some(self.compared(motion, target, wanted, configuration, branch, q));
-            }
-        }
-        let asked = Asked {
-            target,
-            arm: &equipped.arm,
-            wanted: self.programmed(motion, wanted),
-            configuration: *configuration,
-            honoured: motion.configured && near.is_none(),
-            start: near.or(start),
-        };
-        let posture = posture::choose(ground, &asked, self.findings)?;
-        self.carried(motion, target, wanted, posture)
-    }
-
-    /// A wanted pose where the program has it: the part may stand elsewhere.
-    fn programmed(&self, motion: &Move, wanted: &Pose) -> Pose {
-        let ground = self.ground;
-        if !ground.part_moved {
-            return *wanted;
-        }
-        let placed = ground.placed(ground.frame_of(motion));
-        placed.nominal * (placed.meant.inverse() * *wanted)
-    }
-
-    /// The posture of the program where the part stands elsewhere: the same branch, and joints as
-    /// near as can be.
-    fn carried(
-        &mut self,
-        motion: &Move,
-        target: TargetId,
-        wanted: &Pose,
-        posture: Posture,
-    ) -> Option<Posture> {
-        let ground = self.ground;
-        if !ground.part_moved {
-            return Some(posture);
-        }
-        let arm = &ground.arm_with(motion.tool).arm;
-        let any = Configuration::default();
-        if let Some(there) = posture::on_branch(arm, wanted, posture.branch, &posture.q, &any) {
-            return Some(there);
-        }
-        let asked = Asked {
-            target,
-            arm,
-            wanted: *wanted,
-            configuration: any,
-            honoured: false,
-            start: Some(posture.q),
-        };
-        posture::choose(ground, &asked, self.findings)
-    }
-
-    /// The posture at the end of a path, within the limits by whole rotations; its configuration
-    /// data are compared where the controller does.
-    fn compared(
-        &mut self,
-        motion: &Move,
-        target: TargetId,
-        wanted: &Pose,
-        configuration: &Configuration,
-        branch: Branch,
-        q: [f64; 6],
-    ) -> Posture {
-        let ground = self.ground;
-        // the configuration data are of the pose that the program has
-        let as_programmed = if ground.part_moved && motion.configured {
-            let arm = &ground.arm_with(motion.tool).arm;
-            let there = self.programmed(motion, wanted);
-            posture::on_branch(arm, &there, branch, &q, &Configuration::default())
-                .map_or(q, |posture| posture.q)
-        } else {
-            q
-        };
-        if motion.configured && !posture::holds(configuration, branch, &as_programmed) {
-            let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
-            let mut message = format!(
-                "the path to {} ends in another configuration than the file gives (joints {shown} \
-                 deg)",
-                ground.name_of(target)
-            );
-            let hint = "check the configuration data, and that robot, tool and frame are those of \
-                the program";
-            let (id, severity) = if self.walk_options.strict {
-                (CONFIGURATION_CHANGE, Severity::Error)
-            } else {
-                ("configuration-mismatch", Severity::Warning)
-            };
-            // the controller would stop there: where the program runs, it stands as the file says,
-            // and stood so before
-            let meant = self.meant(motion, target, wanted, configuration, &q);
-            if meant.is_some() {
-                message += "; the one of the file is taken, since the controller stops at another";
-            }
-            let finding = ground.at_target(id, severity, target, message, hint);
-            self.findings.push(finding);
-            if let Some(meant) = meant {
-                return meant;
-            }
-        }
-        let as_it_is = Posture {
-            branch,
-            q,
-            configured: false,
-            in_ranges: false,
-        };
-        let arm = &ground.arm_with(motion.tool).arm;
-        let mechanism = arm.mechanism();
-        if mechanism.beyond_limit(&q, 0.0).is_none() {
-            return as_it_is;
-        }
-        // a whole rotation less, where that is within the limits
-        let turn = std::f64::consts::TAU;
-        let near = std::array::from_fn(|i| {
-            let limits = &mechanism.joints[i];
-            let back = turn * f64::from(u8::from(q[i] > limits.max_rad));
-            let on = turn * f64::from(u8::from(q[i] < limits.min_rad));
-            q[i] - back + on
-        });
-        let any = Configuration::default();
-        let inside = posture::on_branch(arm, wanted, branch, &near, &any);
-        inside
-            .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none())
-            .or_else(|| posture::on_branch(arm, wanted, branch, &q, &any))
-            .unwrap_or(as_it_is)
-    }
-
-    /// The posture that the configuration data of a path's end name; `None` where there is none, or
-    /// the program is only looked at.
-    fn meant(
-        &mut self,
-        motion: &Move,
-        target: TargetId,
-        wanted: &Pose,
-        configuration: &Configuration,
-        q: &[f64; 6],
-    ) -> Option<Posture> {
-        if self.walk_options.strict {
-            return None;
-        }
-        let asked = Asked {
-            target,
-            arm: &self.ground.arm_with(motion.tool).arm,
-            wanted: self.programmed(motion, wanted),
-            configuration: *configuration,
-            honoured: true,
-            start: Some(*q),
-        };
-        let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
-        let meant = posture.configured.then_some(posture)?;
-        self.carried(motion, target, wanted, meant)
     }
 
     /// A part of the target's orientation so large that its angle is lost in rounding.

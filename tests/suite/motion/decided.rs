@@ -356,6 +356,28 @@ fn the_correction_has_a_limit_and_the_displacement_of_the_part_has_none() {
 }
 
 #[test]
+fn configuration_data_are_of_the_part_where_the_program_has_it() {
+    // with the part moved to the other side of y = 0, joints 1 and 6 change their signs: T 4 is
+    // right for the program, T 37 for what is written
+    let text = "DEF t()\nDECL E6POS XP={X 430,Y 1.0,Z 400,A 0,B 180,C 0,S 2,T 4}\n\
+        $TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {A1 0,A2 -20,A3 0,A4 0,A5 60,A6 0}\nPTP XP\nEND\n";
+    let files = [("t.src", text)];
+    for (y_mm, turn, is_same) in [(0.0, "T 4}", true), (-2.0, "T 37}", false)] {
+        let options = Options {
+            work_offset: Some(Pose::from_translation(0.0, 1e-3 * y_mm, 0.0)),
+            ..given()
+        };
+        let done = try_with(options, &[PLAIN], &files).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+        let has = |id: &str| done.findings.iter().any(|f| f.id == id);
+        assert!(!has("configuration-mismatch"), "{:?}", done.findings);
+        assert_eq!(has("configuration-changed"), !is_same);
+        let after = written(done, &files);
+        assert!(after[0].contains(turn), "{}", after[0]);
+    }
+}
+
+#[test]
 fn joint_targets_that_stay_are_reported_where_the_part_is_moved() {
     let text = "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-0.35,0,0,1.0,0])\n  \
         movel(p[0.43,0.0,0.4,0.0,1.5,0.0])\n  movel([0.1,0.0,0,0,1.0,0])\nend\n";

@@ -1,0 +1,196 @@
+//! The posture in which the robot stands at the end of a move: that of its path, compared with the
+//! configuration data, or the one that these name.
+
+use super::follow::{course, follow};
+use super::posture::{self, Asked, Posture};
+use super::ride::Ride;
+use super::walk::{CONFIGURATION_CHANGE, Walker};
+use crate::finding::Severity;
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
+use crate::inverse::Branch;
+use crate::program::{Configuration, Motion, Move, TargetId};
+use std::sync::Arc;
+
+impl Walker<'_, '_> {
+    /// The posture at the end of a move.
+    pub(super) fn posture(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        (start, via, ride): (Option<[f64; 6]>, Option<&Pose>, Option<Arc<Ride>>),
+    ) -> Option<Posture> {
+        let ground = self.ground;
+        let equipped = ground.arm_with(motion.tool);
+        let near = self.ground.program.near(motion).copied();
+        let along = start.filter(|_| {
+            motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
+        });
+        if let Some(start) = along {
+            let course = course(
+                motion,
+                equipped,
+                &start,
+                via,
+                wanted,
+                &start,
+                ride,
+                self.walk_options,
+            );
+            if let Some((branch, q)) = follow(equipped, &course, &start) {
+                return Some(self.compared(motion, target, wanted, configuration, branch, q));
+            }
+        }
+        let asked = Asked {
+            target,
+            arm: &equipped.arm,
+            wanted: self.programmed(motion, wanted),
+            configuration: *configuration,
+            honoured: motion.configured && near.is_none(),
+            start: near.or(start),
+        };
+        let posture = posture::choose(ground, &asked, self.findings)?;
+        self.carried(motion, target, wanted, posture)
+    }
+
+    /// A wanted pose where the program has it: the part may stand elsewhere.
+    fn programmed(&self, motion: &Move, wanted: &Pose) -> Pose {
+        let ground = self.ground;
+        if !ground.part_moved {
+            return *wanted;
+        }
+        let placed = ground.placed(ground.frame_of(motion));
+        placed.nominal * (placed.meant.inverse() * *wanted)
+    }
+
+    /// The posture of the program where the part stands elsewhere: the same branch, and joints as
+    /// near as can be.
+    fn carried(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        posture: Posture,
+    ) -> Option<Posture> {
+        let ground = self.ground;
+        if !ground.part_moved {
+            return Some(posture);
+        }
+        let arm = &ground.arm_with(motion.tool).arm;
+        let any = Configuration::default();
+        if let Some(there) = posture::on_branch(arm, wanted, posture.branch, &posture.q, &any) {
+            return Some(there);
+        }
+        let asked = Asked {
+            target,
+            arm,
+            wanted: *wanted,
+            configuration: any,
+            honoured: false,
+            start: Some(posture.q),
+        };
+        posture::choose(ground, &asked, self.findings)
+    }
+
+    /// The posture at the end of a path, within the limits by whole rotations; its configuration
+    /// data are compared where the controller does.
+    fn compared(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        branch: Branch,
+        q: [f64; 6],
+    ) -> Posture {
+        let ground = self.ground;
+        // the configuration data are of the pose that the program has
+        let as_programmed = if ground.part_moved && motion.configured {
+            let arm = &ground.arm_with(motion.tool).arm;
+            let there = self.programmed(motion, wanted);
+            posture::on_branch(arm, &there, branch, &q, &Configuration::default())
+                .map_or(q, |posture| posture.q)
+        } else {
+            q
+        };
+        if motion.configured && !posture::holds(configuration, branch, &as_programmed) {
+            let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+            let mut message = format!(
+                "the path to {} ends in another configuration than the file gives (joints {shown} \
+                 deg)",
+                ground.name_of(target)
+            );
+            let hint = "check the configuration data, and that robot, tool and frame are those of \
+                the program";
+            let (id, severity) = if self.walk_options.strict {
+                (CONFIGURATION_CHANGE, Severity::Error)
+            } else {
+                ("configuration-mismatch", Severity::Warning)
+            };
+            // the controller would stop there: where the program runs, it stands as the file says,
+            // and stood so before
+            let meant = self.meant(motion, target, wanted, configuration, &q);
+            if meant.is_some() {
+                message += "; the one of the file is taken, since the controller stops at another";
+            }
+            let finding = ground.at_target(id, severity, target, message, hint);
+            self.findings.push(finding);
+            if let Some(meant) = meant {
+                return meant;
+            }
+        }
+        let as_it_is = Posture {
+            branch,
+            q,
+            configured: false,
+            in_ranges: false,
+        };
+        let arm = &ground.arm_with(motion.tool).arm;
+        let mechanism = arm.mechanism();
+        if mechanism.beyond_limit(&q, 0.0).is_none() {
+            return as_it_is;
+        }
+        // a whole rotation less, where that is within the limits
+        let turn = std::f64::consts::TAU;
+        let near = std::array::from_fn(|i| {
+            let limits = &mechanism.joints[i];
+            let back = turn * f64::from(u8::from(q[i] > limits.max_rad));
+            let on = turn * f64::from(u8::from(q[i] < limits.min_rad));
+            q[i] - back + on
+        });
+        let any = Configuration::default();
+        let inside = posture::on_branch(arm, wanted, branch, &near, &any);
+        inside
+            .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none())
+            .or_else(|| posture::on_branch(arm, wanted, branch, &q, &any))
+            .unwrap_or(as_it_is)
+    }
+
+    /// The posture that the configuration data of a path's end name; `None` where there is none, or
+    /// the program is only looked at.
+    fn meant(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        wanted: &Pose,
+        configuration: &Configuration,
+        q: &[f64; 6],
+    ) -> Option<Posture> {
+        if self.walk_options.strict {
+            return None;
+        }
+        let asked = Asked {
+            target,
+            arm: &self.ground.arm_with(motion.tool).arm,
+            wanted: self.programmed(motion, wanted),
+            configuration: *configuration,
+            honoured: true,
+            start: Some(*q),
+        };
+        let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
+        let meant = posture.configured.then_some(posture)?;
+        self.carried(motion, target, wanted, meant)
+    }
+}
