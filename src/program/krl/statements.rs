@@ -17,9 +17,10 @@ pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 
-/// Functions that give the tool of the FDAT that is their argument.
-fn reads_fdat(name: &[u8]) -> bool {
-    name.eq_ignore_ascii_case(b"STOOL") || name.eq_ignore_ascii_case(b"STOOL2")
+/// Functions that give the tool of the FDAT, or the orientation of the LDAT, that is their argument.
+fn only_reads(name: &[u8]) -> bool {
+    let mut known = [&b"STOOL"[..], b"STOOL2", b"SORI_TYP"].into_iter();
+    known.any(|known| name.eq_ignore_ascii_case(known))
 }
 
 /// Which element `name[..].part=` writes, behind the name; `None` where it is no assignment.
@@ -174,7 +175,7 @@ impl Reader {
             let token = cursor.next();
             match token.kind {
                 Kind::End => return,
-                Kind::Name if reads_fdat(cursor.text(token)) && cursor.peek().is(b'(') => {
+                Kind::Name if only_reads(cursor.text(token)) && cursor.peek().is(b'(') => {
                     cursor.take(b'(');
                     fresh = false;
                 }
