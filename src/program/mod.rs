@@ -126,6 +126,8 @@ pub struct Layout {
 pub struct Settings {
     /// External axes that the profile describes.
     pub external: ExternalNames,
+    /// Where the profile has the base of an arm that stands still.
+    pub world_from_base: Option<Pose>,
     /// Encoder pulses of one degree of each joint, where programs count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.

@@ -1,7 +1,7 @@
 //! How targets are written as numbers, where several languages write them so: poses, and
 //! configuration data.
 
-use super::{Posture, Role};
+use super::{Posture, Role, Shift};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Rotation};
 
@@ -46,6 +46,20 @@ pub(super) fn pose_of_angles(n: [f64; 6]) -> Pose {
         rotation: Rotation::from_rzryrx([n[5] * DEG, n[4] * DEG, n[3] * DEG]),
         translation: [n[0], n[1], n[2]].map(m_from_mm),
     }
+}
+
+/// What a position is displaced by whose number `at` of those grows by so much; `None` for the
+/// angles that rotate it about no axis of the tool.
+pub(super) fn shift_of(at: usize, by: f64) -> Option<Shift> {
+    let mut n = [0.0; 6];
+    *n.get_mut(at)? = by;
+    let (along, still) = (pose_of_angles(n), Pose::identity());
+    let (in_frame, in_tool) = match at {
+        0..=2 => (along, still),
+        3 => (still, along),
+        _ => return None,
+    };
+    Some(Shift { in_frame, in_tool })
 }
 
 /// Writes these numbers, the angles as [`nearest_angles`].

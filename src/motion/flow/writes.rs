@@ -2,9 +2,10 @@
 
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
+use crate::program::Shape;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part, PartValue, ValueId,
-    VariableId, Write, Written, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
+    PartValue, ValueId, VariableId, Write, Written, short,
 };
 
 impl Flow<'_> {
@@ -85,18 +86,13 @@ impl Flow<'_> {
                 return self.holdings.intern(here);
             }
             How::Parts { first, parts } => (*first, parts.clone(), None),
-            How::PartSomehow(remark) | How::PartNumber(remark) => (0, 0..0, Some(*remark)),
+            How::PartSomehow(remark) | How::PartNumber(remark) | How::PartBy(remark, _) => {
+                (0, 0..0, Some(*remark))
+            }
         };
         let own = match self.script.variables[variable as usize].declared {
             Expr::Target(target) => Some(short(target)),
             _ => None,
-        };
-        // numbers of the text do not know of a correction; what is computed is mostly the old value
-        // and something more
-        let by = if matches!(write.how, How::PartNumber(_)) {
-            OVERWRITTEN
-        } else {
-            DISPLACED_SOMEHOW
         };
         let held = self.variable(state, variable);
         let atoms = self.holdings.of(held).to_vec();
@@ -104,9 +100,12 @@ impl Flow<'_> {
         for (atom, _) in atoms {
             let atom = match atom {
                 Atom::Target { target, .. } if own == Some(target) => Atom::Changed { target },
-                Atom::Target { target, .. } => Atom::Target {
+                Atom::Target {
                     target,
-                    displacement: by,
+                    displacement,
+                } => Atom::Target {
+                    target,
+                    displacement: self.displaced_by(&write.how, target, displacement),
                 },
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
@@ -119,6 +118,22 @@ impl Flow<'_> {
             changed.push((atom, site));
         }
         self.holdings.intern(changed)
+    }
+
+    /// By what a copy of a target is displaced once parts of it are written.
+    fn displaced_by(&self, how: &How, target: u32, before: DisplacementId) -> DisplacementId {
+        let is_joints = || {
+            let target = &self.script.targets[target as usize];
+            target.layout.shape == Shape::Joints
+        };
+        match *how {
+            // numbers of the text do not know of a correction
+            How::PartNumber(_) => OVERWRITTEN,
+            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints() => by,
+            How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
+            // what is computed is mostly the old value and something more
+            _ => DISPLACED_SOMEHOW,
+        }
     }
 
     /// A record with other parts; `None` where it is none.

@@ -1,7 +1,7 @@
 //! Numbers of position registers that a program has just written: `PR[9,1]=(-30)` to `PR[9,6]=0`,
 //! then `UTOOL[9]=PR[9]`.
 
-use super::words::{assigned, behind_group, concerns_group_1, register, whole, word_length};
+use super::words::{assigned, concerns_group_1, element, register, word_length};
 use crate::geometry::Pose;
 use crate::program::notation::pose_of_angles;
 use crate::program::number;
@@ -69,10 +69,7 @@ impl Constants {
             self.written.remove(&number);
             return;
         }
-        let index = behind_group(index).split(|&b| b == b':').next();
-        let element =
-            index.and_then(|index| whole(index.rsplit(|&b| b == b',').next()?.trim_ascii()));
-        let element = element.and_then(|element| (element as usize).checked_sub(1));
+        let element = element(index).and_then(|element| (element as usize).checked_sub(1));
         let inside = value
             .strip_prefix(b"(")
             .and_then(|value| value.strip_suffix(b")"));

@@ -7,12 +7,14 @@ use super::lines::Line;
 use super::moves::Row;
 use super::reader::{Reader, called};
 use super::words::{
-    Named, Register, assigned, behind_group, comma, concerns_group_1, each_position, indexed,
-    is_word, motion, parts, position, register, whole, word_length, words,
+    Named, Register, assigned, behind_group, comma, concerns_group_1, each_position, element,
+    indexed, is_word, motion, parts, position, register, whole, word_length, words,
 };
+use crate::program::notation::shift_of;
 use crate::program::script::{
     Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Write, Written, short,
 };
+use crate::program::{Shift, number};
 use std::collections::BTreeSet;
 
 /// Conditions inside conditions.
@@ -404,7 +406,11 @@ impl Reader<'_> {
     fn set_register(&mut self, index: &[u8], value: &[u8]) {
         let Register { number, is_element } = register(index);
         let how = if is_element {
-            How::part(value, self.controller.computed)
+            let computed = self.controller.computed;
+            match grown(index, value) {
+                Some(shift) => self.builder.script.part_by(computed, shift),
+                None => How::part(value, computed),
+            }
         } else {
             How::Whole(self.position_value(value))
         };
@@ -458,6 +464,20 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// By what `PR[4,3]=` displaces a register: 200 mm where `PR[4,3]+200` is behind it.
+fn grown(index: &[u8], value: &[u8]) -> Option<Shift> {
+    let own = (register(index).number?, element(index)?);
+    let is_own = |term: &[u8]| {
+        let inside = term.strip_prefix(b"PR[").and_then(|t| t.strip_suffix(b"]"));
+        inside.is_some_and(|inside| {
+            let same = (register(inside).number, element(inside)) == (Some(own.0), Some(own.1));
+            same && concerns_group_1(inside)
+        })
+    };
+    let by = number::added(value, is_own)?;
+    shift_of((own.1 as usize).checked_sub(1)?, by)
 }
 
 /// Whether `THEN` ends a condition.

@@ -84,6 +84,12 @@ pub(super) fn register(index: &[u8]) -> Register {
     }
 }
 
+/// Which number of a register is meant: 2 of `4,2:name`.
+pub(super) fn element(index: &[u8]) -> Option<u32> {
+    let index = behind_group(index).split(|&b| b == b':').next()?;
+    whole(index.rsplit(|&b| b == b',').next()?.trim_ascii())
+}
+
 /// The length of what stands before the `]` that closes a bracket.
 pub(super) fn bracket_end(inside: &[u8]) -> Option<usize> {
     let mut depth = 0_u32;

@@ -36,6 +36,7 @@ mod lines;
 mod moves;
 mod rconf;
 mod reader;
+mod relative;
 mod remarks;
 mod variables;
 

@@ -213,6 +213,12 @@ impl<'a> Reader<'a> {
         if self.here.is_relative && !is_free {
             reasons.push(self.variables.reason(&mut self.builder, Cause::Relative));
         }
+        if let Some(target) = target {
+            let header = self.positions.header(target);
+            if header.coordinates() == Some(Coordinates::Rectangular) {
+                reasons.extend(self.here.frames.against(header));
+            }
+        }
         for name in [base, station].into_iter().flatten() {
             let reason = self.external(name);
             reasons.extend(reason.filter(|_| !is_free));

@@ -4,6 +4,7 @@ use super::cnd::Conditions;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
+use super::relative::{Frames, Given, given, is_relative};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
 use crate::program::number::whole;
@@ -44,6 +45,7 @@ pub(super) fn script<'a>(
         here: Here::default(),
         external_names,
         written_external: written_external(sources, &positions),
+        given_frames: given(sources, &positions),
         positions,
     };
     for job in &reader.positions.jobs {
@@ -72,6 +74,8 @@ pub(super) struct Here {
     pub is_moving: bool,
     /// Its user frame turns with a station.
     pub is_relative: bool,
+    /// User frames that calls give it.
+    pub frames: Frames,
     /// It has been said that RCONF of the post is not used.
     pub said_rconf: bool,
     /// Reasons against moves with base and station axes that do not stand at zero.
@@ -113,6 +117,8 @@ pub(super) struct Reader<'a> {
     pub(super) external_names: &'a ExternalNames,
     /// Variables with axes of a base or a station that some job writes.
     written_external: HashSet<WrittenExternal>,
+    /// Calls that give jobs a user frame.
+    given_frames: Vec<Given<'a>>,
 }
 
 /// The letters of variables with axes of a base or a station, and their number; none where only the
@@ -139,28 +145,18 @@ fn written_external(sources: &[Source], positions: &Positions) -> HashSet<Writte
     written.collect()
 }
 
-/// Whether the head of a job says that its user frame turns with a station: `///ATTR SC,RW,RJ` with
-/// a group `ST1`.
-fn is_relative(job: &[u8]) -> bool {
-    let head = || Lines::from(job, 0).filter_map(|line| line.text.strip_prefix(b"///"));
-    let has = |line: &[u8], is: &dyn Fn(&[u8]) -> bool| {
-        let mut words = line.split(|b| b.is_ascii_whitespace() || *b == b',');
-        words.any(is)
-    };
-    let relative = |line: &[u8]| line.starts_with(b"ATTR") && has(line, &|word| word == b"RJ");
-    let station = |line: &[u8]| line.starts_with(b"GROUP") && has(line, &|w| w.starts_with(b"ST"));
-    head().any(relative) && head().any(station)
-}
-
 impl<'a> Reader<'a> {
     fn job(&mut self, job: usize) {
         let (sources, of) = (self.sources, &self.positions.jobs[job]);
         let source = &sources[of.file as usize];
         let range = of.instructions.clone();
+        let (relative, of_station) = is_relative(&source.bytes[range.clone()]);
+        let (builder, given) = (&mut self.builder, &self.given_frames);
         self.here = Here {
             job,
             file: of.file,
-            is_relative: is_relative(&source.bytes[range.clone()]),
+            is_relative: of_station,
+            frames: Frames::of(builder, sources, given, (of.name, relative)),
             ..Here::default()
         };
         self.builder.open(short(job));

@@ -2,16 +2,21 @@
 //! tables.
 
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
-use super::frames::Table;
+use super::frames::{Table, pose_of, write_pose};
 use super::names::{DataKind, Datum, Fdat, Index, Stored, whole};
 use super::reader::Reader;
 use super::remarks;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
-use crate::geometry::units::m_from_mm;
-use crate::program::script::Remark;
-use crate::program::script::short;
+use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, MM, m_from_mm, mm_from_m};
+use crate::program::script::{Place, Remark, short};
 use crate::program::{External, ExternalUse, Layout, Load, Shape, Source, Target, TargetId};
 use std::ops::Range;
+
+/// So far, and so far rotated, `$ROBROOT` may be from the profile's base.
+const MOST_ROOT_GAP_M: f64 = 0.1 * MM;
+const MOST_ROOT_TURN_RAD: f64 = 0.01 * DEG;
 
 impl Reader {
     /// The names behind a type, each with sizes and a value or without.
@@ -179,6 +184,14 @@ impl Reader {
     ) -> Read<bool> {
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(name), &mut buffer);
+        if word == b"$ROBROOT" {
+            let place = self.place(name);
+            let frame = (cursor.blanks() == b'{').then(|| aggregate::read(cursor));
+            let numbers = frame.transpose()?.and_then(|frame| frame.frame());
+            let root = numbers.map(|numbers| pose_of(numbers.map(|number| number.value)));
+            self.declared.roots.extend(root.map(|root| (place, root)));
+            return Ok(true);
+        }
         let table = Table::named(word);
         if table.is_none() && word != b"MACHINE_FRAME_DAT" {
             return Ok(false);
@@ -227,6 +240,39 @@ impl Reader {
         }
         Ok(true)
     }
+}
+
+/// Machine data have the base elsewhere than the profile.
+pub(super) fn root_differs(
+    (place, root): &(Place, Pose),
+    base: &Pose,
+    sources: &[Source],
+) -> Option<Finding> {
+    let gap = root.separation(base);
+    if gap.distance_m <= MOST_ROOT_GAP_M && gap.angle_rad <= MOST_ROOT_TURN_RAD {
+        return None;
+    }
+    let shown = |pose: &Pose| {
+        let mut n = [0.0; 6];
+        write_pose(pose, &mut n);
+        let [x, y, z, a, b, c] = n;
+        format!("X {x:.3}, Y {y:.3}, Z {z:.3}, A {a:.3}, B {b:.3}, C {c:.3}")
+    };
+    let message = format!(
+        "$ROBROOT is {}, and `kinematics.base` of the profile is {}: {:.3} mm and {:.3} deg from \
+         it (the limit is {:.1} mm and {:.2} deg)",
+        shown(root),
+        shown(base),
+        mm_from_m(gap.distance_m),
+        gap.angle_rad / DEG,
+        mm_from_m(MOST_ROOT_GAP_M),
+        MOST_ROOT_TURN_RAD / DEG
+    );
+    let hint = "write $ROBROOT into `kinematics.base`; every tool and base of the program counts \
+        from there";
+    let source = &sources[place.file as usize];
+    let (at, id) = (place.offset as usize, "robot-root-differs");
+    Some(source.finding(at, id, Severity::Error, message, hint))
 }
 
 /// `{VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #CONSTANT}`

@@ -57,6 +57,8 @@ pub(super) struct Declared {
     pub moving: HashMap<u32, u32>,
     /// Bases that hang on a kinematic of another controller.
     pub of_others: std::collections::HashSet<u32>,
+    /// `$ROBROOT` of machine data, and where.
+    pub roots: Vec<(Place, Pose)>,
 }
 
 impl Declared {

@@ -9,17 +9,19 @@ use super::remarks::{assigned, computed, external_written};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
+use crate::program::notation::shift_of;
 use crate::program::script::{Expr, Held, How, Write, Written};
-use crate::program::{ExternalUse, Source, SpeedZone, number};
+use crate::program::{ExternalUse, Shift, Source, SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
 
-/// Functions that give the tool of the FDAT that is their argument.
-fn reads_fdat(name: &[u8]) -> bool {
-    name.eq_ignore_ascii_case(b"STOOL") || name.eq_ignore_ascii_case(b"STOOL2")
+/// Functions that give the tool of the FDAT, or the orientation of the LDAT, that is their argument.
+fn only_reads(name: &[u8]) -> bool {
+    let mut known = [&b"STOOL"[..], b"STOOL2", b"SORI_TYP"].into_iter();
+    known.any(|known| name.eq_ignore_ascii_case(known))
 }
 
 /// Which element `name[..].part=` writes, behind the name; `None` where it is no assignment.
@@ -66,6 +68,19 @@ fn refers_to_end(mut cursor: Cursor) -> bool {
 /// arguments of a routine.
 pub(super) fn is_kept(mut rest: Cursor) -> bool {
     written(rest).is_some() || rest.take(b'(') && rest.blanks() != b')'
+}
+
+/// By what `p.Z=` displaces a position: 200 mm where `p.Z+200` is behind it.
+fn grown(part: &[u8], own: &[u8], value: &[u8]) -> Option<Shift> {
+    let own = own.trim_ascii_end().strip_suffix(b"=")?;
+    let letters = |text: &[u8]| -> Vec<u8> {
+        let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
+        letters.map(u8::to_ascii_uppercase).collect()
+    };
+    let own = letters(own);
+    let by = number::added(value, |term| letters(term) == own)?;
+    let [letter] = part else { return None };
+    shift_of(b"XYZC".iter().position(|known| known == letter)?, by)
 }
 
 impl Reader {
@@ -174,7 +189,7 @@ impl Reader {
             let token = cursor.next();
             match token.kind {
                 Kind::End => return,
-                Kind::Name if reads_fdat(cursor.text(token)) && cursor.peek().is(b'(') => {
+                Kind::Name if only_reads(cursor.text(token)) && cursor.peek().is(b'(') => {
                     cursor.take(b'(');
                     fresh = false;
                 }
@@ -536,10 +551,17 @@ impl Reader {
         let how = if let Some(axis) = axis {
             self.calls_in(cursor);
             How::Whole(self.unknown(external_written(axis)))
-        } else if part.is_some() {
+        } else if let Some(part) = part {
             self.calls_in(cursor);
-            let remark = self.builder.script.remark(computed());
-            How::part(&cursor.bytes[cursor.at..cursor.end], remark)
+            let own = &cursor.bytes[self.here.offset as usize..cursor.at];
+            let value = &cursor.bytes[cursor.at..cursor.end];
+            let value = value.split(|&b| b == b';').next().unwrap_or(value);
+            let script = &mut self.builder.script;
+            let remark = script.remark(computed());
+            match grown(part, own, value) {
+                Some(shift) => script.part_by(remark, shift),
+                None => How::part(value, remark),
+            }
         } else if cursor.peek().kind == Kind::End {
             return Ok(());
         } else {

@@ -1,5 +1,6 @@
 //! Variables that hold positions, and which targets the script has in the end.
 
+use super::data::root_differs;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
 use super::remarks::{accurate, ambiguous, computed, home, passed, unfollowed};
@@ -294,6 +295,11 @@ impl Reader {
             let (id, severity) = (remark.id, remark.severity);
             let finding = source.finding(offset as usize, id, severity, message, remark.hint);
             script.findings.push(finding);
+        }
+        if let Some(base) = &settings.world_from_base {
+            let roots = self.declared.roots.iter();
+            let differ = roots.filter_map(|root| root_differs(root, base, sources));
+            script.findings.extend(differ);
         }
         let mut kept = named_targets(&mut script);
         accurate_targets(&mut script, &kept, settings, sources);

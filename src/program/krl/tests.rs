@@ -279,12 +279,48 @@ fn points_that_the_program_changes_are_refused() {
 
 #[test]
 fn points_that_another_is_computed_from_are_displaced() {
-    let program = path("DECL E6POS above\nabove=XP1\nabove.Z=above.Z+100\nLIN above\nLIN XP1");
+    let program = path("DECL E6POS above\nabove=XP1\nabove.Z=above.Z+hop\nLIN above\nLIN XP1");
     assert_eq!(to(&program), ["XP1", "XP1"]);
     assert_eq!(program.moves[0].displacement, Displacement::Unknown);
     assert_eq!(program.moves[1].displacement, Displacement::None);
     let program = path("DECL E6POS above\nabove=XP1:{X 0,Y 0,Z -50,A 0,B 0,C 0}\nLIN above");
     assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
+}
+
+#[test]
+fn a_number_of_the_text_displaces_by_what_it_says() {
+    let by = |lines: &str| {
+        let program = path(&format!("DECL E6POS p\np=XP1\n{lines}\nLIN p"));
+        assert_eq!(to(&program), ["XP1"], "{lines}");
+        program.moves[0].displacement.clone()
+    };
+    let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    for (lines, wanted) in [
+        ("p.Z=p.Z+200 ; up", along([0.0, 0.0, 0.2])),
+        ("p.x = -50 + P.X", along([-0.05, 0.0, 0.0])),
+        ("p.Z=p.Z+200\np.Y=p.Y-(10.0)", along([0.0, -0.01, 0.2])),
+        ("p.Z=p.Z+hop", Displacement::Unknown),
+        ("p.Z=XP2.Z+200", Displacement::Unknown),
+        ("p.A=p.A+10", Displacement::Unknown),
+        ("p.Z=200 ; down", Displacement::Overwritten),
+        (
+            "p.Z=p.Z+200\nIF $IN[1] THEN\nENDIF\np.Z=p.Z+1",
+            Displacement::Unknown,
+        ),
+    ] {
+        assert_eq!(by(lines), wanted, "{lines}");
+    }
+    let Displacement::By(turned) = by("p.C=p.C+90") else {
+        panic!("about the axis of the tool");
+    };
+    assert_eq!(turned.in_frame, Pose::identity());
+    assert!((turned.in_tool.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
+    // numbers of axes are no millimetres
+    let program = path("DECL E6AXIS q\nq=XHOME\nq.Z=q.Z+1\nPTP q");
+    assert_eq!(program.moves[0].displacement, Displacement::Unknown);
+    // its own numbers: the controller keeps them
+    let program = path("XP1.Z=XP1.Z+200\nLIN XP1");
+    assert_eq!(blocked(&program), ["XP1"]);
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! Puts statements together: blocks become labels, branches and jumps.
 
 use super::{
-    Call, Condition, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start,
-    Statement, VariableId, Write, short,
+    Call, Condition, How, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start,
+    Statement, VariableId, Write, Written, short,
 };
+use crate::program::{Displacement, Shift};
 use foldhash::HashMap;
 
 /// Adds the statements of routines to a script, one routine after another.
@@ -92,10 +93,34 @@ impl Builder {
     }
 
     /// A write.
-    pub fn write(&mut self, write: Write) {
+    pub fn write(&mut self, mut write: Write) {
+        self.join_shifts(&mut write);
         let at = short(self.script.writes.len());
         self.script.writes.push(write);
         self.script.statements.push(Statement::Write(at));
+    }
+
+    /// Several parts of one position that grow in a row are one displacement.
+    fn join_shifts(&mut self, write: &mut Write) {
+        let script = &mut self.script;
+        if let (How::PartBy(_, by), Written::One(_)) = (&mut write.how, write.variable)
+            && let Displacement::By(shift) = &script.displacements[*by as usize]
+            && let Some(Statement::Write(last)) = script.statements.last()
+            && let Write {
+                variable: same,
+                how: How::PartBy(_, before),
+                ..
+            } = &script.writes[*last as usize]
+            && *same == write.variable
+            && let Displacement::By(before) = &script.displacements[*before as usize]
+        {
+            let shift = Shift {
+                in_frame: shift.in_frame * before.in_frame,
+                in_tool: before.in_tool * shift.in_tool,
+            };
+            *by = script.displacement(Displacement::By(Box::new(shift)));
+            script.statements.pop();
+        }
     }
 
     /// A call.

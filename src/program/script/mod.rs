@@ -579,6 +579,8 @@ pub enum How {
     PartSomehow(RemarkId),
     /// A part of a position becomes a number of the text.
     PartNumber(RemarkId),
+    /// A part of a position grows by a number of the text: that displaces it.
+    PartBy(RemarkId, DisplacementId),
 }
 
 /// A call.
@@ -615,7 +617,8 @@ impl How {
     pub fn part(text: &[u8], remark: RemarkId) -> Self {
         let text = text.trim_ascii();
         let text = text.strip_prefix(b"=").unwrap_or(text).trim_ascii();
-        if super::number::parse(text).is_some() {
+        let inside = text.strip_prefix(b"(").and_then(|t| t.strip_suffix(b")"));
+        if super::number::parse(inside.unwrap_or(text).trim_ascii()).is_some() {
             Self::PartNumber(remark)
         } else {
             Self::PartSomehow(remark)

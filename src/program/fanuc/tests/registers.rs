@@ -83,6 +83,39 @@ fn a_register_that_is_a_copy_of_a_point_is_that_point() {
 }
 
 #[test]
+fn a_number_of_the_text_displaces_a_register_by_what_it_says() {
+    let by = |lines: &str| {
+        let lines = format!(
+            "UTOOL_NUM=1 ;\nUFRAME_NUM=2 ;\nJ P[1] 1% FINE ;\nPR[4]=P[2] ;\n{lines}\nL PR[4] \
+             9mm/sec FINE ;"
+        );
+        let program = read(&lines, &two());
+        assert_eq!(to(&program)[1].0, Some("P[2]"), "{lines}");
+        program.moves[1].displacement.clone()
+    };
+    let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    for (lines, wanted) in [
+        ("PR[4,3]=PR[4,3]+200 ;", along([0.0, 0.0, 0.2])),
+        (
+            "PR[4,1:above]=PR[GP1:4,1:above]+(-30) ;\nPR[4,3]=PR[4,3]+40 ;",
+            along([-0.03, 0.0, 0.04]),
+        ),
+        ("PR[4,3]=PR[5,3]+200 ;", Displacement::Unknown),
+        ("PR[4,3]=PR[4,2]+200 ;", Displacement::Unknown),
+        ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unknown),
+        ("PR[4,6]=PR[4,6]+90 ;", Displacement::Unknown),
+        ("PR[4,3]=(-200) ;", Displacement::Overwritten),
+    ] {
+        assert_eq!(by(lines), wanted, "{lines}");
+    }
+    let Displacement::By(turned) = by("PR[4,4]=PR[4,4]+90 ;") else {
+        panic!("about the axis of the tool");
+    };
+    let angle = turned.in_tool.rotation.angle();
+    assert!((angle - 90_f64.to_radians()).abs() < 1e-12);
+}
+
+#[test]
 fn a_register_goes_with_the_active_numbers_which_points_tell() {
     // the controller went to P[1], so that its numbers are selected
     let lines = "PR[4]=P[2] ;\nJ P[1] 1% FINE ;\nL PR[4] 9mm/sec FINE ;";

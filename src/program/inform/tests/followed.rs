@@ -273,6 +273,45 @@ fn jobs_relative_to_a_station_are_recognised_in_every_line_end() {
 }
 
 #[test]
+fn jobs_that_a_call_gives_another_user_frame_are_refused() {
+    let positions = format!(
+        "{USER}{}///TOOL 3\n///POSTYPE ANGLE\n///ANGLE\nC00001={P6}",
+        points(1)
+    );
+    let sub = |line: &str| job(&positions, line).replace("NAME A", "NAME SUB");
+    let sub = sub("MOVJ C00001\nMOVL C00000").replace("SC,RW\n", "SC,RW,RJ\n");
+    let pose = format!("{USER}{}", points(1));
+    for (call, is_refused) in [
+        ("CALL JOB:SUB UF#(4)", true),
+        ("CALL JOB:SUB ARGF1 UF#(B000) IF IN#(1)=ON", true),
+        ("JUMP JOB:SUB UF#(4)", true),
+        ("CALL IG#(1) UF#(4)", true),
+        ("CALL JOB:SUB UF#(12)", false),
+        ("CALL JOB:OTHER UF#(4)", false),
+        ("CALL JOB:SUB", false),
+    ] {
+        let main = job(&pose, &format!("MOVL C00000\n{call}"));
+        let program = read_files(&[&main, &sub], &Settings::default()).expect("two jobs");
+        let refused = program
+            .findings
+            .iter()
+            .find(|f| f.id == "frame-assigned-at-run-time");
+        assert_eq!(
+            refused.is_some(),
+            is_refused,
+            "{call}: {:?}",
+            program.findings
+        );
+        if let Some(refused) = refused {
+            let says = "0.JBI line 17 calls the job with ";
+            assert!(refused.message.contains(says), "{}", refused.message);
+        }
+        let blocked: Vec<bool> = program.targets.iter().map(|t| t.blocked).collect();
+        assert_eq!(blocked, [false, is_refused, false], "{call}");
+    }
+}
+
+#[test]
 fn rconf_tells_the_wrist_where_a_job_begins_with_a_pose() {
     let begins = |fields: usize| {
         let rconf = format!("///RCONF 1{}\n", ",0".repeat(fields - 1));

@@ -515,6 +515,11 @@ fn a_kept_orientation_is_refused_where_the_target_has_another() {
             ),
             kept,
         ),
+        (
+            format!("$ORI_TYPE=SORI_TYP(LCPDAT1)\n{points}{other}"),
+            kept,
+        ),
+        (format!("$ORI_TYPE=SORI_TYP(LCPDAT2)\n{points}{other}"), &[]),
     ] {
         let text = format!("DEF M()\nBAS(#INITMOV,0)\nBAS(#TOOL,1)\nBAS(#BASE,2)\n{text}\nEND\n");
         let data = "DEFDAT M\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP \

@@ -209,3 +209,50 @@ fn broken_text_is_refused_with_its_place() {
         Err(ReadError::Binary { .. })
     ));
 }
+
+#[test]
+fn machine_data_with_another_robot_root_are_an_error() {
+    let machine = |root: &str| {
+        format!("DEFDAT $MACHINE PUBLIC\nINT $NUM_AX=6\nFRAME $ROBROOT={root}\nENDDAT\n")
+    };
+    let program = |root: &str, base: Option<Pose>| {
+        let settings = Settings {
+            world_from_base: base,
+            ..Settings::default()
+        };
+        let text = "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,2)\nLIN XP1\nEND\n";
+        let files = [
+            ("m.src", text),
+            ("m.dat", DATA),
+            ("$machine.dat", &*machine(root)),
+        ];
+        read_with(&files, &settings).expect("a program")
+    };
+    let above = Pose::from_translation(0.0, 0.0, 0.5);
+    let root = "{X 0.0,Y 0.0,Z 500.0,A 0.0,B 0.0,C 0.0}";
+    let same = "{FRAME: X 0.0,Y 0.05,Z 500.0,A 0.005,B 0.0,C 0.0}";
+    for (root, base, expected) in [
+        (root, Some(above), 0),
+        (same, Some(above), 0),
+        (root, None, 0),
+        (root, Some(Pose::identity()), 1),
+        ("{X 0,Y 0.2,Z 500,A 0,B 0,C 0}", Some(above), 1),
+        ("{X 0,Y 0,Z 500,A 0,B 0,C 0.1}", Some(above), 1),
+    ] {
+        let program = program(root, base);
+        let differs = program
+            .findings
+            .iter()
+            .filter(|f| f.id == "robot-root-differs");
+        let differs: Vec<_> = differs.collect();
+        assert_eq!(differs.len(), expected, "{root} {base:?}");
+        for found in differs {
+            assert_eq!((found.severity, found.line), (Severity::Error, 3));
+            assert!(
+                found.message.contains("$ROBROOT is X 0.000, Y 0."),
+                "{}",
+                found.message
+            );
+        }
+    }
+}
