@@ -1,7 +1,8 @@
 //! Names, and what they mean where they are used.
 //!
 //! Names are case-insensitive. Data of a routine hide those of its module, those of a module hide
-//! those of others; LOCAL data are seen in their own module only.
+//! those of others; LOCAL data are seen in their own module only. What several modules share is one
+//! thing in all of them.
 
 use crate::program::Source;
 use crate::program::script::short;
@@ -208,6 +209,29 @@ impl Scopes {
         self.scope(name, context, local, declaration);
     }
 
+    /// Adds the declarations of one thing that these modules declare: each of them, and all others,
+    /// mean the same by its name.
+    pub(super) fn add_shared(&mut self, name: Symbol, modules: &[u32], declarations: &[u32]) {
+        let at = name.0 as usize;
+        if self.slots.len() <= at {
+            self.slots.resize(at + 1, Slot::Free);
+        }
+        if let Slot::Once {
+            context,
+            local,
+            declaration,
+        } = std::mem::replace(&mut self.slots[at], Slot::Often)
+        {
+            self.scope(name, context, local, declaration);
+        }
+        for &declaration in declarations {
+            for &module in modules {
+                self.insert(Scope::Module(module), name, declaration);
+            }
+            self.insert(Scope::Everywhere, name, declaration);
+        }
+    }
+
     fn scope(&mut self, name: Symbol, context: Context, local: bool, declaration: u32) {
         if let Some(routine) = context.routine {
             self.insert(Scope::Routine(routine), name, declaration);
@@ -317,5 +341,23 @@ mod tests {
             panic!("one meaning only");
         };
         assert_eq!(scopes.several(list), [1, 2]);
+    }
+
+    #[test]
+    fn what_modules_share_is_the_same_in_all() {
+        let (mut scopes, p, q) = (Scopes::default(), Symbol(0), Symbol(1));
+        scopes.add(p, at(7, None), true, 9);
+        scopes.add_shared(p, &[0, 1], &[2]);
+        for module in [0, 1, 5] {
+            assert_eq!(scopes.meaning(p, at(module, None)), Meaning::One(2));
+        }
+        assert_eq!(scopes.meaning(p, at(7, None)), Meaning::One(9));
+        scopes.add_shared(q, &[0, 1], &[3, 4]);
+        for module in [0, 1, 5] {
+            let Meaning::Several(list) = scopes.meaning(q, at(module, None)) else {
+                panic!("one meaning only");
+            };
+            assert_eq!(scopes.several(list), [3, 4]);
+        }
     }
 }

@@ -5,8 +5,10 @@
 //! are [`Leaf::Computed`].
 
 use super::reader::Reader;
+use super::syntax::Part;
 use super::tokens::{Fault, Kind, Token};
 use crate::program::number;
+use crate::program::script::short;
 
 pub(super) const ROBTARGET: &[u8] = b"[[nnn][nnnn][nnnn][nnnnnn]]";
 pub(super) const JOINTTARGET: &[u8] = b"[[nnnnnn][nnnnnn]]";
@@ -58,18 +60,37 @@ impl Leaf {
 pub(super) struct Leaves {
     leaves: [Leaf; MOST],
     count: usize,
+    /// The names in the first of them.
+    names: [Part; PLACES],
 }
+
+/// Leaves whose names are kept: coordinates, or joints.
+const PLACES: usize = 6;
 
 impl Leaves {
     pub(super) fn new() -> Self {
         Self {
             leaves: [Leaf::Missing; MOST],
             count: 0,
+            names: [(0, 0); PLACES],
         }
     }
 
     pub(super) fn as_slice(&self) -> &[Leaf] {
         &self.leaves[..self.count]
+    }
+
+    /// The names in each of the first leaves, parts of [`super::syntax::Parsed::mentions`].
+    pub(super) fn names(&self, count: usize) -> &[Part] {
+        &self.names[..count]
+    }
+
+    /// Adds a leaf with these names in it.
+    fn add(&mut self, leaf: Leaf, names: Part) {
+        if let Some(slot) = self.names.get_mut(self.count) {
+            *slot = names;
+        }
+        self.push(leaf);
     }
 
     fn push(&mut self, leaf: Leaf) {
@@ -95,6 +116,7 @@ impl Reader<'_> {
         let mut depth = 0;
         let mut at = 0;
         while let Some(&part) = template.get(at) {
+            let first_name = short(self.parsed.mentions.len());
             match part {
                 b']' => {
                     if !self.token.is(b']') {
@@ -114,14 +136,15 @@ impl Reader<'_> {
                 b'[' => {
                     let end = closing(template, at);
                     self.computed(&openers, depth)?;
+                    let names = (first_name, short(self.parsed.mentions.len()));
                     for _ in template[at..end].iter().filter(|b| b.is_ascii_lowercase()) {
-                        leaves.push(Leaf::Computed);
+                        leaves.add(Leaf::Computed, names);
                     }
                     at = end;
                 }
                 _ => {
                     let leaf = self.leaf(part, &openers, depth)?;
-                    leaves.push(leaf);
+                    leaves.add(leaf, (first_name, short(self.parsed.mentions.len())));
                     at += 1;
                 }
             }

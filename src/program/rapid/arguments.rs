@@ -1,8 +1,8 @@
 //! Arguments of instructions: names, targets written out, Offs and `RelTool` around them.
 
-use super::aggregate::{self, JOINTTARGET, LOADDATA, Leaf, ROBTARGET};
+use super::aggregate::{self, JOINTTARGET, LOADDATA, Leaf, Leaves, ROBTARGET};
 use super::reader::Reader;
-use super::syntax::{Amount, BadValue, Base, Expression, Index, Part, Path, Step, Verb};
+use super::syntax::{Amount, BadValue, Base, Composed, Expression, Index, Part, Path, Step, Verb};
 use super::tokens::{Fault, Kind, Token};
 use crate::geometry::Quaternion;
 use crate::program::script::short;
@@ -52,8 +52,8 @@ impl Reader<'_> {
                     return Ok(Expression::Point { base, steps });
                 }
             }
-            Some(Written::Composed(names)) if self.argument_ends() => {
-                return Ok(Expression::Composed(names));
+            Some(Written::Composed(composed)) if self.argument_ends() => {
+                return Ok(Expression::Composed(composed));
             }
             _ => {}
         }
@@ -297,13 +297,7 @@ impl Reader<'_> {
             }
             Err(fault) => return Err(fault),
         };
-        Ok(Some(self.target(
-            shape,
-            None,
-            offset,
-            leaves.as_slice(),
-            mentions,
-        )))
+        Ok(Some(self.target(shape, None, offset, &leaves, mentions)))
     }
 
     /// Parsed a target with its numbers. One with expressions in it has none; the names in them
@@ -313,14 +307,15 @@ impl Reader<'_> {
         shape: Shape,
         name: Option<Box<str>>,
         offset: u32,
-        leaves: &[Leaf],
+        all: &Leaves,
         mentions: u32,
     ) -> Written {
         let target = self.parsed.targets.len();
-        let kept = match shape {
-            Shape::Pose => POSE_NUMBERS,
-            Shape::Joints => JOINT_NUMBERS,
+        let (kept, places) = match shape {
+            Shape::Pose => (POSE_NUMBERS, 3),
+            Shape::Joints => (JOINT_NUMBERS, JOINT_NUMBERS),
         };
+        let leaves = all.as_slice();
         let start = self.parsed.numbers.len();
         for leaf in &leaves[..kept] {
             let Leaf::Number {
@@ -330,7 +325,7 @@ impl Reader<'_> {
             } = *leaf
             else {
                 self.parsed.numbers.truncate(start);
-                return Written::Composed((mentions, short(self.parsed.mentions.len())));
+                return Written::Composed(self.compose(mentions, all.names(places)));
             };
             self.parsed.numbers.push(Number {
                 start: at,
@@ -363,14 +358,46 @@ impl Reader<'_> {
         });
         Written::Base(Base::Target(short(target)))
     }
+
+    /// Notes a value with expressions in it, whose names begin at `mentions`.
+    fn compose(&mut self, mentions: u32, places: &[Part]) -> u32 {
+        self.parsed.composed.push(Composed {
+            names: (mentions, short(self.parsed.mentions.len())),
+            places: places.into(),
+        });
+        short(self.parsed.composed.len() - 1)
+    }
+
+    /// `[x, y + 1, 150]`, the present token is the bracket; `None` where something else follows it,
+    /// then nothing is passed over.
+    pub(super) fn list(&mut self) -> Result<Option<Expression>, Fault> {
+        let mark = self.mark();
+        let mentions = short(self.parsed.mentions.len());
+        let mut places = Vec::new();
+        loop {
+            self.advance()?;
+            places.push(self.expression()?);
+            if !self.token.is(b',') {
+                break;
+            }
+        }
+        if self.token.is(b']') {
+            self.advance()?;
+            if self.argument_ends() {
+                return Ok(Some(Expression::List(self.compose(mentions, &places))));
+            }
+        }
+        self.rewind(mark);
+        Ok(None)
+    }
 }
 
 /// What stands where a target belongs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Written {
     Base(Base),
-    /// Parts of it are expressions with these names.
-    Composed(Part),
+    /// Parts of it are expressions: index in [`super::syntax::Parsed::composed`].
+    Composed(u32),
 }
 
 /// The first number of a target that no robot can use.

@@ -79,7 +79,7 @@ const WRITING_FUNCTIONS: &[(&str, u8)] = &[("getnextsym", 0), ("strtoval", 1), (
 
 /// Functions that tell where the robot is, or where it is taken to be for joints or a pose.
 const ACTUAL_FUNCTIONS: &str = "\
-    calcjointt calcrobt cjointt crobt";
+    calcjointt calcrobt cjointt cpos crobt";
 
 /// Functions that write nothing.
 const HARMLESS_FUNCTIONS: &str = "\
@@ -88,7 +88,7 @@ const HARMLESS_FUNCTIONS: &str = "\
     bitcheck bitcheckdnum bitlsh bitlshdnum bitneg bitnegdnum bitor bitordnum bitrsh bitrshdnum \
         bitxor bitxordnum \
     bytetostr camgetexposure camgetloadedjob camgetname camnumberofresults cdate clkread corrread \
-        cos cosdnum cpos \
+        cos cosdnum \
     ctime ctool cwobj dectohex defaccframe defdframe defframe dim dinput distance dnumtonum \
         dnumtostr dotprod \
     doutput eulerzyx eventtype execlevel exp filesize filetime fssize getaxisdistance \

@@ -97,10 +97,11 @@ impl Translator<'_> {
                 Base::Function(_) => false,
             },
             Expression::Member { name, .. } => is_target(name),
-            Expression::Composed(part) | Expression::Computed(part) => resolved.parsed.mentions
-                [indices(part)]
-            .iter()
-            .any(|&name| is_target(name)),
+            Expression::Composed(_) | Expression::List(_) | Expression::Computed(_) => resolved
+                .parsed
+                .names_in(&argument.expression)
+                .iter()
+                .any(|&name| is_target(name)),
             Expression::Nothing | Expression::Text(..) | Expression::Load(_) => false,
         }
     }

@@ -46,7 +46,11 @@ impl Reader<'_> {
                 }
                 Type::Num if storage == Storage::Constant && dimensions == 0 => self.constant()?,
                 _ => {
-                    self.expression()?;
+                    let names = self.expression()?;
+                    if storage == Storage::Constant && names.0 < names.1 {
+                        let datum = short(self.parsed.data.len());
+                        self.parsed.initial.push((datum, names));
+                    }
                     Stored::Computed
                 }
             };
@@ -182,10 +186,10 @@ impl Reader<'_> {
                 [i, j] => format!("{spelled}{{{i},{j}}}").into(),
                 [i, j, k, ..] => format!("{spelled}{{{i},{j},{k}}}").into(),
             };
-            match self.target(shape, Some(full), offset, leaves.as_slice(), mentions) {
+            match self.target(shape, Some(full), offset, &leaves, mentions) {
                 Written::Base(Base::Target(target)) => Element::Target(target as usize),
                 Written::Base(_) => Element::Computed,
-                Written::Composed(names) => Element::Composed(names),
+                Written::Composed(composed) => Element::Composed(composed),
             }
         } else {
             let first = self.token;
@@ -303,10 +307,19 @@ impl Reader<'_> {
         while self.token.is(b'.') {
             self.advance()?;
             let word = self.text(self.token).to_ascii_lowercase();
-            found = found.and_then(|(so_far, _)| part(so_far, &word));
-            if found.is_none() {
-                found = Some((Component::Other, &b""[..]));
-            }
+            let before = found.map_or(Component::Other, |(so_far, _)| so_far);
+            found = part(before, &word).or_else(|| {
+                let is_place = match before {
+                    Component::Whole => matches!(word.as_slice(), b"trans" | b"robax"),
+                    before => before == Component::Place,
+                };
+                let other = if is_place {
+                    Component::Place
+                } else {
+                    Component::Other
+                };
+                Some((other, &b""[..]))
+            });
             self.advance()?;
             self.index()?;
         }
@@ -353,14 +366,20 @@ impl Reader<'_> {
                     return Ok((component, Assigned::Leaves((start, end))));
                 }
             };
-            let value = match self.target(shape, None, offset, leaves.as_slice(), mentions) {
+            let value = match self.target(shape, None, offset, &leaves, mentions) {
                 Written::Base(base) => Expression::Point {
                     base,
                     steps: (0, 0),
                 },
-                Written::Composed(names) => Expression::Composed(names),
+                Written::Composed(composed) => Expression::Composed(composed),
             };
             return Ok((component, Assigned::To(value)));
+        }
+        if self.token.is(b'[')
+            && matches!(component, Component::Whole | Component::Place)
+            && let Some(list) = self.list()?
+        {
+            return Ok((component, Assigned::To(list)));
         }
         self.argument(None)
             .map(|value| (component, Assigned::To(value)))
@@ -388,7 +407,7 @@ fn part(inside: Component, word: &[u8]) -> Option<(Component, &'static [u8])> {
     let inside = match inside {
         Component::Whole => None,
         Component::Leaves(first, _) => Some(first),
-        Component::Other => return None,
+        Component::Place | Component::Other => return None,
     };
     let (first, count, template): (u8, u8, &'static [u8]) = match (inside, word) {
         (None, b"robhold") => (0, 1, BOOL),

@@ -82,7 +82,7 @@ impl Translator<'_> {
                 declared.context,
                 depth + 1,
             ),
-            Element::Composed(names) => self.composed(names),
+            Element::Composed(composed) => self.composed(composed),
             Element::Computed => self.computed_name(declared.name),
         };
         if is_written {

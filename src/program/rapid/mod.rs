@@ -19,6 +19,7 @@ mod builtins;
 mod calls;
 mod confdata;
 mod declarations;
+mod derived;
 mod drive;
 mod elements;
 mod expressions;
@@ -29,6 +30,7 @@ mod moves;
 mod reader;
 mod records;
 mod resolved;
+mod shared;
 mod sniff;
 mod syntax;
 mod tokens;
@@ -189,12 +191,13 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     if verbs.hide(&parsed.routines) {
         parsed = parse(sources, parsed.symbols, &mut verbs)?;
     }
+    let groups = shared::groups(&parsed, sources);
     let mut script = Script {
         targets: std::mem::take(&mut parsed.targets),
         numbers: std::mem::take(&mut parsed.numbers),
         ..Script::default()
     };
-    let resolved = Resolved::new(parsed, verbs, sources);
+    let resolved = Resolved::new(parsed, verbs, &groups, sources);
     let mut dead = HashSet::new();
     for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];

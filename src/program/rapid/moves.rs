@@ -8,7 +8,7 @@ use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Expr, Held, How, Instruction, Modal, Remark, Span, Write, Written};
-use crate::program::{Motion, SpeedZone, number};
+use crate::program::{Motion, Source, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
 struct Parts {
@@ -19,8 +19,8 @@ struct Parts {
     load: Option<usize>,
     /// It has an ID for synchronised robots.
     synchronised: bool,
-    /// A sensor corrects its path.
-    corrected: bool,
+    /// The option with which a sensor corrects its path.
+    corrected: Option<&'static str>,
     /// External axes are not shifted in it.
     unshifted: bool,
     /// Speed and zone where they are predefined ones.
@@ -154,7 +154,9 @@ impl Translator<'_> {
             frame: wobj,
             load: option(words.tload),
             synchronised: option(words.id).is_some(),
-            corrected: option(words.corr).is_some(),
+            corrected: [(words.corr, "\\Corr"), (words.track, "\\Track")]
+                .into_iter()
+                .find_map(|(word, name)| option(word).map(|_| name)),
             unshifted: option(words.noeoffs).is_some(),
             speed_zone,
         })
@@ -272,7 +274,10 @@ impl Translator<'_> {
                 continue;
             }
             self.ambiguous = false;
-            let target = self.position_from(all[at].expression, wanted);
+            let target = match all[at].expression {
+                Expression::Member { .. } => self.in_record(all[at].span),
+                expression => self.position_from(expression, wanted),
+            };
             let guards = match (absolute, self.ambiguous) {
                 (true, false) if parts.unshifted => self.modes.unshifted_guards,
                 (true, false) => self.modes.absolute_guards,
@@ -308,6 +313,23 @@ impl Translator<'_> {
         if first == 2 {
             self.found(all);
         }
+    }
+
+    /// A target inside a record: the text that names it stands in this place.
+    fn in_record(&mut self, (start, end): (u32, u32)) -> Expr {
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let name = Source::text(&bytes[start as usize..end as usize]);
+        self.builder.script.unknown(Remark {
+            id: "computed-target",
+            severity: Severity::Warning,
+            text: format!(
+                "{}, where this move goes to, is a part of a record: targets inside records are \
+                 not followed; the move stays as it is",
+                name.trim()
+            )
+            .into(),
+            hint: "declare the target as data of its own, with numbers",
+        })
     }
 
     /// A search writes where the robot was when the signal came.
@@ -387,10 +409,12 @@ impl Translator<'_> {
             let hint = "both robots' programs have to be compensated";
             self.say("sync-move", Severity::Note, message.into(), hint);
         }
-        if parts.corrected {
-            let message = "a sensor corrects the path here (\\Corr): the targets are compensated, \
-                what the sensor adds is not";
-            self.say("corrected-by-sensor", Severity::Warning, message.into(), "");
+        if let Some(option) = parts.corrected {
+            let message = format!(
+                "a sensor corrects the path here ({option}): the targets are compensated, what the \
+                 sensor adds is not"
+            );
+            self.say("corrected-by-sensor", Severity::Warning, message, "");
         }
     }
 

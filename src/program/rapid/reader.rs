@@ -242,15 +242,19 @@ impl<'a> Reader<'a> {
     /// What follows `LOCAL`, or a declaration or routine without it; whether it is of the language,
     /// where anything is.
     fn routine_or_data(&mut self, start: u32, local: bool) -> Result<Option<bool>, Fault> {
-        if self.is_word(b"task") {
+        let of_task = self.is_word(b"task");
+        if of_task {
             self.advance()?;
         }
+        let persistent = if local || of_task {
+            Storage::Persistent
+        } else {
+            Storage::Shared
+        };
         let mut buffer = [0; KEYWORD];
         match keyword(self.text(self.token), &mut buffer) {
             b"const" => self.declaration(start, local, Storage::Constant).map(Some),
-            b"pers" => self
-                .declaration(start, local, Storage::Persistent)
-                .map(Some),
+            b"pers" => self.declaration(start, local, persistent).map(Some),
             b"var" => self.declaration(start, local, Storage::Variable).map(Some),
             b"proc" | b"func" | b"trap" => self.open_routine(local).map(|()| Some(true)),
             _ => Ok(None),

@@ -1,6 +1,8 @@
 //! Names resolved over all files: data, routines, and what may be written.
 
 use super::builtins::Known;
+use super::derived::Holder;
+use super::shared::Group;
 use super::syntax::{
     Argument, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
     StatementKind, Storage, Stored, Type, Verb, indices,
@@ -9,7 +11,7 @@ use super::verbs::Verbs;
 use crate::program::Source;
 use crate::program::names::{Context, Meaning, Scopes, Symbol};
 use crate::program::script::short;
-use foldhash::{HashSet, HashSetExt};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// All that was noted, with its names resolved.
 pub(super) struct Resolved<'a> {
@@ -29,6 +31,10 @@ pub(super) struct Resolved<'a> {
     filled: HashSet<u32>,
     /// Data a part of which is written, such as `p.trans`.
     in_parts: HashSet<u32>,
+    /// Data and functions that are no targets, whose numbers all come from targets.
+    pub(super) derived: HashSet<Holder>,
+    /// The group of each datum that tasks share, and whether its declarations are alike.
+    shared: HashMap<u32, (usize, bool)>,
 }
 
 /// Data: a declaration, or a name that the files do not declare.
@@ -58,10 +64,26 @@ struct Given {
 }
 
 impl<'a> Resolved<'a> {
-    pub(super) fn new(parsed: Parsed, verbs: Verbs, sources: &'a [Source]) -> Self {
+    pub(super) fn new(
+        parsed: Parsed,
+        verbs: Verbs,
+        groups: &[Group],
+        sources: &'a [Source],
+    ) -> Self {
         let (mut data, mut routines) = (Scopes::default(), Scopes::default());
-        for (at, datum) in parsed.data.iter().enumerate() {
-            data.add(datum.name, datum.context, datum.local, short(at));
+        let mut shared = HashMap::new();
+        for (at, group) in groups.iter().enumerate() {
+            let all = group
+                .members
+                .iter()
+                .map(|datum| (*datum, (at, group.alike)));
+            shared.extend(all);
+            data.add_shared(group.name, &group.modules, &group.declarations);
+        }
+        for (at, datum) in (0..).zip(&parsed.data) {
+            if !shared.contains_key(&at) {
+                data.add(datum.name, datum.context, datum.local, at);
+            }
         }
         for (at, routine) in parsed.routines.iter().enumerate() {
             let context = Context {
@@ -82,8 +104,11 @@ impl<'a> Resolved<'a> {
             scattered: HashSet::new(),
             filled: HashSet::new(),
             in_parts: HashSet::new(),
+            derived: HashSet::new(),
+            shared,
         };
         resolved.find_written();
+        resolved.find_derived();
         resolved
     }
 
@@ -103,9 +128,40 @@ impl<'a> Resolved<'a> {
         self.data.several(list)
     }
 
+    /// Whether several declarations are one datum with one value.
+    pub(super) fn are_alike(&self, list: u32) -> bool {
+        let of = |datum: &u32| self.shared.get(datum).filter(|of| of.1);
+        let all = self.several(list);
+        let first = all.first().and_then(of);
+        first.is_some() && all.iter().all(|datum| of(datum) == first)
+    }
+
+    /// Whether tasks share a datum.
+    pub(super) fn is_shared(&self, entity: Entity) -> bool {
+        matches!(entity, Entity::Declared(datum) if self.shared.contains_key(&datum))
+    }
+
+    /// Whether tasks share any.
+    pub(super) fn has_shared(&self) -> bool {
+        !self.shared.is_empty()
+    }
+
     /// What a function that is called here does if it is one of the language.
     pub(super) fn known(&self, function: &Function, context: Context) -> Known {
-        self.verbs.known(function.name, context.module)
+        self.known_function(function.name, context)
+    }
+
+    /// Likewise by its name.
+    pub(super) fn known_function(&self, name: Symbol, context: Context) -> Known {
+        self.verbs.known(name, context.module)
+    }
+
+    /// The function of the files that a name means.
+    pub(super) fn function_of(&self, name: Symbol, context: Context) -> Option<u32> {
+        match self.routines.meaning(name, context) {
+            Meaning::One(routine) => Some(routine),
+            _ => None,
+        }
     }
 
     pub(super) fn is_written(&self, entity: Entity) -> bool {
@@ -296,7 +352,7 @@ impl<'a> Resolved<'a> {
 
     /// Whether arguments are given to functions or instructions in [`Parsed::given`] or
     /// [`Parsed::arguments`].
-    fn list(&self, of_function: bool) -> &[Argument] {
+    pub(super) fn list(&self, of_function: bool) -> &[Argument] {
         if of_function {
             &self.parsed.given
         } else {

@@ -29,6 +29,10 @@ pub(super) struct Parsed {
     pub leaves: Vec<Leaf>,
     /// Names in expressions.
     pub mentions: Vec<Symbol>,
+    /// Values with expressions in them.
+    pub composed: Vec<Composed>,
+    /// Names in the values of constants: the datum and a part of [`Parsed::mentions`].
+    pub initial: Vec<(u32, Part)>,
     /// Calls of Offs and `RelTool`.
     pub steps: Vec<Step>,
     /// Indices of names in arguments.
@@ -57,7 +61,7 @@ pub(super) struct Parsed {
 
 /// Lengths of the lists that an argument adds to, to take it back.
 #[derive(Clone, Copy)]
-pub(super) struct Lengths([usize; 12]);
+pub(super) struct Lengths([usize; 13]);
 
 impl Parsed {
     /// Makes room for what a file of this size may hold, so that lists need not move while they
@@ -97,6 +101,16 @@ impl Parsed {
         }
     }
 
+    /// The names in a value with expressions in it.
+    pub(super) fn names_in(&self, value: &Expression) -> &[Symbol] {
+        let names = match *value {
+            Expression::Composed(at) | Expression::List(at) => self.composed[at as usize].names,
+            Expression::Computed(names) => names,
+            _ => (0, 0),
+        };
+        &self.mentions[indices(names)]
+    }
+
     /// The elements of a name that statements name, each with its number.
     pub(super) fn places_of(&self, name: Symbol) -> impl Iterator<Item = ([u32; 3], u32)> {
         let all = (name, [0; 3])..=(name, [u32::MAX; 3]);
@@ -119,6 +133,7 @@ impl Parsed {
             self.statements.len(),
             self.indices.len(),
             self.leaves.len(),
+            self.composed.len(),
         ])
     }
 
@@ -137,6 +152,7 @@ impl Parsed {
         self.statements.truncate(to[9]);
         self.indices.truncate(to[10]);
         self.leaves.truncate(to[11]);
+        self.composed.truncate(to[12]);
     }
 }
 
@@ -146,6 +162,15 @@ pub(super) type Part = (u32, u32);
 /// A part as a range of indices.
 pub(super) fn indices(part: Part) -> Range<usize> {
     part.0 as usize..part.1 as usize
+}
+
+/// A value in brackets with expressions in it.
+#[derive(Clone, Debug)]
+pub(super) struct Composed {
+    /// The names in it, in [`Parsed::mentions`].
+    pub names: Part,
+    /// Of a target those in each of its coordinates or joints, of other values those in each part.
+    pub places: Box<[Part]>,
 }
 
 /// A number that makes its target unusable.
@@ -181,7 +206,7 @@ pub(super) struct Routine {
 }
 
 /// The types of data that matter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Type {
     Robtarget,
     Jointtarget,
@@ -223,8 +248,10 @@ impl Type {
 pub(super) enum Storage {
     /// CONST: nothing can be written.
     Constant,
-    /// PERS: from run to run.
+    /// PERS: from run to run, of one task or module.
     Persistent,
+    /// PERS that is neither LOCAL nor TASK: all tasks that declare it have the same.
+    Shared,
     /// VAR.
     Variable,
     /// A parameter, with what its caller gives; what is written into it is written back where
@@ -269,8 +296,8 @@ pub(super) enum Element {
     Target(TargetId),
     /// A copy of another one.
     Named(Symbol),
-    /// Parts of it are expressions with these names: part of [`Parsed::mentions`].
-    Composed(Part),
+    /// Parts of it are expressions: index in [`Parsed::composed`].
+    Composed(u32),
     /// Anything else.
     Computed,
 }
@@ -296,9 +323,10 @@ pub(super) enum Expression {
     Point { base: Base, steps: Part },
     /// A component of data.
     Member { name: Symbol, index: u32 },
-    /// A target some of whose parts are expressions, with the names in it: part of
-    /// [`Parsed::mentions`].
-    Composed(Part),
+    /// A target some of whose parts are expressions: index in [`Parsed::composed`].
+    Composed(u32),
+    /// Any other list in brackets: likewise.
+    List(u32),
     /// Anything else, with the names in it: part of [`Parsed::mentions`].
     Computed(Part),
     /// A load that is written out: part of [`Parsed::leaves`].
@@ -370,6 +398,8 @@ pub(super) enum Component {
     Whole,
     /// So many leaves of a tool or frame from the first on (see [`super::aggregate`]).
     Leaves(u8, u8),
+    /// Coordinates or joints of a target: `trans`, `robax` or one of theirs.
+    Place,
     /// Any other.
     Other,
 }

@@ -2,10 +2,12 @@
 
 mod arrays;
 mod calls;
+mod derived;
 mod frames;
 mod posts;
 mod robust;
 mod samples;
+mod tasks;
 mod text;
 
 use super::*;

@@ -13,7 +13,7 @@ use crate::program::script::{
     Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
-use foldhash::{HashMap, HashMapExt, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Names of options.
 #[derive(Debug, Default)]
@@ -25,6 +25,7 @@ pub(super) struct Words {
     pub tload: Option<Symbol>,
     pub id: Option<Symbol>,
     pub corr: Option<Symbol>,
+    pub track: Option<Symbol>,
     pub noeoffs: Option<Symbol>,
     pub off: Option<Symbol>,
     pub wrist: Option<Symbol>,
@@ -64,6 +65,12 @@ pub(super) struct Translator<'a> {
     dead: HashSet<TargetId>,
     /// Names that the files do not declare and that moves use: what for.
     pub wanted: HashMap<Symbol, Type>,
+    /// Variables that tasks share.
+    pub shared: HashSet<VariableId>,
+    /// Of each routine whether others move the robot while it writes.
+    pub writes_meanwhile: Vec<bool>,
+    /// What is written so.
+    pub meanwhile: Vec<Write>,
     /// Data of each routine's own that are written in it.
     own: HashMap<u32, Vec<u32>>,
     /// A name in the present expression is declared more than once.
@@ -113,6 +120,7 @@ pub(super) fn translate(
             id: find(b"id"),
             noeoffs: find(b"noeoffs"),
             corr: find(b"corr"),
+            track: find(b"track"),
             off: find(b"off"),
             wrist: find(b"wrist"),
         },
@@ -133,6 +141,9 @@ pub(super) fn translate(
         presences: HashMap::new(),
         dead,
         wanted: HashMap::new(),
+        shared: HashSet::new(),
+        writes_meanwhile: resolved.written_meanwhile(),
+        meanwhile: Vec::new(),
         own: HashMap::new(),
         ambiguous: false,
         builder,
@@ -145,6 +156,7 @@ pub(super) fn translate(
     }
     translator.composed_axes(&settings.external);
     translator.close();
+    translator.run_meanwhile();
     translator.builder.finish()
 }
 
@@ -183,6 +195,7 @@ impl Translator<'_> {
     pub(super) fn emit_write(&mut self, write: Write) {
         self.may_fail();
         let variable = write.variable;
+        self.note_meanwhile(&write);
         self.builder.write(write);
         if let Written::One(element) = variable {
             self.gather(element);
@@ -196,6 +209,12 @@ impl Translator<'_> {
         for at in given {
             if let Some(element) = self.builder.script.arguments[at as usize].back {
                 self.gather(element);
+                let (place, how) = (self.here, How::PartSomehow(self.changed()));
+                self.note_meanwhile(&Write {
+                    place,
+                    variable: Written::One(element),
+                    how,
+                });
             }
         }
     }
@@ -370,9 +389,17 @@ impl Translator<'_> {
         };
         if component != Component::Whole {
             let changed = self.changed();
-            return match expression {
-                Expression::Computed((from, to)) if from == to => How::PartNumber(changed),
-                _ => How::PartSomehow(changed),
+            let is_number = match expression {
+                Expression::Computed((from, to)) if from == to => true,
+                _ => {
+                    component == Component::Place
+                        && !self.resolved.is_from_target(&expression, self.context)
+                }
+            };
+            return if is_number {
+                How::PartNumber(changed)
+            } else {
+                How::PartSomehow(changed)
             };
         }
         if let Expression::Point {
@@ -417,7 +444,7 @@ impl Translator<'_> {
                 Expression::Point { .. } => How::Whole(self.frame_from(expression)),
                 _ => How::Whole(self.frame_assigned()),
             },
-            (Component::Other, _) => How::PartSomehow(self.changed()),
+            (Component::Place | Component::Other, _) => How::PartSomehow(self.changed()),
         }
     }
 

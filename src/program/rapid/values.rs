@@ -4,15 +4,17 @@ use super::builtins::Known;
 use super::elements::element_name;
 use super::records::{assigned, load_of, part_of};
 use super::resolved::Entity;
-use super::syntax::{Amount, Base, Expression, Index, Part, Step, Storage, Stored, Type, indices};
+use super::syntax::{
+    Amount, Argument, Base, Expression, Index, Part, Step, Storage, Stored, Type, indices,
+};
 use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark,
-    RemarkId, Variable, VariableId, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place,
+    Remark, RemarkId, Variable, VariableId, short,
 };
 use crate::program::{Displacement, Shift};
 
@@ -132,7 +134,7 @@ impl Translator<'_> {
                 if all.is_empty() {
                     return self.not_in_files(name, wanted);
                 }
-                self.ambiguous = true;
+                self.ambiguous |= !resolved.are_alike(list);
                 self.builder.script.any(all)
             }
         }
@@ -153,9 +155,10 @@ impl Translator<'_> {
         }
     }
 
-    /// A target some of whose parts are expressions with these names.
-    pub(super) fn composed(&mut self, names: Part) -> Expr {
-        self.somewhere_near(names).unwrap_or_else(|| {
+    /// A target some of whose parts are expressions.
+    pub(super) fn composed(&mut self, composed: u32) -> Expr {
+        let value = Expression::Composed(composed);
+        self.somewhere_near(&value).unwrap_or_else(|| {
             self.builder.script.unknown(Remark {
                 id: "target-has-expressions",
                 severity: Severity::Warning,
@@ -168,15 +171,21 @@ impl Translator<'_> {
         })
     }
 
-    /// A position that is worked out from the targets with these names; `None` where there is none.
-    fn somewhere_near(&mut self, names: Part) -> Option<Expr> {
+    /// A position that is worked out from targets; `None` where it names none. Coordinates that come
+    /// from none of them do not know of a correction.
+    fn somewhere_near(&mut self, value: &Expression) -> Option<Expr> {
         let resolved = self.resolved;
+        let by = if resolved.has_own_place(value, self.context) {
+            OVERWRITTEN
+        } else {
+            DISPLACED_SOMEHOW
+        };
         let mut all = Vec::new();
-        for &name in &resolved.parsed.mentions[indices(names)] {
+        for &name in resolved.parsed.names_in(value) {
             let kind = resolved.kind(name, self.context);
             if kind.is_some_and(Type::is_target) {
                 let base = self.position(name, Index::Whole, Type::Robtarget);
-                all.push(self.builder.script.displaced(base, DISPLACED_SOMEHOW));
+                all.push(self.builder.script.displaced(base, by));
             }
         }
         (!all.is_empty()).then(|| self.builder.script.any(all))
@@ -202,9 +211,9 @@ impl Translator<'_> {
                 self.builder.script.displaced(base, by)
             }
             Expression::Member { name, .. } => self.computed_name(name),
-            Expression::Composed(names) => self.composed(names),
-            Expression::Computed(names) => self
-                .somewhere_near(names)
+            Expression::Composed(composed) => self.composed(composed),
+            Expression::List(_) | Expression::Computed(_) => self
+                .somewhere_near(&expression)
                 .unwrap_or_else(|| self.computed()),
         }
     }
@@ -219,8 +228,22 @@ impl Translator<'_> {
             };
         }
         let resolved = self.resolved;
+        let given = &resolved.parsed.given[indices(of.arguments)];
+        if given
+            .iter()
+            .any(|argument| self.is_constant_joints(argument))
+        {
+            return self.builder.script.unknown(Remark {
+                id: "computed-target",
+                severity: Severity::Warning,
+                text: "the position that this move goes to is that of joints in the text, as the \
+                       controller computes it: without a correction; the move stays as it is"
+                    .into(),
+                hint: AT_RUN_TIME,
+            });
+        }
         let mut near = Vec::new();
-        for argument in &resolved.parsed.given[indices(of.arguments)] {
+        for argument in given {
             let Some(name) = super::resolved::named(&argument.expression) else {
                 continue;
             };
@@ -239,6 +262,26 @@ impl Translator<'_> {
         } else {
             self.builder.script.any(near)
         }
+    }
+
+    /// Whether an argument of `CalcRobT` is joints that nothing writes, or that are written out.
+    fn is_constant_joints(&self, argument: &Argument) -> bool {
+        if argument.option.is_some() {
+            return false;
+        }
+        if let Expression::Computed((from, to)) = argument.expression {
+            return from == to;
+        }
+        let name = super::resolved::named(&argument.expression);
+        let meaning = name.map(|name| self.resolved.meaning(name, self.context));
+        let Some(Meaning::One(datum)) = meaning else {
+            return false;
+        };
+        let of = self.resolved.datum(datum);
+        let is_parameter = matches!(of.storage, Storage::Parameter { .. });
+        of.kind == Type::Jointtarget
+            && !is_parameter
+            && !self.resolved.is_written(Entity::Declared(datum))
     }
 
     // ---- tools and work objects
@@ -415,6 +458,9 @@ impl Translator<'_> {
             },
         };
         let made = script.variable(variable);
+        if self.resolved.is_shared(entity) {
+            self.shared.insert(made);
+        }
         self.variables.insert((entity, element), made);
         made
     }

@@ -8,14 +8,19 @@
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted};
+use super::syntax::{
+    Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted,
+};
 use super::tokens::{Kind, Scanner, Token};
 use super::variables::{VarId, Variables};
-use super::verbs;
+use super::verbs::{self, PoseCall};
 use crate::geometry::Pose;
 use crate::program::number;
-use crate::program::script::{self, RemarkId, short};
+use crate::program::script::{
+    self, DISPLACED_SOMEHOW, DisplacementId, OVERWRITTEN, RemarkId, short,
+};
 use foldhash::{HashMap, HashSet, HashSetExt};
+use std::ops::Range;
 
 /// Variables between a pose and the targets that it is computed from, that are looked into.
 const MOST_BETWEEN: usize = 256;
@@ -50,6 +55,50 @@ impl Reader<'_> {
             }
         }
         literal.names = short(first)..short(self.parsed.composed.len());
+        if literal.computed {
+            let coordinates = self.coordinates(open, end);
+            let literal = short(self.parsed.literals.len());
+            self.parsed.coordinates.insert(literal, coordinates);
+        }
+    }
+
+    /// The names in each of the first three elements behind `open`, and the functions that they call;
+    /// elements that ask where the robot is are left out.
+    fn coordinates(&mut self, open: Token, end: usize) -> Vec<Range<u32>> {
+        let mut ahead = self.scanner;
+        ahead.at = open.end;
+        let (mut found, mut elements, mut depth) = (Vec::new(), 0, 0);
+        let (mut first, mut asks) = (self.parsed.composed.len(), false);
+        while elements < 3
+            && ahead.at < end
+            && let Ok(token) = ahead.next()
+        {
+            match token.kind {
+                Kind::Sign(b'(' | b'[') => depth += 1,
+                Kind::Sign(b',' | b']') if depth == 0 => {
+                    let behind = self.parsed.composed.len();
+                    if !asks {
+                        found.push(short(first)..short(behind));
+                    }
+                    (first, asks) = (behind, false);
+                    elements += 1;
+                }
+                Kind::Sign(b')' | b']') => depth -= 1,
+                Kind::Word => {
+                    let text = self.text(token);
+                    let is_call = ahead.peek().is(b'(');
+                    asks |= is_call && verbs::value_of(text) == Some(PoseCall::Actual);
+                    let dot = memchr::memchr(b'.', text);
+                    let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+                    let known = &self.parsed.composed[first..];
+                    if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
+                        self.parsed.composed.push(symbol);
+                    }
+                }
+                _ => {}
+            }
+        }
+        found
     }
 }
 
@@ -96,22 +145,76 @@ impl Variables<'_, '_> {
     /// Variables whose values are computed from others, with those.
     pub(super) fn find_mentions(&mut self) {
         let parsed = self.parsed;
-        if parsed.composed.is_empty() {
+        let parts = parsed.assignments.iter().filter(|of| of.part);
+        let mut parts: HashMap<u32, Vec<VarId>> = parts.map(|of| (of.offset, Vec::new())).collect();
+        if parsed.composed.is_empty() && parts.is_empty() {
             return;
         }
         let assignments = parsed.assignments.iter().zip(&self.assigned);
-        let at: HashMap<u32, VarId> = assignments
+        let mut at: HashMap<u32, VarId> = assignments
             .map(|(assignment, variable)| (assignment.offset, *variable))
             .collect();
+        for (function, of) in (0..).zip(&parsed.functions) {
+            let result = self.result_of(function);
+            at.extend(of.events.iter().filter_map(|event| match event {
+                Event::Return(_, offset) => Some((*offset, result?)),
+                _ => None,
+            }));
+        }
         for &(name, function, offset) in &parsed.mentions {
             if let (Some(to), Some(from)) = (at.get(&offset), self.meaning(name, function)) {
                 self.mentioned.entry(*to).or_default().push(from);
+                if let Some(part) = parts.get_mut(&offset) {
+                    part.push(from);
+                }
             }
         }
+        self.mentioned_in_parts = parts;
     }
 
-    /// The positions that moves go to whose numbers may flow into what is computed from variables.
-    fn positions_behind(&self, mut open: Vec<VarId>) -> Vec<VarId> {
+    /// Whether an assignment writes a coordinate, or a joint, over that comes from no target and not
+    /// from where the robot is.
+    pub(super) fn writes_own_number(&self, assignment: &Assignment) -> bool {
+        let value = self.parsed.expression(assignment.value);
+        if assignment.is_number {
+            return true;
+        }
+        if matches!(value, Expr::Literal(_) | Expr::List(_))
+            || assignment.element.is_none_or(|at| at > 2)
+        {
+            return false;
+        }
+        let mentioned = self.mentioned_in_parts.get(&assignment.offset);
+        let mut open = mentioned.cloned().unwrap_or_default();
+        self.add_behind(assignment.value, assignment.function, &mut open);
+        value != Expr::Actual && self.are_own_numbers(open)
+    }
+
+    /// Whether some coordinate of a pose with expressions comes from no target and not from where
+    /// the robot is.
+    fn has_own_coordinate(&self, id: LiteralId, function: FunctionId) -> bool {
+        let parsed = self.parsed;
+        let own = |coordinate: &Range<u32>| {
+            let names = &parsed.composed[coordinate.start as usize..coordinate.end as usize];
+            let open = names.iter().filter_map(|name| {
+                let variable = self.meaning(*name, function);
+                variable.or_else(|| self.result_named(*name))
+            });
+            self.are_own_numbers(open.collect())
+        };
+        let coordinates = parsed.coordinates.get(&id);
+        coordinates.is_some_and(|all| all.iter().any(own))
+    }
+
+    /// Whether what is computed from variables has no number of a target, or of where the robot is.
+    fn are_own_numbers(&self, open: Vec<VarId>) -> bool {
+        let mut is_actual = false;
+        self.positions_behind(open, &mut is_actual).is_empty() && !is_actual
+    }
+
+    /// The positions that moves go to whose numbers may flow into what is computed from variables,
+    /// and whether where the robot is may.
+    fn positions_behind(&self, mut open: Vec<VarId>, is_actual: &mut bool) -> Vec<VarId> {
         let mut seen = HashSet::new();
         let mut found = Vec::new();
         while let Some(variable) = open.pop() {
@@ -123,6 +226,7 @@ impl Variables<'_, '_> {
                 continue;
             }
             for source in self.sources(variable) {
+                *is_actual |= self.parsed.expression(source.value) == Expr::Actual;
                 self.add_behind(source.value, source.function, &mut open);
             }
             open.extend(self.mentioned.get(&variable).into_iter().flatten());
@@ -183,8 +287,14 @@ impl Goals<'_, '_, '_> {
         }
         let names = parsed.names_in(id).iter();
         let named = names.filter_map(|name| self.variables.meaning(*name, function));
+        let named = named.collect();
+        let by = if self.variables.has_own_coordinate(id, function) {
+            OVERWRITTEN
+        } else {
+            DISPLACED_SOMEHOW
+        };
         let unknown = self.common.expressions;
-        self.made_of(named.collect(), unknown, steps)
+        self.made_of(named, by, unknown, steps)
     }
 
     /// Where the value of a function of the language is, as far as positions are given to it.
@@ -196,12 +306,18 @@ impl Goals<'_, '_, '_> {
     ) -> Goal {
         let mut named = Vec::new();
         self.variables.add_behind(value, function, &mut named);
-        self.made_of(named, self.common.computed, steps)
+        self.made_of(named, DISPLACED_SOMEHOW, self.common.computed, steps)
     }
 
     /// Where a pose is that is computed from variables: next to the targets that flow into it.
-    fn made_of(&mut self, named: Vec<VarId>, unknown: RemarkId, steps: u32) -> Goal {
-        let positions = self.variables.positions_behind(named);
+    fn made_of(
+        &mut self,
+        named: Vec<VarId>,
+        by: DisplacementId,
+        unknown: RemarkId,
+        steps: u32,
+    ) -> Goal {
+        let positions = self.variables.positions_behind(named, &mut false);
         // however these are made of each other, not many are looked into
         let steps = steps.div_ceil(short(positions.len()).max(1));
         let mut goals = Vec::new();
@@ -211,7 +327,7 @@ impl Goals<'_, '_, '_> {
                 None => self.variable(variable),
             };
             if !matches!(goal.target, script::Expr::Unknown(_)) {
-                goals.push(self.displaced(goal, None));
+                goals.push(self.displaced_by(goal, by));
             }
         }
         if goals.len() < 2 {

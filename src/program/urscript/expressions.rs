@@ -231,7 +231,7 @@ impl Reader<'_> {
     }
 
     /// The number of an element where it is written out, behind the opening bracket.
-    fn constant_index(&self) -> Option<u32> {
+    pub(super) fn constant_index(&self) -> Option<u32> {
         let mut ahead = self.scanner;
         let (index, end) = (ahead.next().ok()?, ahead.next().ok()?);
         let value = number::parse(self.text(index)).filter(|_| end.is(b']'))?;

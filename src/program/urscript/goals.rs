@@ -376,6 +376,10 @@ impl Goals<'_, '_, '_> {
                 .displacement(Displacement::By(Box::new(shift))),
             None => DISPLACED_SOMEHOW,
         };
+        self.displaced_by(goal, by)
+    }
+
+    pub(super) fn displaced_by(&mut self, goal: Goal, by: DisplacementId) -> Goal {
         Goal {
             target: match goal.target {
                 script::Expr::Unknown(_) => goal.target,

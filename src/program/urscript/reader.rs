@@ -354,10 +354,11 @@ impl<'a> Reader<'a> {
             if self.scanner.bytes.get(self.scanner.at) == Some(&b'=') {
                 return self.rest(next);
             }
-            return self.assign(name, reach, false);
+            return self.assign(name, reach, false, None);
         }
         if next.is(b'[') {
             self.next()?;
+            let element = self.constant_index();
             self.brackets(next)?;
             while self.scanner.peek().is(b'[') {
                 let more = self.next()?;
@@ -367,7 +368,7 @@ impl<'a> Reader<'a> {
             let compared = self.scanner.bytes.get(after.end) == Some(&b'=');
             if after.is(b'=') && !compared {
                 self.next()?;
-                return self.assign(name, reach, true);
+                return self.assign(name, reach, true, element);
             }
             return Ok(());
         }
@@ -375,7 +376,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `= …` behind a name or an element of it.
-    fn assign(&mut self, name: Token, reach: Reach, part: bool) -> Read<()> {
+    fn assign(&mut self, name: Token, reach: Reach, part: bool, element: Option<u32>) -> Read<()> {
         let alone = self.number_alone();
         let mut value = self.value(name.start)?;
         if let Some(known) = alone.and_then(number::parse) {
@@ -392,6 +393,7 @@ impl<'a> Reader<'a> {
             value,
             offset: short(name.start),
             part: part || dot.is_some(),
+            element,
             is_number: alone.is_some(),
         });
         let number = short(self.parsed.assignments.len() - 1);

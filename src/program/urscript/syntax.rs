@@ -123,6 +123,8 @@ pub(super) struct Assignment {
     pub offset: u32,
     /// Only a part of the variable is assigned.
     pub part: bool,
+    /// The number of that element, where it is written out.
+    pub element: Option<u32>,
     /// Nothing but a number is.
     pub is_number: bool,
 }
@@ -259,6 +261,9 @@ pub(super) struct Parsed<'a> {
     pub mentions: Vec<(Symbol, FunctionId, u32)>,
     /// Names in poses with expressions.
     pub composed: Vec<Symbol>,
+    /// Of such a pose the names in each of its coordinates, but for those that ask where the robot
+    /// is: parts of `composed`.
+    pub coordinates: HashMap<LiteralId, Vec<Range<u32>>>,
     symbols: HashMap<&'a [u8], Symbol>,
     spellings: Vec<&'a [u8]>,
 }

@@ -431,7 +431,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         let held = self.goals.held[variable as usize];
         let (computed, changes) = (self.goals.common.computed, self.goals.common.frame_changes);
-        let how = if assignment.is_number {
+        let how = if self.goals.variables.writes_own_number(assignment) {
             How::PartNumber(computed)
         } else {
             How::PartSomehow(computed)

@@ -155,13 +155,28 @@ impl Variables<'_, '_> {
         is_plain.then_some(found)
     }
 
-    /// Whether a value is, by names alone, a position that moves go to.
+    /// Whether a value is a position that moves go to, in a feature or displaced, too.
     pub(super) fn goes_to(&self, value: ExprId, function: FunctionId) -> bool {
-        match self.follow(value, function) {
-            (Expr::Literal(id), _) => self.targets[id as usize],
-            (Expr::Name(name, _), function) => self.meaning(name, function).is_some_and(|v| {
-                !self.list[v as usize].is_fixed && self.list[v as usize].is_position
+        self.goes_within(value, function, MOST_STEPS)
+    }
+
+    fn goes_within(&self, value: ExprId, function: FunctionId, steps: u32) -> bool {
+        let Some(steps) = steps.checked_sub(1) else {
+            return false;
+        };
+        match self.parsed.expression(value) {
+            Expr::Literal(id) => self.targets[id as usize],
+            Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
+                let is_position = self.list[variable as usize].is_position;
+                let Some(source) = self.fixed(variable) else {
+                    return is_position;
+                };
+                let value = self.parsed.expression(source.value);
+                is_position && matches!(value, Expr::Trans(..) | Expr::Add(..))
+                    || self.goes_within(source.value, source.function, steps)
             }),
+            Expr::Trans(_, b) => self.goes_within(b, function, steps),
+            Expr::Add(a, _) => self.goes_within(a, function, steps),
             _ => false,
         }
     }

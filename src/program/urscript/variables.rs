@@ -91,6 +91,8 @@ pub(super) struct Variables<'n, 'a> {
     pub sets_tool: bool,
     /// Variables in whose assignments others are named, with those.
     pub(super) mentioned: HashMap<VarId, Vec<VarId>>,
+    /// The same of assignments of elements, each by its place.
+    pub(super) mentioned_in_parts: HashMap<u32, Vec<VarId>>,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
 }
@@ -114,6 +116,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             functions,
             sets_tool: false,
             mentioned: HashMap::new(),
+            mentioned_in_parts: HashMap::new(),
             targets: vec![false; parsed.literals.len()],
         };
         variables.declare_parameters();
@@ -323,6 +326,14 @@ impl<'n, 'a> Variables<'n, 'a> {
     pub(super) fn result(&self, call: u32) -> Option<VarId> {
         match self.callees(&self.parsed.calls[call as usize]) {
             [one] => self.results.get(one).copied(),
+            _ => None,
+        }
+    }
+
+    /// What the function of this name returns.
+    pub(super) fn result_named(&self, name: Symbol) -> Option<VarId> {
+        match self.functions.get(&name)?[..] {
+            [one] => self.result_of(one),
             _ => None,
         }
     }

@@ -134,10 +134,10 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         "movel(p[x[1],x[0],x[2],x[3],x[4],x[5]])",
         "movel(p[x[0],x[1],x[2],x[3]+1,x[4],x[5]])",
         // through other variables, a list, a function
-        "a=x[0]+1\nb=a\nmovel(p[b,0,0,0,0,0])",
-        "w=[x[0],x[1]]\nmovel(p[w[0],0,0,0,0,0])",
-        "def f(a):\nb=a[2]\nmovel(p[0,0,b,0,0,0])\nend\nf(x)",
-        "y=p[x[0],0,h,0,0,0]\nz=p[y[0],0,0,0,0,0]\nmovel(z)",
+        "a=x[0]+1\nb=a\nmovel(p[b,b,b,0,0,0])",
+        "w=[x[0],x[1]]\nmovel(p[w[0],w[1],w[0],0,0,0])",
+        "def f(a):\nb=a[2]\nmovel(p[b,b,b,0,0,0])\nend\nf(x)",
+        "y=p[x[0],0,h,0,0,0]\nz=p[y[0],y[1],y[2],0,0,0]\nmovel(z)",
         // functions of the language
         "movel(pose_sub(x,p[0,0,-0.1,0,0,0]))",
         "y=interpolate_pose(x,p[0,0,-0.1,0,0,0],0.5)\nmovel(y)",
@@ -164,6 +164,77 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         (to(&alone), ids(&alone)),
         (vec!["?".to_owned()], vec!["computed-target"])
     );
+}
+
+#[test]
+fn coordinates_that_come_from_no_target_lose_its_correction() {
+    let x = "x=p[.1,.2,.3,0,0,1]\nmovel(x)\n";
+    let with = |z: &str| format!("movel(p[x[0],x[1],{z},x[3],x[4],x[5]])");
+    let written = |z: &str| format!("y=x\ny[2]={z}\nmovel(y)");
+    for (before, z) in [
+        ("", ".25"),
+        ("", "0.2+5/100"),
+        ("h=.25\n", "h"),
+        ("h=.25\n", "-h"),
+        ("", "read_input_float_register(24)"),
+        ("def f():\nreturn 0.25\nend\n", "f()"),
+    ] {
+        for go in [with(z), written(z)] {
+            let program = path(&format!("{x}{before}{go}"));
+            let last = program.moves.last().expect("a move");
+            assert_eq!(to(&program).last().map(String::as_str), Some("x"), "{go}");
+            assert_eq!(last.displacement, Displacement::Overwritten, "{before}{go}");
+        }
+    }
+    let program = path(&format!("{x}movel(p[.1,.25,.3,x[3],x[4],x[5]])"));
+    assert_eq!(program.moves[1].displacement, Displacement::Overwritten);
+    for (before, z) in [
+        ("", "x[2]+h"),
+        ("h=x[2]+0.1\n", "h"),
+        ("now=get_actual_tcp_pose()\n", "now[2]+0.1"),
+        ("def f():\nreturn x[2]+0.1\nend\n", "f()"),
+    ] {
+        for go in [with(z), written(z)] {
+            let program = path(&format!("{x}{before}{go}"));
+            let last = program.moves.last().expect("a move");
+            assert_eq!(last.displacement, Displacement::Unknown, "{before}{go}");
+        }
+    }
+    // an angle
+    for go in ["y=x\ny[5]=h\nmovel(y)", "movel(p[x[0],x[1],x[2],0,0,h])"] {
+        let program = path(&format!("{x}h=.25\n{go}"));
+        assert_eq!(program.moves[1].displacement, Displacement::Unknown, "{go}");
+    }
+}
+
+#[test]
+fn an_offset_from_a_waypoint_in_a_feature_is_displaced_from_it() {
+    let pallet = "pallet=p[.02,.01,0,0,0,.1]\n";
+    let offset = "p[0,0,-.05,0,0,0]";
+    for lines in [
+        format!(
+            "at=pose_trans(pallet,p[.4,.5,.6,0,0,0])\nmovel(pose_trans(at,{offset}))\nmovel(at)"
+        ),
+        format!(
+            "at=pose_trans(pallet,p[.4,.5,.6,0,0,0])\nto=at\nmovel(pose_trans(to,{offset}))\nmovel(to)"
+        ),
+        format!(
+            "a=p[.4,.5,.6,0,0,0]\nmovel(pose_trans(pallet,a))\nmovel(pose_trans(pose_trans(pallet,a),{offset}))"
+        ),
+    ] {
+        let program = path(&format!("{pallet}{lines}"));
+        assert_eq!(program.findings, [], "{lines}");
+        assert_eq!(program.targets.len(), 1, "{lines}");
+        let mut shifts = 0;
+        for used in &program.moves {
+            assert_eq!(program.frames[used.frame].name, "pallet", "{lines}");
+            if let Displacement::By(shift) = &used.displacement {
+                assert!((shift.in_tool.translation[2] + 0.05).abs() < 1e-15);
+                shifts += 1;
+            }
+        }
+        assert_eq!((program.moves.len(), shifts), (2, 1), "{lines}");
+    }
 }
 
 /// Id, severity and line of a finding.
