@@ -34,8 +34,7 @@ const TOOL_WRITERS: &str = "\
 const HARMLESS: &str = "\
     accset actevent aliasio bookerrno break cambreak camflush camloadjob camreqimage \
         camsetexposure \
-    camsetparameter camsetprogrammode camsetrunmode camstartloadjob camwaitloadjob circpathmode \
-        cirpathmode \
+    camsetparameter camsetprogrammode camsetrunmode camstartloadjob camwaitloadjob \
     clearpath clearrawbytes clkreset clkstart clkstop close closedir collisiondetect copyfile \
         copyrawbytes \
     corrclear corrcon corrdiscon corrwrite dropsensor dropwobj egmactjoint egmactpose egmgetid \

@@ -15,11 +15,13 @@ pub(super) struct Modes {
     pub conf_j: VariableId,
     pub conf_l: VariableId,
     pub wrist: VariableId,
+    circle: VariableId,
     program_displacement: VariableId,
     external_offset: VariableId,
     /// The guards of moves that a displacement concerns, and of those whose target's name is
     /// ambiguous.
     pub guards: u32,
+    pub arc_guards: u32,
     pub ambiguous_guards: u32,
     /// Those of moves to joints, which only external axes concern, and of those without an offset.
     pub absolute_guards: u32,
@@ -30,6 +32,7 @@ pub(super) struct Modes {
     on: ValueId,
     off: ValueId,
     displaced: ValueId,
+    rotates: ValueId,
     /// By an amount that nobody knows, and by nothing.
     shifted: ValueId,
     unshifted: ValueId,
@@ -78,6 +81,13 @@ impl Modes {
         ));
         let displaced = script.value(Held::Remark(remark));
         let remark = script.remark(Remark::error(
+            "move-not-supported",
+            "CirPathMode may be another than \\PathFrame: how the tool rotates on this arc is not \
+             followed",
+            "set CirPathMode\\PathFrame before the arc, or write it in straight moves",
+        ));
+        let rotates = script.value(Held::Remark(remark));
+        let remark = script.remark(Remark::error(
             "external-offset-unknown",
             "external axes are shifted by an amount that only the running program knows (EOffsOn, \
              or EOffsSet without numbers)",
@@ -100,6 +110,7 @@ impl Modes {
         };
         let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
         let wrist = mode("SingArea", off);
+        let circle = mode("CirPathMode", off);
         let program_displacement = mode("PDispOn", off);
         let external_offset = mode("EOffsOn", unshifted);
         let ambiguous = mode("", ambiguous);
@@ -119,6 +130,7 @@ impl Modes {
             crate::program::script::short(script.guards.len() - 1)
         };
         let guards = guard(&[program_displacement, external_offset]);
+        let arc_guards = guard(&[program_displacement, external_offset, circle]);
         let ambiguous_guards = guard(&[program_displacement, external_offset, ambiguous]);
         let absolute_guards = guard(&[external_offset]);
         let unshifted_guards = guard(&[]);
@@ -126,9 +138,11 @@ impl Modes {
             conf_j,
             conf_l,
             wrist,
+            circle,
             program_displacement,
             external_offset,
             guards,
+            arc_guards,
             ambiguous_guards,
             absolute_guards,
             unshifted_guards,
@@ -136,6 +150,7 @@ impl Modes {
             on,
             off,
             displaced,
+            rotates,
             shifted,
             unshifted,
         }
@@ -156,6 +171,8 @@ impl Translator<'_> {
             Mode::ConfJ => (modes.conf_j, flag(!has(words.off))),
             Mode::ConfL => (modes.conf_l, flag(!has(words.off))),
             Mode::Wrist => (modes.wrist, flag(has(words.wrist))),
+            Mode::Circle if has(words.path_frame) => (modes.circle, modes.off),
+            Mode::Circle => (modes.circle, modes.rotates),
             Mode::ProgramDisplacement if set == Set::Off => (modes.program_displacement, modes.off),
             Mode::ProgramDisplacement => (modes.program_displacement, modes.displaced),
             Mode::Unit => {

@@ -281,6 +281,7 @@ impl Translator<'_> {
             let guards = match (absolute, self.ambiguous) {
                 (true, false) if parts.unshifted => self.modes.unshifted_guards,
                 (true, false) => self.modes.absolute_guards,
+                (false, false) if path == Path::Arc => self.modes.arc_guards,
                 (false, false) => self.modes.guards,
                 (_, true) => self.modes.ambiguous_guards,
             };

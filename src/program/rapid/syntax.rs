@@ -511,6 +511,8 @@ pub(super) enum Mode {
     ConfJ,
     ConfL,
     Wrist,
+    /// How the tool rotates on arcs.
+    Circle,
     ProgramDisplacement,
     ExternalOffset,
     /// Whether a unit of external axes follows targets.

@@ -480,6 +480,17 @@ fn wrist_mode_lasts_until_it_is_left() {
 }
 
 #[test]
+fn arcs_on_which_the_tool_rotates_otherwise_are_blocked() {
+    let arcs = "MoveC p1,p2,v5,z5,t;\nCirPathMode\\CirPointOri;\nMoveC p1,p2,v5,z5,t;\n\
+        MoveL p3,v5,z5,t;\nCirPathMode\\PathFrame;\nMoveC p1,p2,v5,z5,t;";
+    assert_eq!(ids(&path(arcs)), ["move-not-supported"; 2]);
+    assert_eq!(
+        ids(&path(&arcs.replace("CirPointOri", "PathFrame"))),
+        [""; 0]
+    );
+}
+
+#[test]
 fn an_active_displacement_blocks_what_it_may_reach() {
     let program =
         path("MoveL p1,v5,z5,t;\nPDispSet d;\nMoveL p2,v5,z5,t;\nPDispOff;\nMoveL p3,v5,z5,t;");

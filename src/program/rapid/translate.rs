@@ -29,6 +29,7 @@ pub(super) struct Words {
     pub noeoffs: Option<Symbol>,
     pub off: Option<Symbol>,
     pub wrist: Option<Symbol>,
+    pub path_frame: Option<Symbol>,
 }
 
 /// Puts a script together.
@@ -123,6 +124,7 @@ pub(super) fn translate(
             track: find(b"track"),
             off: find(b"off"),
             wrist: find(b"wrist"),
+            path_frame: find(b"pathframe"),
         },
         modes,
         actual: script.value(Held::Actual),

@@ -98,6 +98,7 @@ pub(super) fn verb(spelling: &[u8]) -> Verb {
     match lower.as_slice() {
         b"confl" => Verb::Mode(Mode::ConfL, Set::ByOption),
         b"confj" => Verb::Mode(Mode::ConfJ, Set::ByOption),
+        b"cirpathmode" => Verb::Mode(Mode::Circle, Set::ByOption),
         b"singarea" => Verb::Mode(Mode::Wrist, Set::ByOption),
         b"pdispon" | b"pdispset" => Verb::Mode(Mode::ProgramDisplacement, Set::On),
         b"pdispoff" => Verb::Mode(Mode::ProgramDisplacement, Set::Off),
