@@ -2,7 +2,6 @@
 
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::Shape;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
     PartValue, ValueId, VariableId, Write, Written, short,
@@ -105,7 +104,7 @@ impl Flow<'_> {
                     displacement,
                 } => Atom::Target {
                     target,
-                    displacement: self.displaced_by(&write.how, target, displacement),
+                    displacement: displaced_by(&write.how, displacement),
                 },
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
@@ -118,22 +117,6 @@ impl Flow<'_> {
             changed.push((atom, site));
         }
         self.holdings.intern(changed)
-    }
-
-    /// By what a copy of a target is displaced once parts of it are written.
-    fn displaced_by(&self, how: &How, target: u32, before: DisplacementId) -> DisplacementId {
-        let is_joints = || {
-            let target = &self.script.targets[target as usize];
-            target.layout.shape == Shape::Joints
-        };
-        match *how {
-            // numbers of the text do not know of a correction
-            How::PartNumber(_) => OVERWRITTEN,
-            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints() => by,
-            How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
-            // what is computed is mostly the old value and something more
-            _ => DISPLACED_SOMEHOW,
-        }
     }
 
     /// A record with other parts; `None` where it is none.
@@ -217,5 +200,17 @@ impl Flow<'_> {
             (&self.more_parts, own)
         };
         list[(parts.start - by) as usize..(parts.end - by) as usize].to_vec()
+    }
+}
+
+/// By what a copy of a target is displaced once parts of it are written.
+fn displaced_by(how: &How, before: DisplacementId) -> DisplacementId {
+    match *how {
+        // numbers of the text do not know of a correction
+        How::PartNumber(_) => OVERWRITTEN,
+        How::PartBy(_, by) if before == NOT_DISPLACED => by,
+        How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
+        // what is computed is mostly the old value and something more
+        _ => DISPLACED_SOMEHOW,
     }
 }

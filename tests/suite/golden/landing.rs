@@ -3,11 +3,11 @@
 use super::{Case, cases, run};
 use crate::support::scratch;
 use nalgebra::{Matrix6, Vector6};
-use poseshift::geometry::{Pose, sub};
+use poseshift::geometry::{Pose, Rotation, sub};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model};
 use poseshift::motion;
-use poseshift::program::{self, Settings, Source, Target, Value};
+use poseshift::program::{self, Language, Motion, Settings, Source, Target, Value};
 use rs_opw_kinematics::glam::{DMat3, DQuat, DVec3};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
@@ -82,6 +82,47 @@ fn sources(folder: &Path) -> Vec<Source> {
     files.map(|file| read(&folder.join(file))).collect()
 }
 
+/// From the tool as the point in the middle of an arc has it to the tool as a rotation at a constant
+/// rate from the beginning of the arc to its end has it there.
+fn middle_of_arc(
+    language: &dyn Language,
+    settings: &Settings,
+    program: &program::Program,
+    at: usize,
+) -> Option<Rotation> {
+    let pose = |at: usize| {
+        let motion = program.moves.get(at)?;
+        let target = &program.targets[motion.target?];
+        let numbers: Vec<f64> = program.numbers_of(target).iter().map(|n| n.value).collect();
+        let Value::Pose(pose) = language.decode(target.layout, &numbers, settings).value else {
+            return None;
+        };
+        let pose = program.frames[motion.frame].world_from_frame? * pose;
+        let m = pose.rotation.0;
+        let columns = [0, 1, 2].map(|j| DVec3::new(m[0][j], m[1][j], m[2][j]));
+        let turn = DQuat::from_mat3(&DMat3::from_cols(columns[0], columns[1], columns[2]));
+        Some((DVec3::from(pose.translation), turn))
+    };
+    let [(start, from), (via, own), (end, to)] =
+        [pose(at.checked_sub(1)?)?, pose(at)?, pose(at + 1)?];
+    // the centre of the circle lies on the middle planes of two chords
+    let normal = (via - start).cross(end - start).normalize();
+    let chord = via - start;
+    let across = normal.cross(chord);
+    let other = end - start;
+    let by = (0.5 * other.dot(other) - 0.5 * chord.dot(other)) / across.dot(other);
+    let centre = start + 0.5 * chord + by * across;
+    let angle = |point: DVec3| {
+        let (first, seen) = (start - centre, point - centre);
+        let angle = normal.dot(first.cross(seen)).atan2(first.dot(seen));
+        angle.rem_euclid(std::f64::consts::TAU)
+    };
+    let there = from.slerp(to, angle(via) / angle(end));
+    let middle = DMat3::from_quat(own.inverse() * there);
+    let rows = [0, 1, 2].map(|i| middle.row(i).to_array());
+    Some(Rotation(rows))
+}
+
 /// The files of a folder, and behind them those that the sample reads for what they declare.
 fn with_context(files: &Path, folder: &Path, case: &Case) -> Vec<Source> {
     let mut all = sources(files);
@@ -98,7 +139,7 @@ fn with_context(files: &Path, folder: &Path, case: &Case) -> Vec<Source> {
 
 #[test]
 fn written_samples_bring_the_real_tool_where_it_was_wanted() {
-    let (mut landed, mut carried) = (0, 0);
+    let (mut landed, mut carried, mut middles) = (0, 0, 0);
     for (folder, case) in cases() {
         let scratch = scratch();
         let out = scratch.path().join("out");
@@ -125,9 +166,19 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
         // those of the context stand behind them
         let own = |target: &&Target| !written[target.file as usize].is_context;
         assert_eq!(targets.len(), after.targets.iter().filter(own).count());
-        for used in &after.moves {
+        for (at, used) in after.moves.iter().enumerate() {
             let Some(target) = used.target.filter(|target| *target < targets.len()) else {
                 continue;
+            };
+            let middle = match used.motion {
+                Motion::ArcVia if !language.turns_through_middle() => {
+                    let Some(middle) = middle_of_arc(language, &settings, &before, at) else {
+                        continue;
+                    };
+                    middles += 1;
+                    middle
+                }
+                _ => Rotation::identity(),
             };
             let reported = &targets[target];
             if reported["status"] != "converged" || reported["fake"].is_null() {
@@ -145,9 +196,13 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
                     program.numbers_of(target).iter().map(|n| n.value).collect();
                 language.decode(target.layout, &numbers, &settings).value
             };
-            let (Value::Pose(wanted), Value::Pose(fake)) = (value(&before), value(&after)) else {
+            let (Value::Pose(mut wanted), Value::Pose(mut fake)) = (value(&before), value(&after))
+            else {
                 continue;
             };
+            for pose in [&mut wanted, &mut fake] {
+                pose.rotation = pose.rotation * middle;
+            }
             let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
             let load = load.or_else(|| profile.tools.get(&tool.name).and_then(|tool| tool.load));
             let mounted = Mounted {
@@ -177,6 +232,7 @@ fn written_samples_bring_the_real_tool_where_it_was_wanted() {
             landed += 1;
         }
     }
+    assert!(middles >= 4, "{middles}");
     assert_eq!(carried, 4);
     assert!(landed > 5000, "{landed} targets");
 }
