@@ -45,6 +45,7 @@ pub(crate) fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -
                 .listed()
                 .map(|axis| axis.name().to_owned())
                 .collect(),
+            linear: external.listed().map(|axis| axis.is_linear()).collect(),
             pulses: external
                 .listed()
                 .map(|axis| match axis {

@@ -14,6 +14,8 @@ pub struct External {
 pub struct ExternalNames {
     /// Those of which it is known what they carry.
     pub listed: Vec<String>,
+    /// Which of these are linear: programs give them in millimetres, others in degrees.
+    pub linear: Vec<bool>,
     /// Encoder pulses of one millimetre or degree of each of these, for programs that count in
     /// pulses.
     pub pulses: Vec<Option<f64>>,

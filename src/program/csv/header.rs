@@ -1,7 +1,7 @@
 //! The columns of a table of poses or joints.
 
 use super::records::{Cell, Records};
-use crate::program::{Configuration, Layout, Shape, Source};
+use crate::program::{Configuration, Layout, Shape, Source, number};
 
 const POSE: [&[u8]; 7] = [b"x_mm", b"y_mm", b"z_mm", b"qw", b"qx", b"qy", b"qz"];
 const JOINTS: [&[u8]; 6] = [
@@ -27,8 +27,34 @@ pub(super) struct Header {
     pub tool: Option<usize>,
     pub frame: Option<usize>,
     pub id: Option<usize>,
+    pub external: Vec<Axis>,
     /// How many there are.
     pub count: usize,
+}
+
+/// The column of an external axis: `e1_mm`, `e2_deg`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Axis {
+    pub column: usize,
+    /// Its number among those of the profile, from 0.
+    pub number: u8,
+    pub is_linear: bool,
+}
+
+impl Axis {
+    fn of((column, name): (usize, &&[u8])) -> Option<Self> {
+        let name = name.strip_prefix(b"e")?;
+        let (digits, is_linear) = match name.strip_suffix(b"_mm") {
+            Some(digits) => (digits, true),
+            None => (name.strip_suffix(b"_deg")?, false),
+        };
+        let number = number::whole(digits)?.checked_sub(1)?;
+        Some(Self {
+            column,
+            number: u8::try_from(number).ok()?,
+            is_linear,
+        })
+    }
 }
 
 /// Why a header is not one.
@@ -42,6 +68,14 @@ pub(super) enum Wrong {
     Twice(usize),
     /// Only some of `near1_deg` to `near6_deg`.
     Near,
+    /// `branch` next to these.
+    Branch(usize),
+    /// The column of this index is one in other letters.
+    Letters(usize),
+    /// Cells are separated by something else.
+    Separator,
+    /// This column alone, or with others, is missing.
+    Without(&'static str),
 }
 
 impl Header {
@@ -54,7 +88,7 @@ impl Header {
             (Some(pose), None) => (Shape::Pose, pose),
             // a position next to the joints makes measurements of them
             (None, Some(joints)) if find(POSE[0]).is_none() => (Shape::Joints, joints),
-            (None, None) => return Err(Wrong::Missing),
+            (None, None) => return Err(missing(names)),
             _ => return Err(Wrong::Both),
         };
         let near: Vec<usize> = NEAR.into_iter().filter_map(find).collect();
@@ -70,10 +104,18 @@ impl Header {
             tool: find(b"tool"),
             frame: find(b"frame"),
             id: find(b"id"),
+            external: names.iter().enumerate().filter_map(Axis::of).collect(),
             count: names.len(),
         };
         let singles = [header.branch, header.tool, header.frame, header.id];
         let used = header.numbers.iter().chain(header.near.iter().flatten());
+        let axes = header.external.iter();
+        for (at, axis) in axes.clone().enumerate() {
+            let is_same = |other: &&Axis| other.number == axis.number;
+            if let Some(again) = axes.clone().skip(at + 1).find(is_same) {
+                return Err(Wrong::Twice(again.column));
+            }
+        }
         let used = used.copied().chain(singles.into_iter().flatten());
         for column in used {
             let again = names[column + 1..].iter().position(|n| *n == names[column]);
@@ -81,7 +123,10 @@ impl Header {
                 return Err(Wrong::Twice(column + 1 + again));
             }
         }
-        Ok(header)
+        match header.branch.filter(|_| header.near.is_some()) {
+            Some(branch) => Err(Wrong::Branch(branch)),
+            None => Ok(header),
+        }
     }
 
     /// The layout of a target on a branch, 0 to 7.
@@ -93,13 +138,47 @@ impl Header {
     }
 }
 
+/// What is nearly right where neither all columns of poses nor all of joints are there.
+fn missing(names: &[&[u8]]) -> Wrong {
+    let of_tables = || POSE.iter().chain(&JOINTS);
+    let is_other = |name: &&[u8]| of_tables().any(|known| known.eq_ignore_ascii_case(name));
+    let is_known = |name: &&[u8]| of_tables().any(|known| known == name);
+    if let Some(at) = names
+        .iter()
+        .position(|name| is_other(name) && !is_known(name))
+    {
+        return Wrong::Letters(at);
+    }
+    let parts = names
+        .iter()
+        .flat_map(|name| name.split(|b| matches!(b, b';' | b'\t')));
+    if parts.filter(|name| is_other(&name.trim_ascii())).count() > names.len() {
+        return Wrong::Separator;
+    }
+    let has = |column: &&[u8]| names.contains(column);
+    let orientation = POSE[3..].iter().any(|column| has(column));
+    let found: &[&'static [u8]] = if orientation {
+        &POSE
+    } else if JOINTS.iter().any(|column| has(column)) {
+        &JOINTS
+    } else {
+        return Wrong::Missing;
+    };
+    let without = found.iter().find(|column| !has(column));
+    let without = without.and_then(|column| std::str::from_utf8(column).ok());
+    without.map_or(Wrong::Missing, Wrong::Without)
+}
+
 /// Whether the first record names the columns of poses or of joints.
 pub(super) fn recognises(source: &Source) -> bool {
     let mut cells = Vec::new();
     let is_text = memchr::memchr(0, &source.bytes).is_none();
     is_text
         && Records::of(&source.bytes).next(&mut cells) == Ok(true)
-        && Header::of(&names(source, &cells)).is_ok()
+        && matches!(
+            Header::of(&names(source, &cells)),
+            Ok(_) | Err(Wrong::Branch(_))
+        )
 }
 
 /// The text of the cells.

@@ -11,6 +11,7 @@
 //! | `near1_deg` … `near6_deg` | joints that the solution is near to |
 //! | `tool` | the tool's name; without it the tool is the nameless one |
 //! | `frame` | the work frame's name; `world` is the world |
+//! | `e1_mm`, `e2_deg` … | where external axes stand, numbered as the profile lists them |
 //!
 //! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in
 //! the world without it.
@@ -28,11 +29,11 @@ mod records;
 use super::kit::{Fault, comments, content_start, not_this_language};
 use super::notation;
 use super::script::{
-    Builder, Expr, Held, Instruction, Modal, Place, Script, Span, Start, ValueId, short,
+    Builder, Expr, Held, Instruction, Modal, Place, Remark, Script, Span, Start, ValueId, short,
 };
 use super::{
-    About, Configuration, Language, Layout, Marker, Motion, Number, ReadError, Role, Settings,
-    Shape, Source, Target, number,
+    About, Configuration, External, ExternalNames, Language, Layout, Marker, Motion, Number,
+    ReadError, Role, Settings, Shape, Source, Target, TargetId, number,
 };
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
@@ -78,8 +79,8 @@ impl Language for Csv {
         header::recognises(source)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
-        script(sources)
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        script(sources, &settings.external)
     }
 
     fn frame_of_unframed(&self) -> Option<&'static str> {
@@ -121,8 +122,11 @@ impl Language for Csv {
 }
 
 /// Each file is a routine, each row a move.
-fn script(sources: &[Source]) -> Result<Script, ReadError> {
-    let mut reader = Reader::default();
+fn script(sources: &[Source], axes: &ExternalNames) -> Result<Script, ReadError> {
+    let mut reader = Reader {
+        axes: axes.clone(),
+        ..Reader::default()
+    };
     let flag = Held::Flag(true);
     reader.honoured = reader.builder.script.value(flag);
     for (file, source) in sources.iter().enumerate() {
@@ -140,6 +144,8 @@ struct Reader {
     frames: HashMap<(String, bool), ValueId>,
     /// Branches are honoured where there are any.
     honoured: ValueId,
+    /// External axes that the profile describes.
+    axes: ExternalNames,
 }
 
 impl Reader {
@@ -219,8 +225,8 @@ impl Reader {
         let name = text(header.id).filter(|name| !name.is_empty());
         let tool = self.tool(text(header.tool).unwrap_or_default());
         let frame = self.frame(text(header.frame).unwrap_or_default());
-        let script = &mut self.builder.script;
         let end = short(cells.last().expect("a record has a cell").end);
+        let script = &mut self.builder.script;
         script.targets.push(Target {
             name: name.map(Into::into),
             file,
@@ -231,6 +237,7 @@ impl Reader {
             blocked: false,
         });
         let target = script.targets.len() - 1;
+        self.external(source, target, header, cells)?;
         let instruction = Instruction {
             end,
             motion: match header.shape {
@@ -252,6 +259,48 @@ impl Reader {
             ..Modal::default()
         };
         self.builder.go(instruction, modal);
+        Ok(())
+    }
+
+    /// Where external axes stand at a target.
+    fn external(
+        &mut self,
+        source: &Source,
+        target: TargetId,
+        header: &Header,
+        cells: &[Cell],
+    ) -> Result<(), ReadError> {
+        for axis in &header.external {
+            let cell = cells[axis.column];
+            let value = read_number(source, cell)?.value;
+            let (is_linear, script) = (
+                self.axes.linear.get(usize::from(axis.number)),
+                &mut self.builder.script,
+            );
+            match is_linear {
+                Some(is_linear) if *is_linear != axis.is_linear => {
+                    let found = shown(&source.bytes[cell.start..cell.end]);
+                    let expected = if *is_linear {
+                        "a value in mm (column `e1_mm`; the axis is linear)"
+                    } else {
+                        "a value in degrees (column `e1_deg`; the axis is rotary)"
+                    };
+                    return Err(unexpected(source, cell.start, found, expected));
+                }
+                Some(_) => {
+                    let axis = axis.number;
+                    script.externals.push((target, External { axis, value }));
+                }
+                // what stands at zero is mostly not there
+                None if value != 0.0 => {
+                    let unit = if axis.is_linear { "mm" } else { "deg" };
+                    let name = format!("e{}_{unit}", u16::from(axis.number) + 1);
+                    let remark = script.remark(Remark::external_unknown(&name, value));
+                    script.refused.push((target, remark));
+                }
+                None => {}
+            }
+        }
         Ok(())
     }
 
@@ -292,6 +341,23 @@ fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
             Wrong::Twice(at) => {
                 let found = format!("{} once more", shown(cells[at]));
                 unexpected(source, cells[at].start, found, "another column")
+            }
+            Wrong::Branch(at) => {
+                let found = format!("{} next to near1_deg … near6_deg", shown(cells[at]));
+                let expected = "one of the two, which both choose the solution,";
+                unexpected(source, cells[at].start, found, expected)
+            }
+            Wrong::Letters(at) => {
+                let expected = "the name of a column in small letters";
+                unexpected(source, cells[at].start, shown(cells[at]), expected)
+            }
+            Wrong::Separator => {
+                let found = "a semicolon or a tab between cells".to_owned();
+                unexpected(source, cells[0].start, found, "a comma")
+            }
+            Wrong::Without(column) => {
+                let found = format!("a header without `{column}`");
+                unexpected(source, cells[0].start, found, "one of poses or of joints")
             }
             Wrong::Near => {
                 let found = "some of them".to_owned();

@@ -156,6 +156,41 @@ fn broken_tables_are_reported_with_line_and_column() {
         ("x_mm,y_mm,z_mm\n1,2,3\n".into(), (0, 0), "no header with"),
         (String::new(), (0, 0), "no header with"),
         (
+            format!("{head},branch,near1_deg,near2_deg,near3_deg,near4_deg,near5_deg,near6_deg\n"),
+            (1, 28),
+            "`branch` next to near1_deg",
+        ),
+        (
+            "id,X_MM,Y_MM,Z_MM,QW,QX,QY,QZ\n".into(),
+            (1, 4),
+            "found `X_MM`, where the name of a column in small letters",
+        ),
+        (
+            "id;x_mm;y_mm;z_mm;qw;qx;qy;qz\n".into(),
+            (1, 1),
+            "a semicolon or a tab between cells",
+        ),
+        (
+            "x_mm,y_mm,z_mm,q_w,qx,qy,qz\n".into(),
+            (1, 1),
+            "a header without `qw`",
+        ),
+        (
+            "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg\n".into(),
+            (1, 1),
+            "a header without `q6_deg`",
+        ),
+        (
+            format!("{head},e1_mm,e1_deg\n1,2,3,1,0,0,0,8,9\n"),
+            (1, 34),
+            "`e1_deg` once more",
+        ),
+        (
+            format!("{head},e1_mm\n1,2,3,1,0,0,0,\n"),
+            (2, 15),
+            "an empty cell",
+        ),
+        (
             format!("{head},q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n"),
             (1, 1),
             "poses and joints",
@@ -167,6 +202,41 @@ fn broken_tables_are_reported_with_line_and_column() {
         assert!(error.to_string().contains(message), "{error}");
     }
     assert!(matches!(read("x_mm\0"), Err(ReadError::Binary { .. })));
+}
+
+#[test]
+fn external_axes_are_read_or_refused() {
+    let read = |columns: &str, value: &str, linear: &[bool]| {
+        let settings = Settings {
+            external: ExternalNames {
+                listed: linear.iter().map(|_| "E1".to_owned()).collect(),
+                linear: linear.to_vec(),
+                ..ExternalNames::default()
+            },
+            ..Settings::default()
+        };
+        let text = format!("x_mm,y_mm,z_mm,qw,qx,qy,qz,{columns}\n1,2,3,1,0,0,0,{value}\n");
+        let source = Source::new("p.csv", text.into_bytes());
+        crate::motion::read(&Csv, &[source], &settings)
+    };
+    let program = read("e1_mm,e2_deg", "1000,-30", &[true, false]).expect("a table");
+    let found: Vec<_> = program
+        .externals
+        .iter()
+        .map(|(_, one)| (one.axis, one.value))
+        .collect();
+    assert_eq!(found, [(0, 1000.0), (1, -30.0)]);
+    assert!(!program.targets[0].blocked);
+    // the profile does not say what it carries
+    let program = read("e1_mm", "1000", &[]).expect("a table");
+    let found = &program.findings[0];
+    assert_eq!(found.id, "external-axis-unknown");
+    assert!(found.message.contains("e1_mm is 1000"), "{}", found.message);
+    assert!(program.targets[0].blocked);
+    let program = read("e1_mm", "0", &[]).expect("a table");
+    assert_eq!((program.findings.len(), program.externals.len()), (0, 0));
+    let error = read("e1_deg", "1000", &[true]).expect_err("another unit");
+    assert!(error.to_string().contains("the axis is linear"), "{error}");
 }
 
 #[test]

@@ -9,12 +9,12 @@ use crate::program::words::{Kind, Words};
 
 /// A name that a program hands to another, which may write it.
 pub(super) struct Handed {
-    name: Name,
-    by: RoutineId,
+    pub name: Name,
+    pub by: RoutineId,
     /// The other program's name in small letters.
-    to: Vec<u8>,
+    pub to: Vec<u8>,
     /// The number of the parameter.
-    number: usize,
+    pub number: usize,
 }
 
 impl Handed {
@@ -37,7 +37,7 @@ impl Handed {
 }
 
 /// What a parameter is called in the program that has it: joints have their sign there.
-fn stem_of(parameter: &[u8], given: &Name) -> Vec<u8> {
+pub(super) fn stem_of(parameter: &[u8], given: &Name) -> Vec<u8> {
     let sign: &[u8] = if given.is_joints() { b"#" } else { b"" };
     [sign, parameter].concat()
 }
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The programs of a name; none where the files do not have it.
-    fn programs_of(&self, name: &[u8]) -> Box<[RoutineId]> {
+    pub(super) fn programs_of(&self, name: &[u8]) -> Box<[RoutineId]> {
         let known = self.programs.get(&name.to_ascii_lowercase());
         known.map_or_else(Box::default, |all| all[..].into())
     }
@@ -238,6 +238,9 @@ impl<'a> Reader<'a> {
         let Some((name, _)) = name.filter(|(name, _)| self.is_known(name)) else {
             return;
         };
+        if self.array(&name, number, callees, arguments) {
+            return;
+        }
         let position = self.position(given);
         let value = self.expr(position);
         if callees.is_empty() {
@@ -253,7 +256,7 @@ impl<'a> Reader<'a> {
             };
             let stem = stem_of(parameter, &name);
             arguments.push(Argument {
-                parameter: Some(self.parameter(callee, stem)),
+                parameter: Some(self.parameter(callee, stem, Vec::new())),
                 value,
                 back: match value {
                     Expr::Variable(variable) => Some(variable),
@@ -263,14 +266,19 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The variable of a program's parameter.
-    fn parameter(&mut self, callee: RoutineId, stem: Vec<u8>) -> VariableId {
+    /// The variable of a program's parameter, or of an element of it.
+    pub(super) fn parameter(
+        &mut self,
+        callee: RoutineId,
+        stem: Vec<u8>,
+        key: Vec<u8>,
+    ) -> VariableId {
         let caller = std::mem::replace(&mut self.here.routine, callee);
         let own = self.parameters[callee as usize].clone();
         let before = std::mem::replace(&mut self.here.parameters, own);
         let parameter = self.variable(&Name {
             stem,
-            key: Some(Vec::new()),
+            key: Some(key),
         });
         self.here.routine = caller;
         self.here.parameters = before;

@@ -21,10 +21,12 @@
 //! Whether BASE NULL lies at the foot or at axis 2 is not known: `kinematics.base` of the profile
 //! says. Sensors, conveyors and weaving are not seen.
 
+mod arrays;
 mod calls;
 mod insert;
 mod keywords;
 mod moves;
+mod plates;
 mod reader;
 mod remarks;
 mod sections;

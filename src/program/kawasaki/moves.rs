@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
                 let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
                 let target = self.expr(found);
-                let mut modal = self.modal_of(motion);
+                let mut modal = self.modal_of(motion, Some(&found));
                 if is_chain {
                     modal.guards = self.reason(Cause::ArcChain);
                 }
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
                 let target = self.expr(found);
                 let modal = Modal {
                     guards,
-                    ..self.modal_of(Motion::Linear)
+                    ..self.modal_of(Motion::Linear, Some(&found))
                 };
                 self.put(part, None, target, Motion::Linear, false, modal);
                 self.here.last = None;
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
                     |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
                 let tool = (0..part.len()).map(|at| part.text(at)).find(is_tool);
                 let found = self.position(target);
-                let mut modal = self.modal_of(motion);
+                let mut modal = self.modal_of(motion, None);
                 if let Some(tool) = tool {
                     modal.tool = self.frame_value(&Source::text(tool), None);
                 }
@@ -171,11 +171,12 @@ impl<'a> Reader<'a> {
         let found = known.unwrap_or_else(|| Position {
             base: self.unknown(Cause::Relative.remark()),
             by: None,
+            on: None,
         });
         if known.is_some() {
             return self.go(part, None, found, motion, false);
         }
-        let modal = self.modal_of(motion);
+        let modal = self.modal_of(motion, None);
         self.put(part, None, found.base, motion, false, modal);
         self.here.last = None;
     }
@@ -199,16 +200,17 @@ impl<'a> Reader<'a> {
         is_free: bool,
     ) {
         let target = self.expr(to);
-        let modal = self.modal_of(motion);
+        let modal = self.modal_of(motion, Some(&to));
         self.put(part, named, target, motion, is_free, modal);
         self.here.last = Some(to);
     }
 
-    /// With what a move runs.
-    fn modal_of(&mut self, motion: Motion) -> Modal {
+    /// With what a move to a position runs.
+    fn modal_of(&mut self, motion: Motion, to: Option<&Position>) -> Modal {
+        let plate = to.and_then(|to| to.on);
         Modal {
             tool: Expr::Variable(self.tool),
-            frame: Expr::Variable(self.base),
+            frame: Expr::Variable(plate.map_or(self.base, |(frame, _)| frame)),
             configured: if motion == Motion::Joint {
                 Expr::Value(self.honoured)
             } else {
@@ -229,6 +231,8 @@ impl<'a> Reader<'a> {
         is_free: bool,
         modal: Modal,
     ) {
+        // on a plate another object may stand in the place of this one
+        let named = named.map(|named| self.on_plate(named).map_or(named, |(.., words)| words));
         let (whole, named) = (part.span(), named.map_or(0..0, |named| named.span()));
         let instruction = Instruction {
             end: short(whole.end),

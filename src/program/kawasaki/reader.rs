@@ -1,8 +1,10 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
+use super::arrays::Given;
 use super::calls::{Any, Handed};
 use super::keywords::{begins_with, find};
 use super::moves::Verb;
+use super::plates::Plates;
 use super::remarks::Cause;
 use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
@@ -50,6 +52,10 @@ pub(super) struct Reader<'a> {
     pub programs: HashMap<Vec<u8>, Vec<RoutineId>>,
     /// Parameters of each program.
     pub parameters: Vec<Vec<Vec<u8>>>,
+    /// Names that are work frames of objects on them.
+    pub plates: Plates,
+    /// Elements of arrays that calls hand over.
+    pub given: Given,
     /// Programs that another calls by name.
     pub called: HashSet<RoutineId>,
     /// What stands for programs that only the running program chooses.
@@ -106,6 +112,8 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         written: HashSet::new(),
         programs: HashMap::new(),
         parameters: Vec::new(),
+        plates: Plates::default(),
+        given: Given::default(),
         called: HashSet::new(),
         any: Vec::new(),
         switched,
@@ -136,6 +144,8 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
         }
     }
     reader.note_handed(&handed);
+    reader.note_arrays(&handed);
+    reader.find_plates(sections, starts[1]);
     let mut routine = 0;
     for (file, of) in sections.iter().enumerate() {
         for program in &of.programs {
@@ -314,6 +324,9 @@ impl<'a> Reader<'a> {
             };
             self.write(Written::One(variable), How::Whole(value));
             self.write(Written::One(saved), How::Whole(off));
+            if is(b"BASE") {
+                self.move_plates(value, rest);
+            }
             // of where the robot stands the text tells no target with the new one
             self.here.last = None;
         } else if is(b"SPEED") {
@@ -355,7 +368,7 @@ impl<'a> Reader<'a> {
         self.write(Written::One(self.switched), How::Whole(value));
     }
 
-    fn write(&mut self, variable: Written, how: How) {
+    pub(super) fn write(&mut self, variable: Written, how: How) {
         let place = self.place(self.here.at);
         self.builder.write(Write {
             place,

@@ -3,6 +3,16 @@
 use crate::finding::Severity;
 use crate::program::script::Remark;
 
+/// Against an array that a program is handed.
+pub(super) fn unfollowed() -> Remark {
+    Remark::error(
+        "target-passed-to-routine",
+        "a program is handed this array, and which of its elements it goes to or writes is not \
+         followed",
+        "hand one element over, or an array that has at most 32",
+    )
+}
+
 /// Why a position has to stay, or a move runs without correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cause {

@@ -198,9 +198,11 @@ fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
     }
 }
 
-/// The name of a parameter: `.p`, also of joints `.#p` and of a pose `.&p`.
+/// The name of a parameter: `.p`, also of joints `.#p`, of a pose `.&p`, and of an array `.p[]`.
 fn parameter(part: Words) -> Vec<u8> {
-    let last = part.text(part.len() - 1).to_ascii_lowercase();
+    let open = (0..part.len()).find(|at| part.is(*at, b'['));
+    let part = part.part(0..open.unwrap_or(part.len()));
+    let last = part.text(part.len().saturating_sub(1)).to_ascii_lowercase();
     match part.len() {
         1 => last,
         _ => [b".", &last[..]].concat(),

@@ -1,5 +1,6 @@
 //! Positions: names of `.TRANS` and `.JOINTS`, `TRANS(…)`, `#[…]`, and what is added to them.
 
+use super::plates::Object;
 use super::pose_of;
 use super::reader::Reader;
 use super::remarks::{Cause, added_up, not_in_files};
@@ -69,7 +70,12 @@ impl Name {
         self.stem.first() == Some(&b'#')
     }
 
-    fn text(&self) -> String {
+    /// Without the sign of joints.
+    pub(super) fn plain(&self) -> &[u8] {
+        self.stem.strip_prefix(b"#").unwrap_or(&self.stem)
+    }
+
+    pub(super) fn text(&self) -> String {
         let key = self.key.as_deref().unwrap_or(b"[...]");
         Source::text(&[&self.stem, key].concat()).into_owned()
     }
@@ -80,7 +86,7 @@ impl Name {
 pub(super) struct Elements {
     table: TableId,
     /// By key.
-    variables: HashMap<Vec<u8>, VariableId>,
+    pub variables: HashMap<Vec<u8>, VariableId>,
 }
 
 /// A position before it is put into the script.
@@ -89,6 +95,8 @@ pub(super) struct Position {
     pub base: Expr,
     /// What is added; `None` where only the running program knows.
     pub by: Option<Shift>,
+    /// The plate that it is on: the work frame, and where that is on the base.
+    pub on: Option<(VariableId, Pose)>,
 }
 
 impl Position {
@@ -100,6 +108,7 @@ impl Position {
         Self {
             base,
             by: Some(nothing),
+            on: None,
         }
     }
 
@@ -114,9 +123,13 @@ impl Position {
 
     /// With a translation in the base frame added, mm.
     pub(super) fn along(mut self, by: Option<[f64; 3]>) -> Self {
-        self.by = self.by.zip(by).map(|(own, by)| Shift {
-            in_frame: Shift::along(by.map(|mm| mm * MM)).in_frame * own.in_frame,
-            ..own
+        self.by = self.by.zip(by).map(|(own, by)| {
+            let along = Shift::along(by.map(|mm| mm * MM)).in_frame;
+            let in_frame = match self.on {
+                Some((_, plate)) => plate.inverse() * along * plate * own.in_frame,
+                None => along * own.in_frame,
+            };
+            Shift { in_frame, ..own }
         });
         self
     }
@@ -230,8 +243,11 @@ impl<'a> Reader<'a> {
 
     /// Names of the program's own begin with a dot; parameters are its own, too.
     fn is_local(&self, name: &Name) -> bool {
-        let plain = name.stem.strip_prefix(b"#").unwrap_or(&name.stem);
-        plain.starts_with(b".") || self.here.parameters.iter().any(|own| own == plain)
+        name.plain().starts_with(b".") || self.is_parameter(name)
+    }
+
+    fn is_parameter(&self, name: &Name) -> bool {
+        self.here.parameters.iter().any(|own| own == name.plain())
     }
 
     fn elements(&self, name: &Name) -> Option<&Elements> {
@@ -274,13 +290,17 @@ impl<'a> Reader<'a> {
             return Expr::Variable(self.variable(name));
         }
         let is_local = self.is_local(name);
-        match self.table(name).filter(|_| !is_local) {
+        match self.table(name) {
             None if is_local => self.unknown(Cause::Computed.remark()),
             None => self.unknown(not_in_files(&name.text())),
             Some(table) => {
+                // others of the program's own may follow in the text
+                let computed = is_local && !self.is_parameter(name);
+                let computed = computed.then(|| self.unknown(Cause::Computed.remark()));
                 let script = &mut self.builder.script;
                 let entries = script.tables[table as usize].entries.values();
-                let all: Vec<Expr> = entries.map(|one| Expr::Variable(*one)).collect();
+                let all = entries.map(|one| Expr::Variable(*one)).chain(computed);
+                let all: Vec<Expr> = all.collect();
                 script.any(all)
             }
         }
@@ -291,10 +311,27 @@ impl<'a> Reader<'a> {
     /// The position that words are: `p`, `#p[1]`, `TRANS(…)`, `#[…]`, `p+q-r`, `SHIFT(p BY x,y,z)`.
     pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
         let terms = part.terms();
-        let Some(((_, first), others)) = terms.split_first() else {
+        let Some(((_, first), mut others)) = terms.split_first() else {
             return Position::plain(self.unknown(Cause::Computed.remark()));
         };
-        let mut found = self.term(*first);
+        let on_plate = self.on_plate(part);
+        let on_plate = on_plate.map(|(plate, object, words)| {
+            let place = (plate.frame, plate.pose);
+            (place, object, words)
+        });
+        let mut found = if let Some((plate, object, words)) = on_plate {
+            others = &others[1..];
+            let base = match object {
+                Object::Named(name) => self.named(&name),
+                Object::Literal => self.literal(words, Shape::Pose),
+            };
+            Position {
+                on: Some(plate),
+                ..Position::plain(base)
+            }
+        } else {
+            self.term(*first)
+        };
         for (sign, term) in others {
             let by = self.known_pose(*term);
             found = found.in_tool(by.map(|by| if *sign == b'-' { by.inverse() } else { by }));
@@ -344,7 +381,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What poses that are added up are, where the text tells it.
-    fn known_sum(&mut self, part: Words<'a, '_>) -> Option<Pose> {
+    pub(super) fn known_sum(&mut self, part: Words<'a, '_>) -> Option<Pose> {
         let add = |sum: Pose, (sign, term): (u8, Words<'a, '_>)| {
             let by = self.known_pose(term)?;
             Some(sum * if sign == b'-' { by.inverse() } else { by })

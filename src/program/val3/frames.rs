@@ -6,9 +6,19 @@ use super::reader::Reader;
 use super::remarks::{frame_assigned, frame_chosen};
 use super::targets::pose_of;
 use crate::geometry::Pose;
-use crate::program::script::{Expr, Remark, VariableId};
+use crate::program::script::{DisplacementId, Expr, Remark, VariableId};
 use crate::program::words::Words;
-use crate::program::{Shift, Source};
+use crate::program::{Displacement, Shift, Source};
+
+/// A `compose` of the code.
+#[derive(Debug)]
+pub(super) struct Composed<'a> {
+    displacement: DisplacementId,
+    base: Expr,
+    /// The frame that it names, and the project that does.
+    asked: (u32, Father<'a>),
+    by: Pose,
+}
 
 /// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
@@ -16,28 +26,59 @@ const MOST_ANGLE: f64 = 720.0;
 const LONGEST_CHAIN: u32 = 32;
 
 impl<'a> Reader<'a> {
-    /// What `compose` does to a position, in its own frame.
-    pub(super) fn composed(&self, base: Expr, frame: Words<'a, '_>, by: Pose) -> Option<Shift> {
-        let of = self.roots(base);
-        let fathers: Option<Vec<_>> = of.iter().map(|one| self.father(*one)).collect();
-        let fathers = fathers?;
-        let (first, rest) = fathers.split_first()?;
-        if rest.iter().any(|other| other != first) {
-            return None;
-        }
-        let own = self.variables.fathers[*first as usize];
+    /// What `compose` does to a position, known once all copies are; `None` where only the running
+    /// program knows the frame.
+    pub(super) fn compose(
+        &mut self,
+        base: Expr,
+        frame: Words<'a, '_>,
+        by: Pose,
+    ) -> Option<DisplacementId> {
         let name = Reference::of(frame).filter(|name| !name.has_field)?;
         let asked = Father {
             alias: name.alias,
             name: name.name,
             index: name.key?,
         };
-        let place = |project, father| self.chain(project, father, Kind::Frame, 0).ok().flatten();
-        let world_from_own = place(own.0, own.1)?;
-        let world_from_asked = place(self.here.project, asked)?;
-        let own_from_asked = world_from_own.inverse() * world_from_asked;
+        let nothing = Shift::along([0.0; 3]);
+        let script = &mut self.builder.script;
+        let displacement = script.displacement(Displacement::By(Box::new(nothing)));
+        self.composed.push(Composed {
+            displacement,
+            base,
+            asked: (self.here.project, asked),
+            by,
+        });
+        Some(displacement)
+    }
+
+    /// Finds the displacements of all `compose`.
+    pub(super) fn settle_composed(&mut self) {
+        for composed in std::mem::take(&mut self.composed) {
+            let shift = self.shift_of(&composed);
+            let shift = shift.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
+            self.builder.script.displacements[composed.displacement as usize] = shift;
+        }
+    }
+
+    /// What a `compose` does to a position, in its own frame.
+    fn shift_of(&self, composed: &Composed<'a>) -> Option<Shift> {
+        let [only] = self.fathers(composed.base)[..] else {
+            return None;
+        };
+        let (own, asked) = (self.variables.fathers[only as usize], composed.asked);
+        let datum = |(project, of): (u32, Father<'a>)| {
+            let datum = self.world.datum(project, of.alias, of.name)?;
+            Some((datum, of.index))
+        };
+        let place = |(project, father)| self.chain(project, father, Kind::Frame, 0).ok().flatten();
+        let own_from_asked = if datum(own).is_some_and(|own| Some(own) == datum(asked)) {
+            Pose::identity()
+        } else {
+            place(own)?.inverse() * place(asked)?
+        };
         Some(Shift {
-            in_frame: own_from_asked * by * own_from_asked.inverse(),
+            in_frame: own_from_asked * composed.by * own_from_asked.inverse(),
             in_tool: Pose::identity(),
         })
     }
@@ -135,10 +176,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The work frame of the points that a position may be declared with or a copy of.
-    pub(super) fn frame_of(&mut self, position: Expr) -> Expr {
+    /// What the points hang on that a position may be declared with or a copy of.
+    fn fathers(&self, position: Expr) -> Vec<u32> {
         let mut open = self.roots(position);
-        let (mut seen, mut found) = (foldhash::HashSet::default(), None);
+        let (mut seen, mut found) = (foldhash::HashSet::default(), Vec::new());
         while let Some(variable) = open.pop() {
             if let Some(copies) = self.copies.get(&variable) {
                 if !seen.insert(variable) {
@@ -146,9 +187,19 @@ impl<'a> Reader<'a> {
                 }
                 open.extend(copies);
             }
-            let Some(father) = self.father(variable) else {
-                continue;
-            };
+            if let Some(father) = self.father(variable)
+                && !found.contains(&father)
+            {
+                found.push(father);
+            }
+        }
+        found
+    }
+
+    /// The work frame of those points.
+    pub(super) fn frame_of(&mut self, position: Expr) -> Expr {
+        let mut found = None;
+        for father in self.fathers(position) {
             let frame = self.frame(father);
             if found.is_some_and(|other| other != frame) {
                 return self.unknown(frame_chosen());

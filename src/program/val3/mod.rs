@@ -19,6 +19,7 @@
 //! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of
 //! the user's own are not followed. Arrays handed over with all values are followed in their first.
 
+mod arrays;
 mod code;
 mod data;
 mod drive;

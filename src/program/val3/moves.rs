@@ -118,6 +118,8 @@ impl<'a> Reader<'a> {
 
     /// The script: moves get the frames of their points once all copies are known.
     pub(super) fn finish(mut self) -> Script {
+        self.settle_composed();
+        self.refuse_arrays();
         for at in 0..self.builder.script.instructions.len() {
             let frame = self.frame_of(self.builder.script.instructions[at].target);
             let script = &mut self.builder.script;

@@ -7,7 +7,7 @@ use super::xml::{Node, Nodes};
 use crate::finding::Finding;
 use crate::program::kit::Fault;
 use crate::program::script::short;
-use crate::program::{ReadError, Source};
+use crate::program::{ReadError, Source, number};
 use foldhash::{HashMap, HashMapExt};
 use std::ops::Range;
 
@@ -21,6 +21,8 @@ pub(super) struct Declared<'a> {
     pub by_reference: bool,
     /// It is given with all its values.
     pub is_array: bool,
+    /// How many values it has; 0 where that is not said.
+    pub size: u32,
 }
 
 /// One program.
@@ -365,6 +367,7 @@ fn programs(bytes: &[u8], project: u32, file: u32) -> Result<Vec<Program<'_>>, F
                         by_reference: is_parameter
                             && (tag.value(b"use")? == b"reference"
                                 || tag.value(b"byVal")? == b"false"),
+                        size: number::whole(tag.value(b"size")?).unwrap_or(0),
                         is_array: attributes.any(|one| one.is_ok_and(|one| one.value == b"array")),
                     };
                     if let Some(program) = found.last_mut() {

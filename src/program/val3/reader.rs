@@ -1,16 +1,19 @@
 //! Programs as statements: blocks, calls, and what they write.
 
+use super::arrays::Arrays;
 use super::code::{Code, Reference, unquoted};
 use super::data::Kind;
+use super::frames::Composed;
 use super::moves::Verb;
 use super::project::{Program, World};
 use super::remarks::{computed, finding, frame_assigned, library};
 use super::targets::{Of, Variables};
-use crate::program::Source;
+use crate::program::notation::shift_of;
 use crate::program::script::{
     Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, Write, short,
 };
 use crate::program::words::{self, Words};
+use crate::program::{Shift, Source, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Built-in instructions, and which of their arguments they write.
@@ -52,6 +55,10 @@ pub(super) struct Reader<'a> {
     pub assigned: HashSet<u32>,
     /// What each variable may be a copy of.
     pub copies: HashMap<VariableId, Vec<VariableId>>,
+    pub arrays: Arrays<'a>,
+    /// Nothing new was found about arrays.
+    pub is_settled: bool,
+    pub composed: Vec<Composed<'a>>,
     pub here: Here,
 }
 
@@ -62,6 +69,8 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         Code::of(bytes, program.code.clone(), program.is_escaped)
     };
     let codes: Vec<Code<'a>> = world.programs.iter().map(code).collect();
+    let mut declared = world.programs.iter().flat_map(|program| &program.declared);
+    let takes_arrays = declared.any(|one| one.is_parameter && one.is_array);
     let mut builder = Builder::default();
     builder.script.findings.append(&mut world.findings);
     let variables = Variables::of(&mut builder, &world);
@@ -72,6 +81,9 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         variables,
         assigned: HashSet::new(),
         copies: HashMap::new(),
+        arrays: Arrays::default(),
+        is_settled: !takes_arrays,
+        composed: Vec::new(),
         here: Here::default(),
     };
     for program in &reader.world.programs {
@@ -84,6 +96,11 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
     }
     for (program, code) in codes.iter().enumerate() {
         reader.program(program, code, Reader::note_assigned);
+    }
+    while !std::mem::replace(&mut reader.is_settled, true) {
+        for (program, code) in codes.iter().enumerate() {
+            reader.program(program, code, Reader::note_given);
+        }
     }
     for (program, code) in codes.iter().enumerate() {
         reader.builder.open(short(program));
@@ -148,7 +165,11 @@ impl<'a> Reader<'a> {
 
     /// The program that a call at a word calls, and its name; the program is `None` where the files
     /// do not have it.
-    fn callee(&self, line: Words<'a, '_>, at: usize) -> Option<(Option<RoutineId>, &'a [u8])> {
+    pub(super) fn callee(
+        &self,
+        line: Words<'a, '_>,
+        at: usize,
+    ) -> Option<(Option<RoutineId>, &'a [u8])> {
         let has_alias = at >= 2 && line.is(at - 1, b':');
         let first = if has_alias { at - 2 } else { at };
         let alias = if has_alias { line.text(first) } else { b"" };
@@ -249,8 +270,13 @@ impl<'a> Reader<'a> {
             if kind == Kind::Tool {
                 return self.write_something(&target, offset, false);
             }
-            let remark = self.builder.script.remark(computed());
-            return self.write(&target, offset, How::part(value.whole(), remark));
+            let script = &mut self.builder.script;
+            let remark = script.remark(computed());
+            let how = match grown(line.part(0..target.words), value) {
+                Some(shift) if kind == Kind::Point => script.part_by(remark, shift),
+                _ => How::part(value.whole(), remark),
+            };
+            return self.write(&target, offset, how);
         }
         let joints = match kind {
             Kind::Joint => self.joints(value),
@@ -310,11 +336,20 @@ impl<'a> Reader<'a> {
         for (number, value) in given.into_iter().enumerate() {
             let parameter =
                 callee.and_then(|callee| Some((callee, self.parameter(callee, number)?)));
-            let declared = parameter.map(|(_, declared)| declared);
-            let parameter = parameter.map(|(callee, declared)| self.local(callee, declared.name));
             let target = Reference::of(value).filter(|name| name.words == value.len());
             let kind = target.map_or(Kind::Other, |target| self.kind_of(&target));
             let is_given = kind.is_place() || kind == Kind::Tool;
+            if let Some(parameter) = parameter.filter(|(_, one)| one.is_array && is_given) {
+                if !self.give_array(parameter, value, &mut arguments) && parameter.1.by_reference {
+                    arrays.extend(target);
+                }
+                continue;
+            }
+            if callee.is_none() && kind.is_place() {
+                self.give_away(value, &mut arguments);
+            }
+            let by_reference = parameter.is_some_and(|(_, one)| one.by_reference && is_given);
+            let parameter = parameter.map(|(callee, one)| self.local(callee, one.name));
             let value = if is_given {
                 self.given(kind, value)
             } else if parameter.is_some() {
@@ -326,10 +361,6 @@ impl<'a> Reader<'a> {
             if let (Some(parameter), true) = (parameter, kind.is_place()) {
                 let of = self.roots(value);
                 self.copies.entry(parameter).or_default().extend(of);
-            }
-            let by_reference = is_given && declared.is_some_and(|one| one.by_reference);
-            if by_reference && declared.is_some_and(|one| one.is_array) {
-                arrays.extend(target);
             }
             arguments.push(Argument {
                 parameter,
@@ -352,7 +383,7 @@ impl<'a> Reader<'a> {
         } else {
             self.builder.start(call);
         }
-        // the other values of an array that is given with all of them
+        // an array whose elements are not followed
         for target in arrays {
             let target = Reference {
                 key: None,
@@ -365,7 +396,24 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// By what `p.trsf.z=` displaces a point: 200 mm where `p.trsf.z+200` is behind it.
+fn grown(field: Words, value: Words) -> Option<Shift> {
+    let last = field.len().checked_sub(3)?;
+    let letters = |text: &[u8]| -> Vec<u8> {
+        let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
+        letters.copied().collect()
+    };
+    let own = letters(field.whole());
+    let by = number::added(value.whole(), |term| letters(term) == own)?;
+    let at = [b"x", b"y", b"z"]
+        .iter()
+        .position(|axis| field.text(last + 2) == *axis)?;
+    (field.text(last) == b"trsf")
+        .then(|| shift_of(at, by))
+        .flatten()
+}
+
 /// The words of a statement with a list in brackets behind them.
-fn functions<'w>(line: Words<'w, 'w>) -> impl Iterator<Item = usize> + 'w {
+pub(super) fn functions<'w>(line: Words<'w, 'w>) -> impl Iterator<Item = usize> + 'w {
     (0..line.len()).filter(move |at| line.is_name(*at) && line.is(at + 1, b'('))
 }

@@ -29,6 +29,17 @@ pub(super) fn computed() -> Remark {
     )
 }
 
+/// Against an array that a program is given.
+pub(super) fn unfollowed() -> Remark {
+    Remark::error(
+        "target-passed-to-routine",
+        "a program is given this array, and which of its elements it goes to or writes is not \
+         followed",
+        "give it the name alone of an array that has at most 32 elements, or one element as a \
+         parameter that is none",
+    )
+}
+
 /// A declared point without numbers.
 pub(super) fn not_taught(name: &str) -> Remark {
     Remark::error(

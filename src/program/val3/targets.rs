@@ -21,7 +21,7 @@ use std::borrow::Cow;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     pub kind: Kind,
-    table: TableId,
+    pub table: TableId,
     pub of: Of,
 }
 
@@ -208,12 +208,22 @@ impl<'a> Reader<'a> {
 
     /// The variable of a name of a program's own.
     pub(super) fn local(&mut self, routine: RoutineId, name: &'a [u8]) -> VariableId {
+        self.local_element(routine, name, b"0")
+    }
+
+    /// The variable of an element of a program's own.
+    pub(super) fn local_element(
+        &mut self,
+        routine: RoutineId,
+        name: &'a [u8],
+        key: &'a [u8],
+    ) -> VariableId {
         let known = self.variables.locals[&(routine, name)];
-        self.element(known, b"0")
+        self.element(known, key)
     }
 
     /// The variable of a value.
-    fn element(&mut self, known: Known, key: &'a [u8]) -> VariableId {
+    pub(super) fn element(&mut self, known: Known, key: &'a [u8]) -> VariableId {
         let value = match known.of {
             Of::Project(datum) => {
                 let at = self.world.data[datum as usize].element(key);
@@ -288,14 +298,19 @@ impl<'a> Reader<'a> {
     }
 
     /// The table of a name with all its values in it.
-    fn all(&mut self, known: Known) -> TableId {
-        if let Of::Project(datum) = known.of
-            && self.variables.filled.insert(known.table)
-        {
-            for at in 0..self.world.data[datum as usize].elements.len() {
-                let key = self.world.data[datum as usize].elements[at].key;
-                self.element(known, key);
+    pub(super) fn all(&mut self, known: Known, name: &[u8]) -> TableId {
+        if !self.variables.filled.insert(known.table) {
+            return known.table;
+        }
+        let keys = match known.of {
+            Of::Project(datum) => {
+                let elements = self.world.data[datum as usize].elements.iter();
+                elements.map(|element| element.key).collect()
             }
+            Of::Program(_) => self.keys(known, name).unwrap_or_default(),
+        };
+        for key in keys {
+            self.element(known, key);
         }
         known.table
     }
@@ -304,7 +319,7 @@ impl<'a> Reader<'a> {
     pub(super) fn written_by(&mut self, name: &Reference<'a>) -> Result<Written, Remark> {
         match (self.meaning(name), name.key) {
             (Some(known), Some(key)) => Ok(Written::One(self.element(known, key))),
-            (Some(known), None) => Ok(Written::AnyOf(self.all(known))),
+            (Some(known), None) => Ok(Written::AnyOf(self.all(known, name.name))),
             (None, _) => {
                 let alias = Source::text(name.alias);
                 let colon = if alias.is_empty() { "" } else { ":" };
@@ -336,6 +351,7 @@ impl<'a> Reader<'a> {
         let is_own = |known: &Known| matches!(known.of, Of::Program(_));
         if let Some(own) = meaning.filter(is_own)
             && name.key.is_none()
+            && self.keys(own, name.name).is_none_or(|keys| keys.is_empty())
         {
             return self.unknown(unknown_value(own.kind));
         }
@@ -420,8 +436,10 @@ impl<'a> Reader<'a> {
             (b"compose", Some([point, frame, by])) => {
                 let base = self.position_within(*point, depth + 1);
                 let by = self.transformation(*by);
-                let by = by.and_then(|by| self.composed(base, *frame, by));
-                self.displaced(base, by)
+                match by.and_then(|by| self.compose(base, *frame, by)) {
+                    Some(by) => self.builder.script.displaced(base, by),
+                    None => self.displaced(base, None),
+                }
             }
             _ => match Reference::whole(words) {
                 Some(name) => self.named(&name),

@@ -4,8 +4,9 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Move, Value};
+use crate::program::{Displacement, Motion, Move, Shift, Value};
 
+mod arrays;
 mod projects;
 mod robust;
 
@@ -181,6 +182,29 @@ fn approaches_are_displaced_and_others_are_reported() {
     // y of the world is x of a frame that is rotated by a quarter
     let (in_frame, _) = shifts[4].expect("both are known");
     assert!((in_frame[0] - 0.007).abs() < 1e-12 && in_frame[1].abs() < 1e-12);
+}
+
+#[test]
+fn a_number_of_the_text_displaces_by_what_it_says() {
+    let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""])
+        + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[0]\""]);
+    let by = |line: &str| {
+        let code = format!("pB=pA\n{line}\nmovel(pB,tA,m)");
+        project(&points, &code).moves[0].displacement.clone()
+    };
+    let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    for (line, wanted) in [
+        ("pB.trsf.z=pB.trsf.z+200", along([0.0, 0.0, 0.2])),
+        (
+            "pB.trsf.x = 10 + pB.trsf.x\npB.trsf.z=pB.trsf.z-20",
+            along([0.01, 0.0, -0.02]),
+        ),
+        ("pB.trsf.z=pA.trsf.z+200", Displacement::Unknown),
+        ("pB.trsf.rx=pB.trsf.rx+20", Displacement::Unknown),
+        ("pB.trsf.z=pB.trsf.z+nZ", Displacement::Unknown),
+    ] {
+        assert_eq!(by(line), wanted, "{line}");
+    }
 }
 
 #[test]

@@ -187,3 +187,100 @@ fn a_name_that_is_added_to_another_is_no_target() {
     let program = read("TOOL NULL\nBASE grip+off\nJMOVE #home\nLMOVE p1+off");
     assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
 }
+
+#[test]
+fn elements_of_an_array_are_those_of_the_call() {
+    let tools = |program: &Program| -> Vec<String> {
+        let moves = program.moves.iter().filter(|one| one.target.is_some());
+        let name = |one: &Move| program.tools[one.tool].name.clone();
+        moves.map(name).collect()
+    };
+    let program = read_two("CALL sub(p[])", "sub(.q[])\nLMOVE .q[2]");
+    assert_eq!(targets(&program), ["p[2]"]);
+    let program = read_two("CALL sub(p[],1)", "sub(.q[],.n)\nTOOL off\nLMOVE .q[.n]");
+    assert_eq!(targets(&program), ["p[1]", "p[2]"]);
+    assert_eq!(tools(&program), ["off", "off"]);
+    assert_eq!(ids(&program), [""; 0]);
+    // handed on, and written
+    let program = read_two(
+        "CALL sub(p[])\nLMOVE p[1]\nLMOVE p[2]",
+        "sub(.q[])\nCALL put(.q[])\n.END\n.PROGRAM put(.r[])\nPOINT/Z .r[2] = 300",
+    );
+    assert_eq!(targets(&program), ["p[1]"]);
+    let blocked = program.targets.iter().filter(|target| target.blocked);
+    let blocked: Vec<_> = blocked.map(|target| target.name.as_deref()).collect();
+    assert_eq!(blocked, [Some("p[2]")]);
+    // to a program that the files do not have
+    let program = read_two("CALL away(p[])\nLMOVE p[2]", "other()");
+    assert!(ids(&program).contains(&"target-passed-to-routine"));
+}
+
+#[test]
+fn what_is_added_to_a_plate_is_a_target_on_it() {
+    let used = |program: &Program| -> Vec<(String, String, Option<[f64; 3]>, Displacement)> {
+        let each = program.moves.iter().map(|one| {
+            let frame = &program.frames[one.frame];
+            let at = frame.world_from_frame.map(|pose| pose.translation);
+            let name = target(program, one).unwrap_or_default().to_owned();
+            (name, frame.name.clone(), at, one.displacement.clone())
+        });
+        each.collect()
+    };
+    let on = |name: &str, frame: &str, at: [f64; 3]| {
+        (
+            name.to_owned(),
+            frame.to_owned(),
+            Some(at),
+            Displacement::None,
+        )
+    };
+    // the numbers of p1
+    let at = [0.1, 0.9, 0.2];
+    let program = read_two(
+        "LMOVE p1+p[1]\nLMOVE p1+p[i]\nLMOVE off\nLMOVE p1+TRANS(1,2,3,4,5,6)",
+        "other()",
+    );
+    assert_eq!(
+        used(&program),
+        [
+            on("p[1]", "p1", at),
+            on("p[1]", "p1", at),
+            on("p[2]", "p1", at),
+            on("off", "NULL", [0.0; 3]),
+            on("here", "p1", at),
+        ]
+    );
+    assert_eq!(ids(&program), [""; 0]);
+    let program = read_two(
+        "BASE off\nLMOVE p1+p[2]\nBASE NULL\nLMOVE p1+p[2]",
+        "other()",
+    );
+    let both = used(&program);
+    assert_eq!(
+        (both[0].1.as_str(), &both[1]),
+        ("off+p1", &on("p[2]", "p1", at))
+    );
+    let height = both[0].2.expect("known")[2];
+    assert!((height - 0.15).abs() < 1e-12);
+    // along the base: p1 is rotated by half a revolution about an axis in its plane
+    let program = read_two("LMOVE p1+p[2]\nDRAW 0,0,10\nLDEPART 5", "other()");
+    let Displacement::By(draw) = &program.moves[1].displacement else {
+        panic!("{:?}", program.moves[1]);
+    };
+    assert!((draw.in_frame.translation[2] + 0.01).abs() < 1e-12);
+    assert_eq!(used(&program)[2].1, "p1");
+    // a move goes to p1 itself, the offset is another's, too, or is written or handed over
+    for (code, other) in [
+        ("LMOVE p1+off\nLMOVE p1", "other()"),
+        ("LMOVE p1+off\nLMOVE p[1]+off", "other()"),
+        ("LMOVE p1+off\nTOOL off", "other()"),
+        ("LMOVE p1+off\nPOINT q = off", "other()"),
+        ("LMOVE p1+off\nCALL put(off)", "put(.p)\nx = DX(.p)"),
+        ("LMOVE p1+off\nCALL put(p1)", "put(.p)\nLMOVE .p"),
+    ] {
+        let program = read_two(code, other);
+        let (name, frame, _, displacement) = &used(&program)[0];
+        assert_eq!((name.as_str(), frame.as_str()), ("p1", "NULL"), "{code}");
+        assert!(matches!(displacement, Displacement::By(_)), "{code}");
+    }
+}

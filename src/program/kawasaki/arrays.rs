@@ -1,0 +1,137 @@
+//! Arrays that programs are handed as a whole: their elements are bound one by one.
+
+use super::calls::{Handed, stem_of};
+use super::reader::Reader;
+use super::remarks::{Cause, unfollowed};
+use super::targets::Name;
+use crate::program::script::{Argument, Expr, RoutineId};
+use foldhash::HashMap;
+use std::collections::BTreeSet;
+
+/// Elements of an array that are followed each.
+const MOST_ELEMENTS: usize = 32;
+
+/// Keys of elements, in the order of the text.
+type Keys = BTreeSet<Vec<u8>>;
+/// Keys of the elements that a parameter may be given, by program and name.
+pub(super) type Given = HashMap<(RoutineId, Vec<u8>), Keys>;
+
+/// Whether a name is that of a whole array: `p[]`, `p[,]`.
+fn is_array(name: &Name) -> bool {
+    let key = name.key.as_deref().unwrap_or_default();
+    key.starts_with(b"[") && !key.iter().any(u8::is_ascii_digit)
+}
+
+impl Reader<'_> {
+    /// Notes which elements of arrays programs are handed, and makes them those of the parameters.
+    pub(super) fn note_arrays(&mut self, handed: &[Handed]) {
+        let arrays = || handed.iter().filter(|one| is_array(&one.name));
+        let mut is_settled = false;
+        while !std::mem::replace(&mut is_settled, true) {
+            for one in arrays() {
+                let keys = self.keys_of(&one.name, one.by).unwrap_or_default();
+                for callee in self.programs_of(&one.to) {
+                    let parameter = self.parameters[callee as usize].get(one.number);
+                    let Some(parameter) = parameter else { continue };
+                    let given = (callee, stem_of(parameter, &one.name));
+                    let known = self.given.entry(given).or_default();
+                    let before = known.len();
+                    known.extend(keys.iter().cloned());
+                    is_settled &= known.len() == before;
+                }
+            }
+        }
+        let mut all: Vec<_> = self.given.clone().into_iter().collect();
+        all.sort_unstable();
+        for ((routine, stem), keys) in all {
+            for key in keys {
+                self.parameter(routine, stem.clone(), key);
+            }
+        }
+    }
+
+    /// The keys of the elements of a name that a program uses; `None` where they are too many.
+    fn keys_of(&self, name: &Name, by: RoutineId) -> Option<Keys> {
+        let plain = name.plain();
+        let own = &self.parameters[by as usize];
+        if own.iter().any(|parameter| parameter == plain) {
+            let given = self.given.get(&(by, name.stem.clone()));
+            return Some(given.cloned().unwrap_or_default());
+        }
+        let elements = if plain.starts_with(b".") {
+            self.locals.get(&by).and_then(|names| names.get(&name.stem))
+        } else {
+            self.names.get(&name.stem)
+        };
+        let keys = elements.into_iter().flat_map(|of| of.variables.keys());
+        let keys: Keys = keys.filter(|key| !key.is_empty()).cloned().collect();
+        (keys.len() <= MOST_ELEMENTS).then_some(keys)
+    }
+
+    /// Hands a whole array over, element by element; whether it is one.
+    pub(super) fn array(
+        &mut self,
+        name: &Name,
+        number: usize,
+        callees: &[RoutineId],
+        arguments: &mut Vec<Argument>,
+    ) -> bool {
+        if !is_array(name) {
+            return false;
+        }
+        let keys = self.keys_of(name, self.here.routine);
+        if keys.is_none() {
+            self.refuse_array(name);
+        }
+        let keys = keys.unwrap_or_default();
+        for key in keys.iter().filter(|_| callees.is_empty()) {
+            let variable = self.element(name, key);
+            arguments.push(Argument {
+                parameter: None,
+                value: Expr::Variable(variable),
+                back: None,
+            });
+        }
+        for &callee in callees {
+            let Some(parameter) = self.parameters[callee as usize].get(number) else {
+                continue;
+            };
+            let stem = stem_of(parameter, name);
+            let all = self.given.get(&(callee, stem.clone())).cloned();
+            for key in all.unwrap_or_default() {
+                let variable = keys.contains(&key).then(|| self.element(name, &key));
+                let value = match variable {
+                    Some(variable) => Expr::Variable(variable),
+                    // what another call gave is there no more
+                    None => self.unknown(Cause::Computed.remark()),
+                };
+                arguments.push(Argument {
+                    parameter: Some(self.parameter(callee, stem.clone(), key)),
+                    value,
+                    back: variable,
+                });
+            }
+        }
+        true
+    }
+
+    fn element(&mut self, name: &Name, key: &[u8]) -> u32 {
+        let stem = name.stem.clone();
+        let key = Some(key.to_vec());
+        self.variable(&Name { stem, key })
+    }
+
+    /// The targets of an array whose elements are not followed stay as they are.
+    fn refuse_array(&mut self, name: &Name) {
+        let Some(table) = self.table(name) else {
+            return;
+        };
+        let script = &mut self.builder.script;
+        let remark = script.remark(unfollowed());
+        for variable in script.tables[table as usize].entries.values() {
+            if let Expr::Target(target) = script.variables[*variable as usize].declared {
+                script.refused.push((target, remark));
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! Objects on a plate: `LMOVE plate+obj` where no move goes to `plate` itself. The plate is a work
+//! frame on the base then, and the object the target in it.
+
+use super::keywords::begins_with;
+use super::moves::Verb;
+use super::pose_of;
+use super::reader::{Reader, behind_label};
+use super::remarks::Cause;
+use super::sections::{Sections, lines};
+use super::targets::Name;
+use crate::geometry::Pose;
+use crate::program::script::{Expr, Held, How, Place, Variable, VariableId, Written};
+use crate::program::words::{Words, six};
+use foldhash::{HashMap, HashSet};
+
+/// A plate as a work frame.
+#[derive(Clone, Debug)]
+pub(super) struct Plate {
+    text: String,
+    pub pose: Pose,
+    /// Holds the base with the plate on it.
+    pub frame: VariableId,
+}
+
+/// The plates of all programs.
+pub(super) type Plates = HashMap<Name, Plate>;
+/// Plates, and what is added to each: names without their indices.
+type Sums = HashMap<Name, HashSet<Vec<u8>>>;
+
+/// What stands on a plate.
+#[derive(Clone, Debug)]
+pub(super) enum Object {
+    Named(Name),
+    /// `TRANS(…)` with its six numbers.
+    Literal,
+}
+
+impl Object {
+    fn stem(&self) -> Option<&[u8]> {
+        match self {
+            Self::Named(name) => Some(&name.stem),
+            Self::Literal => None,
+        }
+    }
+}
+
+/// The plate and the object that a sum begins with, and the words of the object.
+fn sum<'a, 'w>(position: Words<'a, 'w>) -> Option<(Name, Object, Words<'a, 'w>)> {
+    let terms = position.terms();
+    let [(_, first), (b'+', second), ..] = terms[..] else {
+        return None;
+    };
+    let name = |part: Words| {
+        let (name, words) = Name::of(part)?;
+        let is_pose = !name.is_joints() && !name.stem.starts_with(b".");
+        (is_pose && words == part.len()).then_some(name)
+    };
+    let plate = name(first).filter(|plate| plate.key.is_some())?;
+    let is_literal = || {
+        let numbers = second.rest_list(1).and_then(|list| six(&list));
+        second.is_word(0, b"TRANS") && second.is(1, b'(') && numbers.is_some()
+    };
+    let object = match name(second) {
+        Some(name) => Object::Named(name),
+        None if is_literal() => Object::Literal,
+        None => return None,
+    };
+    Some((plate, object, second))
+}
+
+/// The sum that a move goes to, in a SHIFT or not.
+fn sum_of_move<'a, 'w>(
+    part: Words<'a, 'w>,
+    own: &[Vec<u8>],
+) -> Option<(Name, Object, Words<'a, 'w>)> {
+    let verb = Verb::of(part)?;
+    let first = *part.behind(1).list().first()?;
+    let goes = matches!(verb, Verb::To(..) | Verb::Arc(_) | Verb::Near(_));
+    let position = if first.is_word(0, b"SHIFT") && first.is(1, b'(') {
+        let (inside, _) = first.inside(1);
+        inside.part(0..inside.find(b"BY")?)
+    } else {
+        first
+    };
+    // parameters of the program are what its callers say
+    let is_own = |stem: &[u8]| own.iter().any(|own| own == stem);
+    let found = sum(position).filter(|_| goes);
+    found.filter(|(plate, object, _)| !is_own(&plate.stem) && !object.stem().is_some_and(is_own))
+}
+
+impl<'a> Reader<'a> {
+    /// Finds the plates: names that all moves only add objects to, which no other plate has and
+    /// nothing else uses. Where no file tells any base they would hide that it is missing.
+    pub(super) fn find_plates(&mut self, sections: &[Sections], start: Option<Pose>) {
+        let mut sums = Sums::default();
+        self.each_line(sections, true, |part, own| {
+            if let Some((plate, object, _)) = sum_of_move(part, own) {
+                let objects = sums.entry(plate).or_default();
+                objects.extend(object.stem().map(<[u8]>::to_vec));
+            }
+        });
+        if sums.is_empty() {
+            return;
+        }
+        let mut found = self.free_plates(sections, &sums, start.is_some());
+        found.sort_unstable_by(|(a, _), (b, _)| (&a.stem, &a.key).cmp(&(&b.stem, &b.key)));
+        for (name, pose) in found {
+            let text = name.text();
+            let value = self.frame_value(&format!("BASE+{text}"), start.map(|base| base * pose));
+            let place = Place { file: 0, offset: 0 };
+            let frame = Variable::new(text.as_str(), place, value);
+            let frame = self.builder.script.variable(frame);
+            self.plates.insert(name, Plate { text, pose, frame });
+        }
+    }
+
+    /// Those of sums whose names nothing else uses, and where they are.
+    fn free_plates(
+        &self,
+        sections: &[Sections],
+        sums: &Sums,
+        mut has_base: bool,
+    ) -> Vec<(Name, Pose)> {
+        let plates: HashSet<&[u8]> = sums.keys().map(|plate| &*plate.stem).collect();
+        let mut times: HashMap<&[u8], u32> = HashMap::default();
+        for object in sums.values().flatten() {
+            *times.entry(object).or_default() += 1;
+        }
+        let mut others: HashSet<Vec<u8>> = HashSet::default();
+        self.each_line(sections, false, |part, own| {
+            has_base |= begins_with(part, b"BASE");
+            let sum = sum_of_move(part, own);
+            let end = sum.map_or(0, |(_, _, object)| object.span().end);
+            for at in 1..part.len() {
+                // the first names behind the verb are the sum
+                if part.part(at..at + 1).span().start >= end
+                    && let Some((name, _)) = Name::of(part.behind(at))
+                    && (plates.contains(&*name.stem) || times.contains_key(&*name.stem))
+                {
+                    others.insert(name.stem);
+                }
+            }
+        });
+        let is_free = |stem: &[u8]| !others.contains(stem) && !self.assigned.contains(stem);
+        let is_object = |stem: &Vec<u8>| {
+            let elements = self.names.get(stem).map(|of| &of.variables);
+            let mut all = elements.into_iter().flat_map(HashMap::values);
+            let is_known = elements.is_some_and(|all| !all.is_empty())
+                && all.all(|one| self.declared_pose(*one).is_some());
+            is_known && is_free(stem) && times[&**stem] == 1 && !plates.contains(&**stem)
+        };
+        let pose_at = |name: &Name| {
+            let variables = &self.names.get(&name.stem)?.variables;
+            self.declared_pose(*variables.get(name.key.as_deref()?)?)
+        };
+        let place = |(name, objects): (&Name, &HashSet<Vec<u8>>)| {
+            let is_plate = !times.contains_key(&*name.stem)
+                && is_free(&name.stem)
+                && objects.iter().all(is_object);
+            let pose = is_plate.then(|| pose_at(name));
+            Some((name.clone(), pose??))
+        };
+        let found = sums.iter().filter_map(place);
+        found.filter(|_| has_base).collect()
+    }
+
+    /// Visits the words of all lines, or of those with a sum, with the parameters of their program.
+    fn each_line(
+        &self,
+        sections: &[Sections],
+        sums: bool,
+        mut visit: impl FnMut(Words, &[Vec<u8>]),
+    ) {
+        let (mut routine, mut found) = (0, Vec::new());
+        for (source, of) in self.sources.iter().zip(sections) {
+            for program in &of.programs {
+                for line in lines(&source.bytes, program.lines.clone()) {
+                    if !sums || memchr::memchr(b'+', line.text).is_some() {
+                        let (_, part) = behind_label(line.words(&source.bytes, &mut found));
+                        visit(part, &self.parameters[routine]);
+                    }
+                }
+                routine += 1;
+            }
+        }
+    }
+
+    /// The pose that a variable is declared with.
+    fn declared_pose(&self, variable: VariableId) -> Option<Pose> {
+        let script = &self.builder.script;
+        let Expr::Target(target) = script.variables[variable as usize].declared else {
+            return None;
+        };
+        let numbers = script.numbers_of(target);
+        (numbers.len() == 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
+    }
+
+    /// The plate that a sum begins with, its object, and the words of that.
+    pub(super) fn on_plate<'w>(
+        &self,
+        position: Words<'a, 'w>,
+    ) -> Option<(&Plate, Object, Words<'a, 'w>)> {
+        if self.plates.is_empty() {
+            return None;
+        }
+        let (plate, object, words) = sum(position)?;
+        let plate = self.plates.get(&plate)?;
+        Some((plate, object, words))
+    }
+
+    /// The base is another: so are the plates on it.
+    pub(super) fn move_plates(&mut self, base: Expr, words: Words<'a, '_>) {
+        let mut plates: Vec<Plate> = self.plates.values().cloned().collect();
+        plates.sort_unstable_by_key(|plate| plate.frame);
+        if plates.is_empty() {
+            return;
+        }
+        let known = match base {
+            Expr::Value(value) => match &self.builder.script.values[value as usize] {
+                Held::Frame(frame) => Some((frame.name.to_string(), frame.pose)),
+                _ => None,
+            },
+            _ => {
+                let first = words.list().first().copied().unwrap_or(words);
+                let pose = self.known_sum(first);
+                pose.map(|pose| {
+                    (
+                        crate::program::Source::text(first.whole()).into(),
+                        Some(pose),
+                    )
+                })
+            }
+        };
+        for plate in plates {
+            let value = match &known {
+                Some((name, pose)) if name == "NULL" => {
+                    self.frame_value(&plate.text, pose.map(|base| base * plate.pose))
+                }
+                Some((name, pose)) => {
+                    let name = format!("{name}+{}", plate.text);
+                    self.frame_value(&name, pose.map(|base| base * plate.pose))
+                }
+                None => self.unknown(Cause::Assigned.remark()),
+            };
+            self.write(Written::One(plate.frame), How::Whole(value));
+        }
+    }
+}
