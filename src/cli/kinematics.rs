@@ -25,7 +25,8 @@ pub(super) struct Fk {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Joint angles (CSV with `q1_deg…q6_deg`, optional dir1…dir6 and `fx_n,fy_n,fz_n`)
+    /// Joint angles (CSV with `q1_deg…q6_deg`; optional dir1…dir6, `move1_deg…move6_deg`,
+    /// `fx_n,fy_n,fz_n`, `temperature_c`, `time_s`, and `e1_mm`… of a track)
     #[arg(long, value_name = "FILE")]
     joints: PathBuf,
     /// Which arm
@@ -42,7 +43,8 @@ pub(super) struct Ik {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Poses (CSV with `x_mm,y_mm,z_mm,qw,qx,qy,qz` and branch, 0 to 7, or `near1_deg…near6_deg`)
+    /// Poses (CSV with `x_mm,y_mm,z_mm,qw,qx,qy,qz` and branch, 0 to 7, or `near1_deg…near6_deg`;
+    /// optional columns as of fk)
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
     /// Which arm
@@ -91,7 +93,7 @@ impl Ik {
         let mut tell = |done, of| progress.tell(done, of);
         let found = ik_telling(&profile, &poses, &options, self.all, &mut tell)?;
         drop(progress);
-        let answer = if found.reached || self.all {
+        let answer = if found.reached {
             Answer::Yes
         } else {
             Answer::No

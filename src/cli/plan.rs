@@ -30,7 +30,7 @@ pub(super) struct PlanCommand {
     #[arg(long, value_name = "FILE")]
     program: Option<PathBuf>,
     /// Language of the program (default: that of the profile)
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "program")]
     language: Option<String>,
     /// Random configurations to choose from
     #[arg(long, value_name = "N", default_value_t = 5000)]
@@ -95,7 +95,12 @@ pub(super) struct PlanCommand {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     device_mm: Option<String>,
     /// Half angle in which the reflector is seen
-    #[arg(long, value_name = "DEG", default_value_t = 30.0)]
+    #[arg(
+        long,
+        value_name = "DEG",
+        default_value_t = 30.0,
+        requires = "device_mm"
+    )]
     cone_deg: f64,
     #[command(flatten)]
     report: ReportFile,

@@ -143,15 +143,16 @@ impl IcpOptions {
 
 impl Register {
     fn options(&self) -> Result<Options, Failure> {
-        for (name, value) in [
-            ("--sigma-mm", self.sigma_mm),
-            ("--probe-radius-mm", Some(self.probe_radius_mm)),
-        ] {
-            if let Some(value) = value.filter(|v| !v.is_finite() || *v < 0.0) {
-                return Err(Failure::new(format!(
-                    "{name} {value}: it must be 0 or more"
-                )));
-            }
+        let radius = self.probe_radius_mm;
+        if !radius.is_finite() || radius < 0.0 {
+            return Err(Failure::new(format!(
+                "--probe-radius-mm {radius}: it must be 0 or more"
+            )));
+        }
+        if let Some(sigma) = self.sigma_mm.filter(|s| !s.is_finite() || *s <= 0.0) {
+            return Err(Failure::new(format!(
+                "--sigma-mm {sigma}: it must be above 0"
+            )));
         }
         let at = self.at.iter().map(|text| {
             values::point(text)

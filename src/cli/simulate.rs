@@ -29,7 +29,8 @@ pub(super) struct Simulate {
     /// Robot profile (YAML)
     #[arg(long, value_name = "FILE")]
     profile: PathBuf,
-    /// Joint angles (CSV with `q1_deg…q6_deg`, optional dir1…dir6 and `fx_n,fy_n,fz_n`)
+    /// Joint angles (CSV with `q1_deg…q6_deg`; optional dir1…dir6, `fx_n,fy_n,fz_n`,
+    /// `temperature_c` and `time_s`)
     #[arg(long, value_name = "FILE")]
     joints: PathBuf,
     /// Measurements to write (CSV); without it they are printed
@@ -56,9 +57,9 @@ pub(super) struct Simulate {
     /// Part of the rows that are wrong, 0 to 1
     #[arg(long, value_name = "PART", default_value_t = 0.0)]
     outliers: f64,
-    /// Size of a wrong row's error
-    #[arg(long, value_name = "MM", default_value_t = 10.0)]
-    outlier_mm: f64,
+    /// Size of a wrong row's error (default: 10), with --outliers
+    #[arg(long, value_name = "MM")]
+    outlier_mm: Option<f64>,
     /// Temperature of the first and last row
     #[arg(long, value_name = "C,C")]
     temperature_c: Option<String>,
@@ -77,6 +78,12 @@ impl Simulate {
         if (self.kind == Kind::Distance) == from.is_empty() {
             return Err(Failure::new("--kind distance and --from belong together"));
         }
+        if self.outliers == 0.0 && self.outlier_mm.is_some_and(f64::is_finite) {
+            return Err(Failure::with_hint(
+                "--outlier-mm has no effect without --outliers",
+                "--outliers says which part of the rows is wrong",
+            ));
+        }
         Ok(Session {
             device: match self.kind {
                 Kind::Position => Device::Position,
@@ -86,7 +93,7 @@ impl Simulate {
             noise_m: m_from_mm(self.noise_mm),
             noise_rad: self.noise_deg * DEG,
             outliers: self.outliers,
-            outlier_m: m_from_mm(self.outlier_mm),
+            outlier_m: m_from_mm(self.outlier_mm.unwrap_or(10.0)),
             temperature_c: self
                 .temperature_c
                 .as_deref()

@@ -71,6 +71,17 @@ pub struct Command {
     pub force_n: Vector,
 }
 
+/// What is known of a configuration besides: the session says it where this does not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Given {
+    /// Its id: with a number behind it where several points are measured there.
+    pub id: Option<String>,
+    /// Temperature of the arm, °C.
+    pub temperature_c: Option<f64>,
+    /// Time since the session began, seconds.
+    pub time_s: Option<f64>,
+}
+
 /// From which side a joint or axis comes: −1, 0, or +1.
 fn side(from: f64, to: f64) -> f64 {
     match to.total_cmp(&from) {
@@ -95,6 +106,18 @@ pub fn simulate(
     tool: &Mounted,
     points: &[(Option<String>, Vector)],
     commands: &[Command],
+    session: &Session,
+) -> Vec<Measurement> {
+    simulate_given(profile, tool, points, (commands, &[]), session)
+}
+
+/// The same with what is known of the first configurations besides.
+#[must_use]
+pub fn simulate_given(
+    profile: &Profile,
+    tool: &Mounted,
+    points: &[(Option<String>, Vector)],
+    (commands, given): (&[Command], &[Given]),
     session: &Session,
 ) -> Vec<Measurement> {
     let mut random = Random::new(session.seed);
@@ -131,6 +154,11 @@ pub fn simulate(
         if let Some(interval) = session.interval_s {
             conditions.time_s = Some(interval * i as f64);
         }
+        let known = given.get(i);
+        conditions.temperature_c = known
+            .and_then(|g| g.temperature_c)
+            .or(conditions.temperature_c);
+        conditions.time_s = known.and_then(|g| g.time_s).or(conditions.time_s);
         let (pose, own) = match command.plate {
             None => {
                 let model: Model = profile.real_model_at(tool, &conditions, &stand);
@@ -141,7 +169,8 @@ pub fn simulate(
                 (pose, Some(on_plate(plate)))
             }
         };
-        for (name, point) in own.as_deref().unwrap_or(points) {
+        let here = own.as_deref().unwrap_or(points);
+        for (k, (name, point)) in here.iter().enumerate() {
             let (shift, turn) = (
                 noise(&mut random, session.noise_m),
                 noise(&mut random, session.noise_rad),
@@ -172,7 +201,11 @@ pub fn simulate(
             };
             rows.push(Measurement {
                 line: (rows.len() + 2).into(),
-                id: (rows.len() + 1).to_string(),
+                id: match known.and_then(|g| g.id.as_ref()) {
+                    None => (rows.len() + 1).to_string(),
+                    Some(id) if here.len() == 1 => id.clone(),
+                    Some(id) => format!("{id}-{}", k + 1),
+                },
                 q: command.q,
                 observed,
                 tool: command.plate.is_none().then(|| tool.name.clone()),

@@ -1,11 +1,17 @@
 //! Frames from few touches: three points, 3-2-1, and registration of points and planes together.
 
+mod contradicted;
+mod datums;
+
+pub use datums::{Datums, three_two_one};
+
 use super::features::{self, FeatureError, Plane};
 use super::kabsch::kabsch;
 use super::uncertainty::{PoseCovariance, crossing};
 use super::{RegisterError, linear};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
+use contradicted::{Contradicted, contradicted};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 /// A point nearer to a line than this part of the line's length does not say which way a frame
@@ -44,6 +50,17 @@ pub enum FrameError {
         found: usize,
         /// How many it takes.
         needed: usize,
+    },
+    /// Touches of the primary datum that do not show its outer side.
+    #[error(
+        "the primary touches go round no area: the first three lie nearly in a line, and all of \
+         them in order surround {part:.3} of what they spread over (limit {limit})"
+    )]
+    Order {
+        /// Area that the touches go round, by the product of their extents.
+        part: f64,
+        /// The smallest that is accepted.
+        limit: f64,
     },
     /// Points and planes that leave a motion open.
     #[error(
@@ -84,6 +101,10 @@ impl FrameError {
                  off their lines of intersection, too"
             }
             Self::Points(error) => error.hint(),
+            Self::Order { .. } => {
+                "put the primary touches in order counter-clockwise seen from outside, or give all \
+                 touches their outward normals nx,ny,nz"
+            }
             _ => "",
         }
     }
@@ -129,79 +150,6 @@ pub fn three_points([origin, on_x, in_xy]: [Vector; 3]) -> Result<Pose, FrameErr
     let across = sub(to_third, scale(dot(x, to_third), x));
     let y = unit("the point in the xy plane", "the x axis", across, reach)?;
     Ok(from_axes(x, cross(x, y), origin))
-}
-
-/// Touches of the three datums of a part, centres of the probe's ball, metres.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Datums {
-    /// At least three on the primary plane, the first three counter-clockwise seen from outside: z
-    /// points out of the part.
-    pub primary_m: Vec<Vector>,
-    /// At least two on the secondary plane, in the order of +x; the part lies on its +y side.
-    pub secondary_m: Vec<Vector>,
-    /// At least one on the tertiary plane; the part lies on its +x side.
-    pub tertiary_m: Vec<Vector>,
-}
-
-/// The 3-2-1 frame: z is the primary plane's normal, x the direction of the secondary touches in
-/// it, the origin where the three datum planes meet. The probe's ball stands outside the part:
-/// above the primary, before the secondary in −y and the tertiary in −x.
-///
-/// # Errors
-/// Too few touches, or touches that leave a direction open.
-pub fn three_two_one(touches: &Datums, probe_radius_m: f64) -> Result<Pose, FrameError> {
-    let counts = [
-        ("the primary datum", touches.primary_m.len(), 3),
-        ("the secondary datum", touches.secondary_m.len(), 2),
-        ("the tertiary datum", touches.tertiary_m.len(), 1),
-    ];
-    for (datum, found, needed) in counts {
-        if found < needed {
-            return Err(FrameError::TooFew {
-                datum,
-                found,
-                needed,
-            });
-        }
-    }
-    let primary = features::plane(&touches.primary_m).map_err(|error| FrameError::Feature {
-        datum: "the primary datum",
-        error,
-    })?;
-    let p = &touches.primary_m;
-    let seen = cross(sub(p[1], p[0]), sub(p[2], p[0]));
-    let z = if dot(seen, primary.normal) < 0.0 {
-        scale(-1.0, primary.normal)
-    } else {
-        primary.normal
-    };
-    let across = |v: Vector| sub(v, scale(dot(z, v), z));
-    let s = &touches.secondary_m;
-    let (middle, axes) = features::extents(s);
-    let span = sub(s[s.len() - 1], s[0]);
-    let direction = if s.len() == 2 {
-        span
-    } else {
-        scale(dot(axes[0].1, span).signum(), axes[0].1)
-    };
-    let reach = norm(span);
-    let x = unit(
-        "the last secondary touch",
-        "the first, along the primary plane",
-        scale(if s.len() == 2 { 1.0 } else { reach }, across(direction)),
-        reach.max(f64::MIN_POSITIVE),
-    )?;
-    let y = cross(z, x);
-    #[allow(clippy::cast_precision_loss)]
-    let mean = |points: &[Vector]| {
-        let sum = points.iter().fold([0.0; 3], |sum, p| add(sum, *p));
-        scale(1.0 / points.len() as f64, sum)
-    };
-    let height = dot(z, primary.centre_m) - probe_radius_m;
-    let front = dot(y, middle) + probe_radius_m;
-    let left = dot(x, mean(&touches.tertiary_m)) + probe_radius_m;
-    let origin = add(add(scale(left, x), scale(front, y)), scale(height, z));
-    Ok(from_axes(x, z, origin))
 }
 
 /// Carries the noise of touches through a construction by central differences.
@@ -268,6 +216,30 @@ pub struct FeatureFit {
     /// How many other poses fit as well but put touches of a plane outside of another: the planes
     /// are taken as faces of a convex corner.
     pub others: usize,
+    /// What the other touches contradict; it is in the fit.
+    pub misfits: Vec<Misfit>,
+}
+
+/// A feature of a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A point by its index.
+    Point(usize),
+    /// A touch of a plane, both by their indices.
+    Touch(usize, usize),
+    /// A plane with all its touches.
+    Plane(usize),
+}
+
+/// A feature that the others contradict.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misfit {
+    /// Which.
+    pub part: Part,
+    /// How far it is from where the others put it (of a plane the root mean square), metres.
+    pub off_m: f64,
+    /// The same in standard deviations of what the others leave.
+    pub sigmas: f64,
 }
 
 /// Form of a good face and noise of a good probe, metres: poses that differ by less fit
@@ -368,6 +340,7 @@ pub(crate) fn weighted_points_and_planes(
     }
     let fit = alike.swap_remove(0);
     let sigma = of(&fit);
+    let misfits = problem.misfits(&fit, sigma_m);
     let reach = spread(points, planes, problem.centre);
     let scaled = Matrix6::from_fn(|i, j| {
         let value: f64 = (0..6)
@@ -395,6 +368,7 @@ pub(crate) fn weighted_points_and_planes(
         sigma_m: sigma,
         covariance: PoseCovariance::new(problem.centre, &scaled),
         others: found - 1,
+        misfits,
     })
 }
 
@@ -493,6 +467,39 @@ impl Problem<'_> {
                 translation: add(add(self.centre, shift), turned * back),
             };
         }
+    }
+
+    /// What the other rows contradict.
+    fn misfits(&self, fit: &Refined, sigma_m: Option<f64>) -> Vec<Misfit> {
+        let mut parts: Vec<(Part, Vec<usize>)> = Vec::new();
+        parts
+            .extend((0..self.points.len()).map(|i| (Part::Point(i), (3 * i..3 * i + 3).collect())));
+        let mut row = 3 * self.points.len();
+        for (i, plane) in self.planes.iter().enumerate() {
+            let touches = plane.touches_m.len();
+            parts.extend((0..touches).map(|k| (Part::Touch(i, k), vec![row + k])));
+            parts.push((Part::Plane(i), (row..row + touches).collect()));
+            row += touches;
+        }
+        let rows: Vec<Vec<usize>> = parts.iter().map(|(_, rows)| rows.clone()).collect();
+        let found = contradicted(&fit.svd.left, &fit.left, &rows, sigma_m);
+        let misfit = |one: Contradicted| {
+            let (part, rows) = &parts[one.part];
+            let squares = rows.iter().zip(&one.left);
+            let squares = squares.map(|(row, left)| (left / self.roots[*row]).powi(2));
+            let sum: f64 = squares.filter(|square| square.is_finite()).sum();
+            #[allow(clippy::cast_precision_loss)]
+            let of = match part {
+                Part::Plane(_) => rows.len() as f64,
+                _ => 1.0,
+            };
+            Misfit {
+                part: *part,
+                off_m: (sum / of).sqrt(),
+                sigmas: one.times,
+            }
+        };
+        found.into_iter().map(misfit).collect()
     }
 
     /// Whether no touch of a plane lies outside of another one.

@@ -1,13 +1,11 @@
 //! `fk`: joint angles to poses of the tool.
 
 use super::Document;
+use super::circumstances::Circumstances;
 use super::failure::Failure;
 use super::parts::Pose;
 use super::profile_file::ProfileFile;
-use super::simulate::stand;
 use super::table::{JOINTS, POSE, Table, cell, text_cell};
-use crate::identify::external::track_columns;
-use crate::identify::measurements::{DIRECTION_COLUMNS, FORCE_COLUMNS};
 use crate::model::Conditions;
 use crate::program::Source;
 use schemars::JsonSchema;
@@ -53,12 +51,12 @@ impl Document for Poses {
     const KIND: &'static str = "poses/1";
 }
 
-/// The tool's pose for each row of joint angles; directions, forces and the places of external axes
-/// are used where the table has them: without these the base stands at home.
+/// The tool's pose for each row of joint angles; directions, moves, forces, temperature, time and the
+/// places of a track are used where the table has them: without these the base stands at home.
 ///
 /// # Errors
 /// A table without joints, or with some of the columns of directions or forces only; a tool that
-/// the profile does not have.
+/// the profile does not have; a track beyond its limits.
 pub fn fk(profile: &ProfileFile, joints: &Source, options: &Options) -> Result<Poses, Failure> {
     fk_telling(profile, joints, options, &mut |_, _| ())
 }
@@ -83,29 +81,19 @@ pub fn fk_telling(
         profile.profile.controller_model(&tool)
     };
     let profile = &profile.profile;
-    let columns = track_columns(&profile.external);
-    let is_carried = table.group(&columns)?;
-    let directions = is_real && table.group(&DIRECTION_COLUMNS)?;
-    let forces = is_real && table.group(&FORCE_COLUMNS)?;
+    let circumstances = Circumstances::of(&table, profile)?;
     let pose = |(number, row): (usize, super::table::Row)| {
-        let mut conditions = Conditions::default();
-        if directions {
-            conditions.direction = row.numbers(DIRECTION_COLUMNS)?;
-        }
-        if forces {
-            conditions.force_n = row.numbers(FORCE_COLUMNS)?;
-        }
         let q = row.joints()?;
-        let pose = if is_carried {
-            let stand = stand(profile, &row)?;
-            if is_real {
-                let model = profile.real_model_at(&tool, &conditions, &stand);
-                model.forward(&q, &conditions)
-            } else {
-                profile.external.base_nominal(&stand.values) * model.forward(&q, &conditions)
-            }
+        let stand = circumstances.stand(&row)?;
+        let pose = if is_real {
+            let conditions = circumstances.conditions(&row)?;
+            let own = circumstances
+                .is_of_chain()
+                .then(|| profile.real_model_at(&tool, &conditions, &stand));
+            own.as_ref().unwrap_or(&model).forward(&q, &conditions)
         } else {
-            model.forward(&q, &conditions)
+            let carried = profile.external.base_nominal(&stand.values);
+            carried * model.forward(&q, &Conditions::default())
         };
         if !pose.translation.iter().all(|x| x.is_finite()) {
             let message =

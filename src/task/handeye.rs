@@ -1,11 +1,12 @@
 //! `handeye`: where a camera is.
 
 use super::Document;
+use super::circumstances::Circumstances;
 use super::failure::Failure;
 use super::parts::{Ellipsoid, Pose, Sigma};
 use super::profile_file::ProfileFile;
 use super::register::provenance;
-use super::table::{JOINTS, POSE, Table, pose};
+use super::table::{JOINTS, POSE, Row as TableRow, Table, pose};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose as Motion, Vector};
@@ -320,7 +321,7 @@ fn not_accepted(corners: &Refinement, name: &str) -> Option<Finding> {
     })
 }
 
-fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
+pub(super) fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
     let table = Table::read(inputs.robot)?;
     let Some(file) = inputs.profile else {
         if table.has(JOINTS[0]) && !table.has(POSE[3]) {
@@ -338,10 +339,18 @@ fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
     }
     let model = file.profile.real_model(&mounted, &Conditions::default());
     let base_from_world = file.profile.world_from_base.inverse();
-    table
-        .rows()
-        .map(|row| Ok(base_from_world * model.forward(&row.joints()?, &Conditions::default())))
-        .collect()
+    // of a track: the base at home, in which the poses are wherever it carries the arm
+    let circumstances = Circumstances::of(&table, &file.profile)?;
+    let pose = |row: TableRow| {
+        let (q, conditions) = (row.joints()?, circumstances.conditions(&row)?);
+        let stand = circumstances.stand(&row)?;
+        let own = circumstances
+            .is_of_chain()
+            .then(|| file.profile.real_model_at(&mounted, &conditions, &stand));
+        let world_from_flange = own.as_ref().unwrap_or(&model).forward(&q, &conditions);
+        Ok(base_from_world * world_from_flange)
+    };
+    table.rows().map(pose).collect()
 }
 
 fn poses(source: &Source) -> Result<Vec<Motion>, Failure> {

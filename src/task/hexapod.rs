@@ -106,6 +106,22 @@ pub fn poses(lengths: &Source, sigma_m: f64) -> Result<Poses, Failure> {
     Ok(found)
 }
 
+/// A device whose longest length is shorter is in another unit: balls and bars are longer, metres.
+const SHORTEST_M: f64 = 0.05;
+
+/// Refuses lengths in metres or inches.
+fn refuse_short(what: &str, lengths_m: &[f64]) -> Result<(), String> {
+    let longest = lengths_m.iter().copied().fold(0.0, f64::max);
+    if longest >= SHORTEST_M {
+        return Ok(());
+    }
+    Err(format!(
+        "{what} are {:.4} mm at most (limit {:.0} mm): are they in metres or inches? they are mm",
+        mm_from_m(longest),
+        mm_from_m(SHORTEST_M)
+    ))
+}
+
 /// Solves a row.
 fn setting(table: &Table, row: &Row) -> Result<(Design, Vec<(Solved, Spread)>), Failure> {
     let fail = |error: HexapodError| row.failure(error.to_string());
@@ -113,6 +129,7 @@ fn setting(table: &Table, row: &Row) -> Result<(Design, Vec<(Solved, Spread)>), 
     for (slot, name) in all.iter_mut().zip(NAMES) {
         *slot = m_from_mm(row.number(&format!("{name}_mm"))?);
     }
+    refuse_short("the lengths", &all).map_err(|message| row.failure(message))?;
     let lengths = Lengths::from_all(all);
     let design = Design::parse(row.text("design").unwrap_or_default()).map_err(fail)?;
     let solved = if table.has("mode") {
@@ -243,6 +260,7 @@ pub fn base(taught: &Source, base_m: [f64; 3]) -> Result<Base, Failure> {
             "{name}: {count} points; the base has three: B1, B2, B3"
         ))
     })?;
+    refuse_short("the distances of the base balls", &base_m).map_err(Failure::new)?;
     let found =
         set_base_frame(taught, base_m).map_err(|error| Failure::new(format!("{name}: {error}")))?;
     let frame = Frame {
@@ -386,5 +404,32 @@ impl Reach {
             }
         }
         csv
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{base, poses};
+    use crate::program::Source;
+
+    #[test]
+    fn a_device_in_metres_or_inches_is_refused() {
+        let head = "design,b12_mm,b23_mm,b31_mm,t12_mm,t23_mm,t31_mm,r11_mm,r21_mm,r31_mm,r12_mm,\
+                    r22_mm,r23_mm,mode\n";
+        let table = |unit: f64| {
+            let lengths = [300, 300, 300, 150, 150, 150, 300, 300, 300, 300, 300, 300];
+            let cells = lengths.map(|mm| (f64::from(mm) / unit).to_string());
+            let text = format!("{head}123/123,{},1\n", cells.join(","));
+            Source::new("lengths.csv", text.into_bytes())
+        };
+        assert!(poses(&table(1.0), 1e-6).is_ok());
+        for unit in [1000.0, 25.4] {
+            let failure = poses(&table(unit), 1e-6).expect_err("other units");
+            assert!(failure.message.contains("in metres or inches"), "{failure}");
+        }
+        let taught = "x_mm,y_mm,z_mm\n0,0,0\n0.3,0,0\n0.15,0.26,0\n";
+        let taught = Source::new("taught.csv", taught.into());
+        let failure = base(&taught, [3e-4; 3]).expect_err("metres");
+        assert!(failure.message.contains("in metres or inches"), "{failure}");
     }
 }

@@ -1,14 +1,16 @@
 //! `ik`: poses of the tool to joint angles.
 
 use super::Document;
+use super::circumstances::Circumstances;
 use super::failure::Failure;
 use super::fk::{Options, Which};
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, POSE, Row, Table, cell, pose, text_cell};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Arm, Branch, Inverse, Outcome, Status};
-use crate::model::Conditions;
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
+use crate::model::{Conditions, Model};
 use crate::program::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -49,7 +51,7 @@ pub struct Solution {
 pub struct Solutions {
     /// One a row, or one a branch of each row.
     pub solutions: Vec<Solution>,
-    /// Whether every one was reached.
+    /// Whether every one was reached; of all branches, any.
     #[serde(skip)]
     pub reached: bool,
 }
@@ -59,9 +61,11 @@ impl Document for Solutions {
 }
 
 /// Joint angles for each row of poses: on the branch of its columns, or with `all` on every one.
+/// Directions, moves, forces, temperature, time and the places of a track are used as in
+/// [`fk`](super::fk::fk).
 ///
 /// # Errors
-/// A table that names no branch; an arm without an inverse.
+/// A table that names no branch; an arm without an inverse; a track beyond its limits.
 pub fn ik(
     file: &ProfileFile,
     poses: &Source,
@@ -95,10 +99,19 @@ pub fn ik_telling(
             hint,
         ));
     }
-    let inverse = inverse(profile, &tool, options.model, Conditions::default())?;
-    let (mut solutions, mut reached) = (Vec::new(), true);
+    let circumstances = Circumstances::of(&table, profile)?;
+    let at_home = inverse(profile, &tool, options.model, Conditions::default())?;
+    let (mut solutions, mut found) = (Vec::new(), 0);
     for (number, row) in table.rows_telling(tell).enumerate() {
         let wanted = pose(&row)?;
+        let own = if circumstances.is_none() {
+            None
+        } else {
+            let (conditions, stand) = (circumstances.conditions(&row)?, circumstances.stand(&row)?);
+            let own = inverse_at(profile, &tool, options.model, conditions, &stand)?;
+            Some(own)
+        };
+        let inverse = own.as_ref().unwrap_or(&at_home);
         let near = if has_near {
             row.numbers(NEAR)?.map(|q| q * DEG)
         } else {
@@ -106,7 +119,7 @@ pub fn ik_telling(
         };
         let mut add = |branch, root, near: &[f64; 6]| {
             let outcome = inverse.solve(&wanted, branch, near);
-            reached &= outcome.status == Status::Converged;
+            found += usize::from(outcome.status == Status::Converged);
             solutions.push(solution(row.id(number + 1), branch, root, &outcome));
         };
         if all && inverse.arm.has_offset_wrist() {
@@ -114,19 +127,25 @@ pub fn ik_telling(
             for answer in inverse.arm.solve_all(&wanted, &near) {
                 add(answer.branch, Some(answer.root), &answer.q);
             }
-            continue;
-        }
-        let branches = if all {
-            Branch::ALL.to_vec()
-        } else if table.has("branch") {
-            vec![branch(&row)?]
         } else {
-            vec![inverse.arm.posture(&near).0]
-        };
-        for branch in branches {
-            add(branch, None, &near);
+            let branches = if all {
+                Branch::ALL.to_vec()
+            } else if table.has("branch") {
+                vec![branch(&row)?]
+            } else {
+                vec![inverse.arm.posture(&near).0]
+            };
+            for branch in branches {
+                add(branch, None, &near);
+            }
         }
     }
+    // of all branches some are usually beyond reach
+    let reached = if all {
+        found > 0 || table.rows().next().is_none()
+    } else {
+        found == solutions.len()
+    };
     Ok(Solutions { solutions, reached })
 }
 
@@ -161,11 +180,30 @@ pub fn inverse(
     which: Which,
     conditions: Conditions,
 ) -> Result<Inverse, Failure> {
-    let arm = Arm::of(&profile.geometry(tool), &profile.mechanism)
-        .map_err(|error| Failure::new(error.to_string()))?;
+    inverse_at(profile, tool, which, conditions, &Stand::default())
+}
+
+/// The same where a track stands so.
+fn inverse_at(
+    profile: &Profile,
+    tool: &Mounted,
+    which: Which,
+    conditions: Conditions,
+    stand: &Stand,
+) -> Result<Inverse, Failure> {
+    let mut geometry = profile.geometry(tool);
+    let carried = profile.external.base_nominal(&stand.values);
+    geometry.world_from_base = carried * geometry.world_from_base;
+    let arm =
+        Arm::of(&geometry, &profile.mechanism).map_err(|error| Failure::new(error.to_string()))?;
     let real = match which {
-        Which::Real => profile.real_model(tool, &conditions),
-        Which::Controller => profile.controller_model(tool),
+        Which::Real => profile.real_model_at(tool, &conditions, stand),
+        Which::Controller => Model::build(
+            &geometry,
+            &profile.mechanism,
+            &profile.controller_effects(),
+            &Conditions::default(),
+        ),
     };
     Ok(Inverse {
         arm,

@@ -23,6 +23,7 @@ pub mod axes;
 pub mod calibrate;
 pub mod catalogue;
 pub mod check;
+mod circumstances;
 pub mod compensate;
 pub mod diagnose;
 pub mod drift;

@@ -1,6 +1,7 @@
 //! `simulate`: measurements of the robot that a profile describes.
 
 use super::Document;
+use super::circumstances::{directions as direction_of, temperature_c, time_s};
 use super::failure::Failure;
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, Row, Table, cell, text_cell};
@@ -10,7 +11,7 @@ use crate::identify::measurements::{
     DIRECTION_COLUMNS, DISTANCE_COLUMNS, EXTERNAL_DIRECTION_COLUMNS, FORCE_COLUMNS, Measurement,
     Measurements, Observed, POSITION_COLUMNS, QUATERNION_COLUMNS,
 };
-use crate::identify::simulate::{Command, Device, Session, simulate as measure};
+use crate::identify::simulate::{Command, Device, Given, Session, simulate_given as measure};
 use crate::model::external::{Listed, Stand};
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
@@ -33,9 +34,6 @@ pub struct Simulation {
 impl Document for Simulation {
     const KIND: &'static str = "simulation/1";
 }
-
-/// Directions from which a joint comes.
-const STEPS: [f64; 3] = [-1.0, 0.0, 1.0];
 
 /// Measures the real arm of a profile in each row's joint angles, every named point of it, in the
 /// frame of the profile's device.
@@ -70,14 +68,7 @@ pub fn simulate(
         table.require(&JOINTS)?;
         let mut direction = None;
         if directions {
-            let given: [f64; 6] = row.numbers(DIRECTION_COLUMNS)?;
-            let mut steps = given.iter().zip(DIRECTION_COLUMNS);
-            if let Some((step, column)) = steps.find(|(d, _)| !STEPS.contains(*d)) {
-                return Err(row.failure(format!(
-                    "column {column}: {step} is no direction: -1, 0 or 1"
-                )));
-            }
-            direction = Some(given);
+            direction = Some(direction_of(&row)?);
         }
         let mut force_n = [0.0; 3];
         if forces {
@@ -92,7 +83,38 @@ pub fn simulate(
         })
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
-    simulate_at(file, &commands, forces, &tool, session)
+    let given = given(&table, session)?;
+    simulated(file, &commands, &given, forces, &tool, session)
+}
+
+/// What each row says of itself: its id, temperature and time.
+fn given(table: &Table, session: &Session) -> Result<Vec<Given>, Failure> {
+    let given = table.rows().enumerate().map(|(number, row)| {
+        let (temperature_c, time_s) = (temperature_c(&row)?, time_s(&row)?);
+        let twice = [
+            (
+                "--temperature-c",
+                "temperature_c",
+                session.temperature_c.is_some() && temperature_c.is_some(),
+            ),
+            (
+                "--interval-s",
+                "time_s",
+                session.interval_s.is_some() && time_s.is_some(),
+            ),
+        ];
+        if let Some((option, column, _)) = twice.iter().find(|(.., twice)| *twice) {
+            return Err(row.failure(format!(
+                "the column {column} and {option} cannot both be given"
+            )));
+        }
+        Ok(Given {
+            id: Some(row.id(number + 1)).filter(|_| table.has("id")),
+            temperature_c,
+            time_s,
+        })
+    });
+    given.collect()
 }
 
 /// The positioner whose plate is measured in a row of a table; none where it is the tool.
@@ -154,6 +176,17 @@ pub fn simulate_at(
     tool: &Mounted,
     session: &Session,
 ) -> Result<Simulation, Failure> {
+    simulated(file, commands, &[], forces, tool, session)
+}
+
+fn simulated(
+    file: &ProfileFile,
+    commands: &[Command],
+    given: &[Given],
+    forces: bool,
+    tool: &Mounted,
+    session: &Session,
+) -> Result<Simulation, Failure> {
     refuse_nonsense(session)?;
     let profile = &file.profile;
     let mut points: Vec<(Option<String>, [f64; 3])> = profile
@@ -164,7 +197,7 @@ pub fn simulate_at(
     if points.is_empty() {
         points.push((None, [0.0; 3]));
     }
-    let rows = measure(profile, tool, &points, commands, session);
+    let rows = measure(profile, tool, &points, (commands, given), session);
     let seen = Measurements {
         rows,
         columns: Vec::new(),

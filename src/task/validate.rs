@@ -423,19 +423,13 @@ fn standing_of(file: &ProfileFile, found: &Found) -> Result<AsCalibrated, Failur
 }
 
 fn too_few(name: &str, error: &IdentifyError) -> Failure {
-    let IdentifyError::TooFew {
-        numbers,
-        rows,
-        parameters,
-    } = error
-    else {
+    let IdentifyError::TooFew { numbers, rows, .. } = error else {
         return identify_failure(name, error);
     };
     Failure::with_hint(
         format!(
-            "{name}: {rows} rows give {numbers} numbers; base and tool, which the comparison fits, \
-             have {parameters} \
-             unknowns: more numbers are needed"
+            "{name}: {rows} rows give {numbers} numbers: too few for base and tool, which the \
+             comparison fits"
         ),
         "validate on more configurations: 20 and more say something of the workspace",
     )

@@ -156,3 +156,19 @@ fn turn(axis: &Vector, angle: f64) -> Pose {
     let [x, y, z] = axis.map(|a| a * half_sine);
     Pose::from_rotation(crate::geometry::Quaternion([half_cosine, x, y, z]).rotation())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Choice, UrdfArm};
+
+    #[test]
+    fn frames_in_degrees_are_refused() {
+        let text = include_str!("../../tests/data/walk/arm.urdf");
+        let choice = Choice::default();
+        assert!(UrdfArm::read(text, &choice).is_ok());
+        let degrees = text.replace("1.5707963267948966", "90");
+        assert_ne!(degrees, text);
+        let error = UrdfArm::read(&degrees, &choice).expect_err("degrees");
+        assert!(error.to_string().contains("looks like degrees"), "{error}");
+    }
+}

@@ -15,6 +15,8 @@ const MOST_LINKS: usize = 2_000;
 const ROUNDED_RAD: f64 = 3e-4;
 /// No joint has a limit beyond this: ten revolutions.
 const MOST_LIMIT_RAD: f64 = 3600.0 * DEG;
+/// No frame is rotated beyond this about an axis: one revolution, and some rounding.
+const MOST_ANGLE_RAD: f64 = 361.0 * DEG;
 /// Names that a flange has by convention, best first.
 const FLANGES: [&str; 4] = ["tool0", "fanuc_flange", "flange", "ee_link"];
 /// Names of links where controllers count from, best first, and whose convention that is.
@@ -517,14 +519,19 @@ fn no_link(link: &str, links: &BTreeMap<&str, &Link>) -> UrdfError {
 }
 
 fn finite(what: &'static str, name: &str, origin: &urdf_rs::Pose) -> Result<(), UrdfError> {
-    let numbers = origin.xyz.0.into_iter().chain(origin.rpy.0);
-    match numbers.into_iter().find(|x| !x.is_finite()) {
+    let number = |found: String| UrdfError::Number {
+        what,
+        name: name.into(),
+        found,
+    };
+    let mut numbers = origin.xyz.0.into_iter().chain(origin.rpy.0);
+    if let Some(found) = numbers.find(|x| !x.is_finite()) {
+        return Err(number(found.to_string()));
+    }
+    let mut angles = origin.rpy.0.into_iter();
+    match angles.find(|angle| angle.abs() > MOST_ANGLE_RAD) {
         None => Ok(()),
-        Some(found) => Err(UrdfError::Number {
-            what,
-            name: name.into(),
-            found: found.to_string(),
-        }),
+        Some(found) => Err(number(format!("rpy {found} rad, which looks like degrees"))),
     }
 }
 

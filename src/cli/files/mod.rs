@@ -265,8 +265,8 @@ impl Files {
                         "{} is read{as_read} and would be written over",
                         name_of(output)
                     ),
-                    "name another file for what is written; --in-place of `compensate` says that \
-                     it is meant",
+                    "name another file for what is written, or say by --in-place that it is meant \
+                     where the command has that option",
                 ));
             }
             let other = taken.insert(place, output);

@@ -14,9 +14,9 @@ pub(super) struct Reading {
     pub exchanged: Option<[&'static str; 2]>,
 }
 
-const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their \
+pub(super) const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their \
     unit is in their names (x_m), or map them with --columns and --units m";
-const IN_DEGREES: &str = "q1_deg…q6_deg are degrees: with others their unit is in their names \
+pub(super) const IN_DEGREES: &str = "q1_deg…q6_deg are degrees: with others their unit is in their names \
     (q1_rad), or map them with --columns and --units rad";
 const SAME_ORDER: &str = "check that joints and points are in the same order and none is missing";
 

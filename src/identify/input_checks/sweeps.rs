@@ -1,5 +1,6 @@
 //! Sweeps of single joints that no base and tool of this robot explain.
 
+use super::readings::{IN_DEGREES, IN_MILLIMETRES};
 use super::screening::check_start;
 use super::{Remark, WHOLE_FILE, remark};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -133,6 +134,20 @@ fn rms(profile: &Profile, sweeps: &[Sweep], base: &Pose, point: Vector) -> f64 {
     (squares / rows.len().max(1) as f64).sqrt()
 }
 
+/// Sweeps are read as they stand: their columns have no other names and units.
+fn without_mapping(error: IdentifyError) -> IdentifyError {
+    let IdentifyError::Suspicious { message, hint } = error else {
+        return error;
+    };
+    let hint = hint
+        .replace(
+            IN_MILLIMETRES,
+            "x_mm,y_mm,z_mm are millimetres: convert them",
+        )
+        .replace(IN_DEGREES, "q1_deg…q6_deg are degrees: convert them");
+    IdentifyError::Suspicious { message, hint }
+}
+
 /// Fails where no base and tool explain the sweeps, with the reading of the file that does if there
 /// is one.
 fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(), IdentifyError> {
@@ -159,7 +174,7 @@ fn other_reading(profile: &Profile, sweeps: &[Sweep], missed_m: f64) -> Result<(
         columns: Vec::new(),
     };
     if let Some(start) = start::find(profile, &measurements) {
-        check_start(profile, &measurements, &start)?;
+        check_start(profile, &measurements, &start).map_err(without_mapping)?;
         if start.rms_m < HOPELESS_M {
             return Ok(());
         }

@@ -268,6 +268,17 @@ pub enum Fault {
         /// Its largest coordinate, mm.
         largest_mm: f64,
     },
+    /// A chain so short that its lengths must be in another unit.
+    #[error(
+        "a_mm and d_mm of the joints add up to {found_mm:.3} mm (limit {limit_mm} mm): are they in \
+         metres?"
+    )]
+    TinyArm {
+        /// Their sum, mm.
+        found_mm: f64,
+        /// The limit, mm.
+        limit_mm: f64,
+    },
     /// A centre of gravity in another unit.
     #[error(
         "cog_mm of {of} is {largest_mm} mm at most in each coordinate; below 1 mm it is 0, or in \
@@ -382,6 +393,7 @@ impl ProfileError {
             Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange \
                 itself"
                 .into(),
+            Fault::TinyArm { .. } => "lengths are in mm: 0.29 m is 290".into(),
             Fault::TinyCog { .. } => "lengths are in mm: 0.1 m is 100; write 0 for none".into(),
             Fault::Gravity { .. } => "it is in m/s², not in g: [0, 0, -9.81] of a robot on the \
                 floor, [0, 0, 9.81] of one on the ceiling in its own frame"

@@ -21,6 +21,8 @@ const GRAVITY_M_S2: [f64; 2] = [9.7, 9.9];
 const MOST_LIMIT_DEG: f64 = 3600.0;
 /// No arm or tool is longer.
 const MOST_MM: f64 = 20_000.0;
+/// No arm is shorter, all its rows together.
+const LEAST_ARM_MM: f64 = 20.0;
 /// No frame is rotated by more: two whole revolutions.
 const MOST_ANGLE_DEG: f64 = 720.0;
 
@@ -331,6 +333,12 @@ fn rows(
     let six: [_; 6] = rows
         .try_into()
         .map_err(|rows: Vec<_>| Fault::NotSix { found: rows.len() }.at(joints.defined))?;
+    let lengths = six.iter().map(|(link, _)| link.a_m.abs() + link.d_m.abs());
+    let found_mm = mm_from_m(lengths.sum::<f64>());
+    if found_mm > 0.0 && found_mm < LEAST_ARM_MM {
+        let limit_mm = LEAST_ARM_MM;
+        return Err(Fault::TinyArm { found_mm, limit_mm }.at(joints.defined));
+    }
     Ok((six.map(|row| row.0), six.map(|row| row.1)))
 }
 

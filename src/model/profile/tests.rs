@@ -307,3 +307,21 @@ fn numbers_of_the_chain_in_other_units_are_faults() {
     let none = frame("100") + ", mass_kg: 2, cog_mm: [0, 0, 0]}";
     assert!(tools(&none).is_ok());
 }
+
+#[test]
+fn an_arm_in_metres_is_refused() {
+    let mut text = include_str!("../../../robots/abb_irb120.yaml").to_owned();
+    for (mm, metres) in [
+        ("d_mm: 290", "d_mm: 0.29"),
+        ("a_mm: 270", "a_mm: 0.27"),
+        ("a_mm: 70", "a_mm: 0.07"),
+        ("d_mm: 302", "d_mm: 0.302"),
+        ("d_mm: 72", "d_mm: 0.072"),
+    ] {
+        assert!(text.contains(mm), "{mm}");
+        text = text.replace(mm, metres);
+    }
+    let error = Profile::from_yaml(&text).expect_err("a millimetre of an arm");
+    assert!(matches!(error.fault, Fault::TinyArm { .. }), "{error}");
+    assert!(error.to_string().contains("1.004 mm"), "{error}");
+}

@@ -4,6 +4,7 @@ pub mod positioner;
 
 use self::positioner::{PositionerAxis, positioner_axes, put, swept, values};
 use super::Document;
+use super::circumstances::Track;
 use super::failure::Failure;
 use super::measurements::identify_failure;
 use super::parts::{Pose, Sigma, findings as remarks};
@@ -14,6 +15,8 @@ use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{self, Quaternion};
 use crate::identify::input_checks::sweeps::{input_checks, point_on_flange};
 use crate::identify::measurements::{DIRECTION_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
+use crate::model::Conditions;
+use crate::model::external::Stand;
 use crate::model::profile::{Mounted, Profile};
 use crate::program::Source;
 use crate::register::axes::outliers::{Outlier, without_outliers};
@@ -120,9 +123,10 @@ pub struct Joint {
 /// Frames from sweeps of single joints.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Axes {
-    /// `world_from_base`; needs the sweeps of joints 1 and 2.
+    /// `world_from_base`, of a track with it at home; needs the sweeps of joints 1 and 2.
     pub base: Option<Pose>,
-    /// Its standard uncertainties, the sag in them; `null` where the noise is not known.
+    /// Its standard uncertainties where it was measured, the sag in them; `null` where the noise is
+    /// not known.
     pub base_sigma: Option<Sigma>,
     /// The sag in them; `null` where the profile has no masses.
     pub base_sag: Option<Sag>,
@@ -163,7 +167,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let mut findings = Vec::new();
     let mut sweeps = Vec::new();
     let device = profile.device.map(|device| device.world_from_device);
-    let (of_joints, mut of_plates) = read(profile, source, point)?;
+    let (of_joints, mut of_plates, stand) = read(profile, source, point)?;
     for (mut sweep, lines) in of_joints {
         if let Some(world_from_device) = &device {
             place(&mut sweep, world_from_device);
@@ -215,7 +219,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let base_sag = sag_of(Frame::Base, pair(0, 1), &placed_base)?;
     let tool_sag = sag_of(Frame::Tool, pair(5, 4), &placed_tool)?;
     // the device is where the profile has it, or where the base that it sees is the profile's
-    let found_device = base_pose.map(|base| profile.world_from_base * base.inverse());
+    let home = base_pose.map(|base| at_home(profile, &stand, &base));
+    let found_device = home.map(|base| profile.world_from_base * base.inverse());
     let in_world = device.or(found_device);
     for row in of_plates.iter_mut().flat_map(|sweep| &mut sweep.rows) {
         if let Some(world_from_device) = &in_world {
@@ -226,7 +231,7 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         .map_err(|error| Failure::new(format!("{name}: {error}")))?;
     Ok(Axes {
         positioner_axes,
-        base: base_pose.as_ref().map(Into::into),
+        base: home.as_ref().map(Into::into),
         base_sigma: sigma(placed_base.as_ref(), base_sag.as_ref()),
         base_sag: base_sag.as_ref().map(Into::into),
         tool: tool_pose.as_ref().map(Into::into),
@@ -275,8 +280,9 @@ fn only_tool(profile: &Profile) -> Mounted {
         .unwrap_or_else(Mounted::flange)
 }
 
-/// The sweeps by joint with the lines of their rows, and those of axes of positioners.
-type Sweeps = (Vec<(Sweep, Vec<usize>)>, Vec<OnPlate>);
+/// The sweeps by joint with the lines of their rows, those of axes of positioners, and where a track
+/// stood meanwhile.
+type Sweeps = (Vec<(Sweep, Vec<usize>)>, Vec<OnPlate>, Stand);
 
 fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps, Failure> {
     let table = Table::read(source)?;
@@ -286,6 +292,8 @@ fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps
     let mut points = BTreeSet::new();
     let mut sweeps: Vec<(Sweep, Vec<usize>)> = Vec::new();
     let mut on_plates: Vec<OnPlate> = Vec::new();
+    let track = Track::of(&table, profile)?;
+    let mut stood: Option<Stand> = None;
     for row in table.rows() {
         let point = row.text("point").unwrap_or_default();
         if only.is_some_and(|name| name != point) {
@@ -302,6 +310,13 @@ fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps
             continue;
         }
         table.require(&JOINTS)?;
+        let stand = track.stand(&row)?;
+        if is_elsewhere(stood.get_or_insert_with(|| stand.clone()), &stand) {
+            return Err(row.failure(
+                "the track stands elsewhere than in the rows before: sweep joints with it at one place"
+                    .into(),
+            ));
+        }
         let number = row.number("sweep")?;
         let joint = (0..6).find(|j| (j + 1) as f64 == number).ok_or_else(|| {
             row.failure(format!(
@@ -348,7 +363,28 @@ fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps
         return Err(Failure::new(format!("{}: no rows", source.name)));
     }
     sweeps.sort_by_key(|(sweep, _)| sweep.joint);
-    Ok((sweeps, on_plates))
+    Ok((sweeps, on_plates, stood.unwrap_or_default()))
+}
+
+/// Places of a track that differ by less are one, metres.
+const SAME_PLACE_M: f64 = 1e-4;
+
+fn is_elsewhere(a: &Stand, b: &Stand) -> bool {
+    let mut both = a.values.iter().zip(&b.values);
+    both.any(|(a, b)| (a - b).abs() > SAME_PLACE_M)
+}
+
+/// Where the base stands at home, of one that was found on a track.
+fn at_home(profile: &Profile, stand: &Stand, found: &geometry::Pose) -> geometry::Pose {
+    if stand.values.is_empty() {
+        return *found;
+    }
+    let (flange, conditions) = (Mounted::flange(), Conditions::default());
+    let base = |stand: &Stand| {
+        let model = profile.real_model_at(&flange, &conditions, stand);
+        model.link_frames(&[0.0; 6], &conditions)[0]
+    };
+    *found * base(stand).inverse() * base(&Stand::default())
 }
 
 fn as_sigma(covariance: &PoseCovariance) -> Sigma {

@@ -1,8 +1,9 @@
 //! A profile in words and numbers.
 
+use super::details::details;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::external::Coordinates;
+use crate::model::external::{Coordinates, Follows};
 use crate::model::profile::{ControllerModel, Mounted, Profile};
 use crate::model::{Conditions, Model};
 use schemars::JsonSchema;
@@ -87,6 +88,7 @@ pub(super) fn facts(profile: &Profile) -> Vec<(String, String)> {
     }
     fact("gravity".into(), profile.gravity_m_s2.map(number).join(" "));
     external(profile, &mut fact);
+    details(profile, &mut fact);
     for (name, tool) in &profile.tools {
         let load = tool.load.map_or_else(String::new, |(kg, cog)| {
             format!(", {} kg at {}", number(kg), triple(cog))
@@ -130,6 +132,13 @@ fn external(profile: &Profile, fact: &mut impl FnMut(String, String)) {
             format!("external axis {}", axis.axis),
             format!("track along ({along}) zero {zero} from {min} to {max}{relative}"),
         );
+        fact(
+            format!("up of {}", axis.axis),
+            axis.up.map(number).join(" "),
+        );
+        if let Some(pulses) = axis.pulses_per_mm {
+            fact(format!("pulses_per_mm of {}", axis.axis), number(pulses));
+        }
     }
     for positioner in &axes.positioners {
         for axis in &positioner.axes {
@@ -141,6 +150,22 @@ fn external(profile: &Profile, fact: &mut impl FnMut(String, String)) {
                 format!("external axis {}", axis.axis),
                 format!("positioner {name} at {at} zero {zero} from {min} to {max}{sense}"),
             );
+            if let Some(pulses) = axis.pulses_per_deg {
+                fact(format!("pulses_per_deg of {}", axis.axis), number(pulses));
+            }
+        }
+        let follows = match positioner.follows {
+            Follows::Frame => "frame",
+            Follows::Always => "always",
+            Follows::Never => "never",
+        };
+        let (name, plate) = (&positioner.name, pose(&positioner.plate));
+        fact(
+            format!("positioner {name}"),
+            format!("follows {follows}, plate at {plate}"),
+        );
+        for (point, place) in &positioner.points {
+            fact(format!("positioner {name} point {point}"), triple(*place));
         }
     }
     for name in &axes.other {
@@ -223,7 +248,7 @@ fn halton(mut n: u32, dimension: usize) -> f64 {
 }
 
 /// A number with the digits that matter: rounding of the unit's factor is not shown.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.9e}");
     let rounded: f64 = text.parse().expect("a written number");
     let rounded = if rounded == 0.0 { 0.0 } else { rounded };
@@ -234,11 +259,11 @@ fn number(value: f64) -> String {
     }
 }
 
-fn triple(metres: [f64; 3]) -> String {
+pub(super) fn triple(metres: [f64; 3]) -> String {
     format!("({})", metres.map(|m| number(mm_from_m(m))).join(", "))
 }
 
-fn pose(pose: &Pose) -> String {
+pub(super) fn pose(pose: &Pose) -> String {
     let [x, y, z, rx, ry, rz] = pose.xyz_rxryrz();
     let clean = |angle: f64| {
         number(if (angle / DEG).abs() < 1e-12 {

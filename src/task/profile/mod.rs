@@ -1,6 +1,7 @@
 //! `profile`: make and inspect profiles.
 
 mod change;
+mod details;
 mod export;
 mod external;
 mod facts;
@@ -251,3 +252,6 @@ fn sigmas(profile: &Profile) -> BTreeMap<String, f64> {
     };
     list.into_iter().flatten().filter_map(one).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,13 +1,13 @@
 //! Points whose partners are known: Kabsch, robustly or with planes.
 
+use super::planes::{Touches, plane, touches_of};
 use super::points::{Feature, Pair, Points, matched};
 use super::{Feature as TouchedFeature, Motion, Options, Registration, Residual, Scale};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{Vector, add, norm, scale};
+use crate::geometry::{Vector, add, scale};
 use crate::register::RegisterError;
 use crate::register::features::{self, FeatureError, Round, compensated, noise_of};
-use crate::register::frames::{TouchedPlane, weighted_points_and_planes};
 use crate::register::kabsch::{Fit, kabsch, noise_m};
 use crate::register::robust::{self, robust};
 use crate::task::Failure;
@@ -23,7 +23,7 @@ const FEWEST_SUSPECTED: usize = 5;
 const SCALE: f64 = 2e-5;
 /// Points that the best motion leaves farther from their partners than this part of their spread do
 /// not belong together.
-const UNLIKE: f64 = 0.05;
+pub(super) const UNLIKE: f64 = 0.05;
 /// Shifts of rows that are tried.
 const FARTHEST_SHIFT: usize = 100;
 /// Residuals beyond this factor of what is stated contradict it,
@@ -34,15 +34,15 @@ const SIGMA_CHANCE: f64 = 4.0;
 const EXPANSION: [f64; 2] = [11.5e-6, 23.0e-6];
 
 /// A point of both sets.
-struct Touched {
-    id: String,
-    from_m: Vector,
-    to_m: Vector,
-    variance_m2: Option<f64>,
-    weight: Option<f64>,
+pub(super) struct Touched {
+    pub id: String,
+    pub from_m: Vector,
+    pub to_m: Vector,
+    pub variance_m2: Option<f64>,
+    pub weight: Option<f64>,
 }
 
-fn warning(id: &'static str, file: &str, message: impl Into<String>) -> Finding {
+pub(super) fn warning(id: &'static str, file: &str, message: impl Into<String>) -> Finding {
     Finding::of_file(id, Severity::Warning, file, message)
 }
 
@@ -64,7 +64,7 @@ pub(super) fn register(
         match pair.from.feature {
             Feature::Point => touched.push(point(pair, radius, &to.name)?),
             Feature::Plane => {
-                planes.push(plane(pair, &from.name)?);
+                planes.push((pair.from.id.as_str(), plane(pair, &from.name)?));
                 on_planes.extend(touches_of(pair));
             }
             Feature::Sphere | Feature::Hole => {
@@ -77,86 +77,19 @@ pub(super) fn register(
     let (motion, scale) = if planes.is_empty() {
         by_points(&touched, options, &mut findings, &to.name)?
     } else {
-        let planes = (planes.as_slice(), on_planes.as_slice());
-        let motion = by_planes(&touched, planes, options, &mut findings, &to.name)?;
-        (motion, None)
+        let planes = Touches {
+            points: &touched,
+            planes: &planes,
+            on_planes: &on_planes,
+            name: &to.name,
+        };
+        (planes.register(options, &mut findings)?, None)
     };
     Ok(Registration {
         findings,
         scale,
         features,
         ..Registration::new(&from.name, &to.name, motion, options)
-    })
-}
-
-fn by_planes(
-    touched: &[Touched],
-    (planes, on_planes): (&[TouchedPlane], &[Touched]),
-    options: &Options,
-    findings: &mut Vec<Finding>,
-    name: &str,
-) -> Result<Motion, Failure> {
-    if options.robust {
-        return Err(Failure::new("--robust takes points only, no planes"));
-    }
-    let points: Vec<_> = touched.iter().map(|t| (t.from_m, t.to_m)).collect();
-    let all: Vec<&Touched> = touched.iter().chain(on_planes).collect();
-    let (mut weights, absolute) = weights(&all, name)?;
-    let mut given = options.sigma_m;
-    if let (true, Some(weights)) = (absolute, &mut weights) {
-        // relative to the surest row, so that deviations stay lengths
-        let most = weights.iter().copied().fold(0.0, f64::max);
-        for weight in weights.iter_mut() {
-            *weight /= most;
-        }
-        given = Some(1.0 / most.sqrt());
-    }
-    let radius = options.probe_radius_m;
-    let fit = weighted_points_and_planes(&points, planes, weights.as_deref(), radius, given)
-        .map_err(|error| Failure::with_hint(format!("{name}: {error}"), error.hint()))?;
-    if fit.others > 0 {
-        let message = format!(
-            "{} other poses fit as well: the planes are taken as faces of a convex corner, of which \
-             no touch lies outside of another face",
-            fit.others
-        );
-        findings.push(
-            Finding::of_file("convex-corner", Severity::Note, name, message)
-                .hint("a point off the planes settles it"),
-        );
-    }
-    let mut rows: Vec<Residual> = touched
-        .iter()
-        .zip(&fit.points_m)
-        .map(|(t, r)| Residual::new(&t.id, *r).at(t.to_m))
-        .collect();
-    let mut sum: f64 = fit.points_m.iter().map(|r| norm(*r).powi(2)).sum();
-    if let Some(given) = given {
-        let lefts = fit.points_m.iter().map(|r| norm(*r).powi(2));
-        let lefts = lefts.chain(fit.planes_m.iter().flatten().map(|along| along * along));
-        let weight = |i: usize| weights.as_ref().map_or(1.0, |w| w[i]);
-        let whole: f64 = lefts.enumerate().map(|(i, left)| weight(i) * left).sum();
-        let freedom = (3 * touched.len() + on_planes.len()).saturating_sub(6);
-        let times = (whole / freedom.max(1) as f64).sqrt() / given;
-        findings.extend(other_sigma(times, freedom, name));
-    }
-    let mut ids = on_planes.iter().map(|touch| &touch.id);
-    for (residuals, plane) in fit.planes_m.iter().zip(planes) {
-        let normal = fit.to_from_from.rotation * plane.normal;
-        for (along, id) in residuals.iter().zip(&mut ids) {
-            sum += along * along;
-            rows.push(Residual::new(id, scale(*along, normal)));
-        }
-    }
-    Ok(Motion {
-        method: "points and planes",
-        to_from_from: fit.to_from_from,
-        // reported for a row of weight one, which is no length where the weights are 1/σ²
-        sigma_m: (!absolute).then_some(fit.sigma_m),
-        sigma_given: given.is_some(),
-        covariance: Some(fit.covariance),
-        rmsd_m: Some((sum / rows.len() as f64).sqrt()),
-        points: rows,
     })
 }
 
@@ -270,7 +203,7 @@ fn total_weight(weights: Option<&[f64]>, count: usize) -> f64 {
 }
 
 /// A stated deviation that the residuals contradict, by χ² of as many degrees of freedom.
-fn other_sigma(times: f64, freedom: usize, name: &str) -> Option<Finding> {
+pub(super) fn other_sigma(times: f64, freedom: usize, name: &str) -> Option<Finding> {
     // Wilson and Hilferty: the cube root of χ²/ν is nearly normal
     let spread = 2.0 / (9.0 * freedom.max(1) as f64);
     let chance = |sign: f64| {
@@ -416,7 +349,10 @@ fn suspect(
 }
 
 /// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.
-fn weights(touched: &[&Touched], name: &str) -> Result<(Option<Vec<f64>>, bool), Failure> {
+pub(super) fn weights(
+    touched: &[&Touched],
+    name: &str,
+) -> Result<(Option<Vec<f64>>, bool), Failure> {
     let sigmas = touched.iter().filter(|t| t.variance_m2.is_some()).count();
     let relative = touched.iter().filter(|t| t.weight.is_some()).count();
     if sigmas > 0 && relative > 0 {
@@ -467,37 +403,11 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
 }
 
 /// The variance of a difference of which one or both deviations are known.
-fn variance_of(sigmas_m: [Option<f64>; 2]) -> Option<f64> {
+pub(super) fn variance_of(sigmas_m: [Option<f64>; 2]) -> Option<f64> {
     match sigmas_m.map(|s| s.map(|s| s * s)) {
         [None, None] => None,
         [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
     }
-}
-
-/// The touches of a plane.
-fn touches_of(pair: &Pair) -> impl Iterator<Item = Touched> {
-    let from = pair.from;
-    pair.to.iter().enumerate().map(move |(k, to)| Touched {
-        id: format!("{}/{}", from.id, k + 1),
-        from_m: from.point_m,
-        to_m: to.point_m,
-        variance_m2: variance_of([from.sigma_m, to.sigma_m]),
-        weight: to.weight.or(from.weight),
-    })
-}
-
-fn plane(pair: &Pair, from_name: &str) -> Result<TouchedPlane, Failure> {
-    let normal = pair.from.normal.ok_or_else(|| {
-        Failure::new(format!(
-            "{from_name}: plane {} needs its outward normal nx,ny,nz",
-            pair.from.id
-        ))
-    })?;
-    Ok(TouchedPlane {
-        point_m: pair.from.point_m,
-        normal,
-        touches_m: pair.to.iter().map(|row| row.point_m).collect(),
-    })
 }
 
 fn round(
@@ -521,6 +431,16 @@ fn round(
     } else {
         fit.radius_m + probe_radius_m
     };
+    if radius_m <= 0.0 {
+        let message = format!(
+            "{to_name}: {id}: the centres of the ball lie on a radius of {:.4} mm; a ball of {:.4} \
+             mm touches a sphere from outside, at more than its own radius",
+            mm_from_m(fit.radius_m),
+            mm_from_m(probe_radius_m)
+        );
+        let hint = "are the coordinates in mm, and is --probe-radius-mm the ball's radius?";
+        return Err(Failure::with_hint(message, hint));
+    }
     let noise = noise_of(&fit.residuals_m, parameters);
     if let Some(nominal) = pair.from.radius_m {
         let off = radius_m - nominal;

@@ -4,6 +4,7 @@
 mod cloud;
 mod construct;
 mod matched;
+mod planes;
 pub(super) mod points;
 
 pub use construct::Construction;
@@ -19,7 +20,7 @@ use crate::register::frame_file::{Frame, Sigma as Six};
 #[cfg(feature = "icp")]
 use crate::register::icp;
 use crate::register::uncertainty::PoseCovariance;
-use points::Points;
+use points::{Feature as Kind, PointRow, Points};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -254,12 +255,97 @@ pub fn register(
     options: &Options,
 ) -> Result<Registration, Failure> {
     let from = Points::read(from)?;
+    refuse_ignored(pairing, options)?;
     match pairing {
-        Pairing::Frame(kind) => construct::construct(&from, *kind, options),
-        Pairing::Rows(to) => matched::register(&from, &distinct(&from, to)?, options),
+        Pairing::Frame(kind) => {
+            refuse_small(&[&from])?;
+            refuse_two_sigmas(&[&from], options)?;
+            construct::construct(&from, *kind, options)
+        }
+        Pairing::Rows(to) => {
+            let to = distinct(&from, to)?;
+            refuse_two_sigmas(&[&from, &to], options)?;
+            refuse_small(&[&from, &to])?;
+            matched::register(&from, &to, options)
+        }
         #[cfg(feature = "icp")]
-        Pairing::Nearness(to, icp) => cloud::register(&from, &distinct(&from, to)?, icp, options),
+        Pairing::Nearness(to, icp) => {
+            let to = distinct(&from, to)?;
+            refuse_small(&[&from, &to])?;
+            cloud::register(&from, &to, icp, options)
+        }
     }
+}
+
+/// Refuses what this kind of registration would not use.
+fn refuse_ignored(pairing: &Pairing, options: &Options) -> Result<(), Failure> {
+    let (how, takes_radius) = match pairing {
+        Pairing::Rows(_) => return Ok(()),
+        Pairing::Frame(_) => ("--frame", true),
+        #[cfg(feature = "icp")]
+        Pairing::Nearness(..) => ("--icp", false),
+    };
+    let given = [
+        ("--robust", options.robust),
+        ("--drop-unmatched", options.drop_unmatched),
+        (
+            "--probe-radius-mm",
+            options.probe_radius_m > 0.0 && !takes_radius,
+        ),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((option, _)) => Err(Failure::with_hint(
+            format!("{option} has no effect with {how}"),
+            format!("leave {option} out; it is for points that are matched by id or by order"),
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a deviation of all points next to one of each.
+fn refuse_two_sigmas(sets: &[&Points], options: &Options) -> Result<(), Failure> {
+    let has_own = |set: &&&Points| set.rows.iter().any(|row| row.sigma_m.is_some());
+    match sets
+        .iter()
+        .find(has_own)
+        .filter(|_| options.sigma_m.is_some())
+    {
+        Some(set) => Err(Failure::with_hint(
+            format!(
+                "{}: the column sigma_mm and --sigma-mm cannot both be given",
+                set.name
+            ),
+            "leave --sigma-mm out: the column says it of each point",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Sets of points that spread over less, all of them, are in another unit.
+const SMALLEST_M: f64 = 3e-3;
+
+/// Refuses points in metres.
+fn refuse_small(sets: &[&Points]) -> Result<(), Failure> {
+    // where the point of a plane lies on it says nothing
+    let is_point = |row: &&PointRow| row.feature != Kind::Plane;
+    let spread_m = |set: &&Points| {
+        let points = set.rows.iter().filter(is_point);
+        planes::spread_m(points.map(|row| row.point_m))
+    };
+    let largest = sets.iter().map(spread_m).fold(0.0, f64::max);
+    if largest >= SMALLEST_M || sets.iter().any(|set| set.rows.is_empty()) {
+        return Ok(());
+    }
+    let names: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+    Err(Failure::with_hint(
+        format!(
+            "{}: the points spread over {:.6} mm only (limit {:.0} mm): are they in metres?",
+            names.join(" and "),
+            mm_from_m(largest),
+            mm_from_m(SMALLEST_M)
+        ),
+        "files are in mm",
+    ))
 }
 
 /// The second set. The same numbers twice are a copy, not a measurement.
@@ -364,3 +450,6 @@ fn ellipsoid(covariance: &PoseCovariance, to_from_from: &Pose, from_m: Vector) -
         axes: std::array::from_fn(|i| found.axes.axis(i)),
     }
 }
+
+#[cfg(test)]
+mod tests;

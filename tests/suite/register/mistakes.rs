@@ -385,3 +385,48 @@ fn a_board_of_another_size_is_found() {
     // 1 / 1.02
     assert!(report.to_string().contains("times 0.980"), "{report}");
 }
+
+#[test]
+fn options_that_would_count_for_nothing_are_refused() {
+    let folder = scratch();
+    let at = folder.path();
+    write(at, "from.csv", &points(&EIGHT));
+    write(at, "to.csv", &points(&measured(0.1)));
+    for (more, words) in [
+        (&["--sigma-mm", "0"][..], "above 0"),
+        (&["--icp", "--probe-radius-mm", "3"], "no effect with --icp"),
+        (&["--icp", "--robust"], "no effect with --icp"),
+        (&["--icp", "--drop-unmatched"], "no effect with --icp"),
+    ] {
+        let mut words_of = vec!["register", "from.csv", "to.csv"];
+        words_of.extend(more);
+        let (status, _, reported) = registered(at, &words_of);
+        assert!(
+            status == 2 && reported.contains(words),
+            "{more:?}: {status} {reported}"
+        );
+    }
+    let profile = crate::support::repository("robots/abb_irb120_thesis.yaml");
+    let profile = profile.to_str().expect("plain");
+    let plan = ["plan", "--profile", profile, "--count", "10"];
+    for (more, missing) in [
+        (["--cone-deg", "20"], "--device-mm"),
+        (["--language", "krl"], "--program"),
+    ] {
+        let (status, _, reported) = run(&[&plan[..], &more[..]].concat());
+        assert!(
+            status == 2 && reported.contains(missing),
+            "{more:?}: {status} {reported}"
+        );
+    }
+    let joints = at.join("q.csv");
+    let row = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n0,10,20,0,30,0\n";
+    write(at, "q.csv", row);
+    let joints = joints.to_str().expect("plain");
+    let simulate = ["simulate", "--profile", profile, "--joints", joints];
+    let (status, _, reported) = run(&[&simulate[..], &["--outlier-mm", "5"]].concat());
+    assert!(
+        status == 2 && reported.contains("--outliers"),
+        "{status} {reported}"
+    );
+}

@@ -1,0 +1,346 @@
+//! Sets that no motion relates, datums that contradict one another, options without effect.
+
+use super::{Construction, Options, Pairing, Registration, register};
+use crate::program::Source;
+use crate::task::Failure;
+
+fn source(name: &str, text: &str) -> Source {
+    Source::new(name, text.as_bytes().to_vec())
+}
+
+fn rows(from: &str, to: &str, options: &Options) -> Result<Registration, Failure> {
+    let (from, to) = (source("from.csv", from), source("to.csv", to));
+    register(&from, &Pairing::Rows(&to), options)
+}
+
+fn frame(text: &str, options: &Options) -> Result<Registration, Failure> {
+    let pairing = Pairing::Frame(Construction::ThreeTwoOne);
+    register(&source("datums.csv", text), &pairing, options)
+}
+
+fn refusal(found: Result<Registration, Failure>) -> String {
+    let failure = found.expect_err("refused");
+    format!("{} {}", failure.message, failure.hint)
+}
+
+fn finding(found: &Registration, id: &str) -> Option<String> {
+    let mut all = found.findings.iter().filter(|finding| finding.id == id);
+    all.next().map(|finding| finding.message.clone())
+}
+
+fn ball(radius_m: f64) -> Options {
+    Options {
+        probe_radius_m: radius_m,
+        ..Options::default()
+    }
+}
+
+const BLOCK: &str = "id,feature,x_mm,y_mm,z_mm,nx,ny,nz
+top,plane,0,0,0,0,0,1
+front,plane,0,0,0,0,-1,0
+left,plane,0,0,0,-1,0,0
+p,point,150,100,-30,0,0,1
+q,point,250,60,-40,0,0,1
+";
+/// Centres of a ball of 2 mm at a block that stands where it is drawn, 0.01 mm off.
+const TOUCHES: [(&str, [f64; 3]); 14] = [
+    ("top", [20.0, 20.0, 2.01]),
+    ("top", [280.0, 30.0, 1.99]),
+    ("top", [270.0, 180.0, 2.01]),
+    ("top", [30.0, 150.0, 1.99]),
+    ("front", [20.0, -1.99, -10.0]),
+    ("front", [280.0, -2.01, -20.0]),
+    ("front", [150.0, -1.99, -70.0]),
+    ("front", [50.0, -2.0, -60.0]),
+    ("left", [-1.99, 20.0, -10.0]),
+    ("left", [-2.01, 180.0, -20.0]),
+    ("left", [-1.99, 100.0, -70.0]),
+    ("left", [-2.0, 60.0, -50.0]),
+    ("p", [150.01, 100.0, -28.0]),
+    ("q", [250.0, 59.99, -38.01]),
+];
+
+fn touches(change: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> String {
+    let rows = TOUCHES.iter().enumerate().map(|(k, (id, place))| {
+        let [x, y, z] = change(k, *place);
+        format!("{id},{x},{y},{z}\n")
+    });
+    format!("id,x_mm,y_mm,z_mm\n{}", rows.collect::<String>())
+}
+
+#[test]
+fn a_plane_among_points_does_not_hide_that_they_are_exchanged() {
+    let from = "id,feature,x_mm,y_mm,z_mm,nx,ny,nz
+top,plane,0,0,0,0,0,1
+s1,point,50,50,40,,,
+s2,point,250,150,40,,,
+s3,point,60,180,70,,,
+";
+    let to = "id,x_mm,y_mm,z_mm
+top,20,20,0
+top,280,30,0
+top,150,190,0
+top,40,180,0
+s1,250,150,40
+s2,50,50,40
+s3,60,180,70
+";
+    let refused = refusal(rows(from, to, &Options::default()));
+    assert!(refused.contains("do not lie as those of FROM"), "{refused}");
+    let right = to
+        .replace("s1", "s")
+        .replace("s2", "s1")
+        .replace("s,", "s2,");
+    let found = rows(from, &right, &Options::default()).expect("they fit");
+    assert!(found.findings.is_empty(), "{:?}", found.findings);
+}
+
+/// How far what is suspected first, which is this, is off.
+fn off_mm(found: &Registration, of: &str) -> f64 {
+    let message = finding(found, "suspect-touch").expect("named");
+    let rest = message
+        .strip_prefix(&format!("{of} is "))
+        .expect("it is that");
+    let number = rest.split(' ').next().expect("a number");
+    number.parse().expect("a number")
+}
+
+#[test]
+fn what_the_others_contradict_is_named_where_planes_were_touched() {
+    let good = rows(BLOCK, &touches(|_, p| p), &ball(2e-3)).expect("a block");
+    assert_eq!(finding(&good, "suspect-touch"), None);
+    // the second touch of the top is 5 mm off
+    let off = touches(|k, [x, y, z]| [x, y, if k == 1 { z + 5.0 } else { z }]);
+    let found = rows(BLOCK, &off, &ball(2e-3)).expect("a block");
+    assert!(
+        (off_mm(&found, "top/2") - 5.0).abs() < 0.1,
+        "{:?}",
+        found.findings
+    );
+    assert_eq!(found.findings.len(), 1, "{:?}", found.findings);
+    // the normal of the top points into the block: the ball is taken to be below
+    let inward = BLOCK.replace("top,plane,0,0,0,0,0,1", "top,plane,0,0,0,0,0,-1");
+    let found = rows(&inward, &touches(|_, p| p), &ball(2e-3)).expect("a block");
+    assert!(
+        (off_mm(&found, "plane top") - 4.0).abs() < 0.2,
+        "{:?}",
+        found.findings
+    );
+}
+
+#[test]
+fn planes_do_not_hide_other_units_mirror_images_and_exchanged_ids() {
+    let scaled = |by: f64| touches(|_, p| p.map(|x| x * by));
+    for (to, words) in [
+        (scaled(1e-3), "TO is in metres"),
+        (scaled(1.0 / 25.4), "TO is in inches"),
+    ] {
+        let refused = refusal(rows(BLOCK, &to, &Options::default()));
+        assert!(refused.contains(words), "{words}: {refused}");
+    }
+    let mirrored = touches(|_, [x, y, z]| [-x, y, z]);
+    let exchanged = touches(|_, p| p).replace("top", "t").replace("left", "top");
+    let exchanged = exchanged.replace("\nt,", "\nleft,");
+    for to in [mirrored, exchanged] {
+        let refused = refusal(rows(BLOCK, &to, &ball(2e-3)));
+        // where so much is left, several poses may fit alike
+        let words = ["do not lie as those", "another pose"];
+        assert!(
+            words.iter().any(|words| refused.contains(words)),
+            "{refused}"
+        );
+    }
+    // planes alone
+    let planes: String = BLOCK
+        .lines()
+        .take(4)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let small: String = scaled(1e-3)
+        .lines()
+        .take(13)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let refused = refusal(rows(&planes, &small, &Options::default()));
+    assert!(refused.contains("are they in metres?"), "{refused}");
+}
+
+#[test]
+fn a_sphere_is_larger_than_the_ball_that_touched_it() {
+    let from = "id,feature,x_mm,y_mm,z_mm
+a,sphere,0,0,0
+b,point,100,0,0
+c,point,0,100,0
+";
+    let to = "id,x_mm,y_mm,z_mm
+a,1,0,0
+a,-1,0,0
+a,0,1,0
+a,0,-1,0
+a,0,0,1
+b,100,0,0
+c,0,100,0.01
+";
+    assert!(rows(from, to, &Options::default()).is_ok());
+    let normals = from
+        .replace("z_mm", "z_mm,nx,ny,nz")
+        .replace("0,0,0\n", "0,0,0,,,\n");
+    let normals = normals
+        .replace("100,0,0,,,", "100,0,0,0,0,1")
+        .replace("0,100,0\n", "0,100,0,0,0,1\n");
+    let refused = refusal(rows(&normals, to, &ball(2e-3)));
+    assert!(refused.contains("a radius of 1.0000 mm"), "{refused}");
+}
+
+fn turned(found: &Registration) -> bool {
+    found
+        .rotation
+        .iter()
+        .enumerate()
+        .all(|(k, row)| row[k] > 0.9999)
+}
+
+#[test]
+fn z_of_three_two_one_does_not_hang_on_touches_in_a_line() {
+    for y in [9.95, 10.05] {
+        let text = format!(
+            "datum,x_mm,y_mm,z_mm\n1,10,10,0\n1,150,{y},0\n1,300,10,0\n1,150,200,0\n2,30,0,-20\n\
+             2,260,0,-30\n3,0,50,-25\n"
+        );
+        let found = frame(&text, &Options::default()).expect("a frame");
+        assert!(turned(&found), "{y}: {:?}", found.rotation);
+    }
+    // to and fro: they surround nothing
+    let text = "datum,x_mm,y_mm,z_mm\n1,0,0,0\n1,100,0,0\n1,200,0,0\n1,0,100,0\n1,200,100,0\n\
+        2,30,0,-20\n2,260,0,-30\n3,0,50,-25\n";
+    let refused = refusal(frame(text, &Options::default()));
+    assert!(refused.contains("counter-clockwise"), "{refused}");
+}
+
+const CLOCKWISE: &str = "x_mm,y_mm,z_mm,nx,ny,nz
+20,20,2,0,0,1
+150,190,2,0,0,1
+280,30,2,0,0,1
+30,-2,-20,0,-1,0
+260,-2,-30,0,-1,0
+-2,50,-25,-1,0,0
+";
+
+#[test]
+fn normals_say_where_the_datums_of_three_two_one_face() {
+    let found = frame(CLOCKWISE, &ball(2e-3)).expect("a frame");
+    assert!(turned(&found), "{:?}", found.rotation);
+    assert!(
+        found.translation_mm.iter().all(|x| x.abs() < 1e-9),
+        "{found:?}"
+    );
+    // the part stands turned by 90 deg, the normals are those of the drawing
+    let drawing = "x_mm,y_mm,z_mm,nx,ny,nz\n-20,20,2,0,0,1\n-30,280,2,0,0,1\n-190,150,2,0,0,1\n\
+        2,30,-20,0,-1,0\n2,260,-30,0,-1,0\n-50,-2,-25,-1,0,0\n";
+    let refused = refusal(frame(drawing, &ball(2e-3)));
+    assert!(refused.contains("90.0 deg from -y"), "{refused}");
+    let inward = CLOCKWISE
+        .replace("0,0,1\n", "0,0,-1\n")
+        .replace("0,-1,0", "0,1,0")
+        .replace("-25,-1,0,0", "-25,1,0,0");
+    let refused = refusal(frame(&inward, &ball(2e-3)));
+    assert!(refused.contains("180.0 deg from -x"), "{refused}");
+}
+
+#[test]
+fn more_touches_than_six_check_one_another() {
+    let text = "datum,x_mm,y_mm,z_mm\n1,0,0,0\n1,300,0,0\n1,300,200,0\n1,0,200,5\n2,30,0,-20\n\
+        2,260,0,-30\n3,0,50,-25\n";
+    let sigma = Options {
+        sigma_m: Some(2e-5),
+        ..Options::default()
+    };
+    let found = frame(text, &sigma).expect("a frame");
+    assert!(
+        finding(&found, "sigma-small").is_some(),
+        "{:?}",
+        found.findings
+    );
+    // four corners of a plane are off by a quarter each, of seven touches
+    let rmsd = found.rmsd_mm.expect("redundant");
+    assert!(
+        (rmsd - 1.25 * (4.0_f64 / 7.0).sqrt()).abs() < 1e-3,
+        "{rmsd}"
+    );
+    assert_eq!(found.points.len(), 7);
+    // deviations of the rows are those that count
+    let own: String = text.lines().map(|line| format!("{line},0.02\n")).collect();
+    let own = own.replacen("z_mm,0.02", "z_mm,sigma_mm", 1);
+    let rows = frame(&own, &Options::default()).expect("a frame");
+    let of = |found: &Registration| found.sigma.as_ref().map(|s| s.xyz_mm());
+    let (own_mm, all_mm) = (of(&rows).expect("known"), of(&found).expect("known"));
+    assert!(
+        (0..3).all(|k| (own_mm[k] - all_mm[k]).abs() < 1e-9),
+        "{own_mm:?} {all_mm:?}"
+    );
+    assert!(refusal(frame(&own, &sigma)).contains("cannot both be given"));
+}
+
+#[test]
+fn metres_in_both_files_are_refused() {
+    let text = |at: f64| {
+        let row = |id: &str, [x, y, z]: [f64; 3]| format!("{id},{},{},{}\n", x + at, y - at, z);
+        let rows = [
+            row("a", [0.0, 0.0, 0.0]),
+            row("b", [0.3, 0.0, 0.0]),
+            row("c", [0.0, 0.2, 0.0]),
+            row("d", [0.3, 0.2, 0.1]),
+        ];
+        format!("id,x_mm,y_mm,z_mm\n{}", rows.concat())
+    };
+    let refused = refusal(rows(&text(0.0), &text(1.5), &Options::default()));
+    assert!(refused.contains("are they in metres?"), "{refused}");
+    let three = "x_mm,y_mm,z_mm\n0,0,0\n0.3,0,0\n0,0.2,0\n";
+    let pairing = Pairing::Frame(Construction::ThreePoints);
+    let refused = refusal(register(
+        &source("t.csv", three),
+        &pairing,
+        &Options::default(),
+    ));
+    assert!(refused.contains("are they in metres?"), "{refused}");
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    for (option, options) in [
+        (
+            "--robust",
+            Options {
+                robust: true,
+                ..Options::default()
+            },
+        ),
+        (
+            "--drop-unmatched",
+            Options {
+                drop_unmatched: true,
+                ..Options::default()
+            },
+        ),
+    ] {
+        let refused = refusal(frame(CLOCKWISE, &options));
+        assert!(refused.contains(option), "{refused}");
+    }
+    #[cfg(feature = "icp")]
+    {
+        let search = crate::register::icp::Options {
+            metric: crate::register::icp::Metric::PointToPoint,
+            start: None,
+            kept: 0.9,
+            min_overlap: 0.6,
+            sigma_m: None,
+        };
+        let (from, to) = (source("a.csv", CLOCKWISE), source("b.csv", CLOCKWISE));
+        let refused = refusal(register(
+            &from,
+            &Pairing::Nearness(&to, search),
+            &ball(3e-3),
+        ));
+        assert!(refused.contains("--probe-radius-mm"), "{refused}");
+    }
+}
