@@ -1,7 +1,7 @@
 //! `fk`: joint angles to poses of the tool.
 
 use super::Document;
-use super::circumstances::Circumstances;
+use super::circumstances::{Circumstances, Track};
 use super::failure::Failure;
 use super::parts::Pose;
 use super::profile_file::ProfileFile;
@@ -81,11 +81,15 @@ pub fn fk_telling(
         profile.profile.controller_model(&tool)
     };
     let profile = &profile.profile;
-    let circumstances = Circumstances::of(&table, profile)?;
+    let track = Track::of(&table, profile)?;
+    // the controller's model knows nothing else of a row
+    let circumstances = is_real
+        .then(|| Circumstances::of(&table, profile))
+        .transpose()?;
     let pose = |(number, row): (usize, super::table::Row)| {
         let q = row.joints()?;
-        let stand = circumstances.stand(&row)?;
-        let pose = if is_real {
+        let stand = track.stand(&row)?;
+        let pose = if let Some(circumstances) = &circumstances {
             let conditions = circumstances.conditions(&row)?;
             let own = circumstances
                 .is_of_chain()

@@ -85,7 +85,9 @@ fn keys_of_schema(schema: &Value, node: &Value, path: &str, keys: &mut BTreeSet<
         keys_of_schema(schema, part, &path, keys);
     }
     for part in [&node["items"], &node["additionalProperties"]] {
-        keys_of_schema(schema, part, path, keys);
+        if part.is_object() {
+            keys_of_schema(schema, part, path, keys);
+        }
     }
 }
 
