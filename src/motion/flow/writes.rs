@@ -2,7 +2,6 @@
 
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::Shape;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
     PartValue, ValueId, VariableId, Write, Written, short,
@@ -122,14 +121,11 @@ impl Flow<'_> {
 
     /// By what a copy of a target is displaced once parts of it are written.
     fn displaced_by(&self, how: &How, target: u32, before: DisplacementId) -> DisplacementId {
-        let is_joints = || {
-            let target = &self.script.targets[target as usize];
-            target.layout.shape == Shape::Joints
-        };
+        let is_joints = self.joints[target as usize];
         match *how {
             // numbers of the text do not know of a correction
             How::PartNumber(_) => OVERWRITTEN,
-            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints() => by,
+            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints => by,
             How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
             // what is computed is mostly the old value and something more
             _ => DISPLACED_SOMEHOW,
