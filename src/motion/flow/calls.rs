@@ -145,17 +145,24 @@ impl Flow<'_> {
         let Expr::Target(own) = self.script.variables[variable as usize].declared else {
             return held;
         };
-        let part_written = [DISPLACED_SOMEHOW, OVERWRITTEN].map(|displacement| Atom::Target {
-            target: short(own),
-            displacement,
-        });
+        let own = short(own);
+        let is_part_written = |atom: Atom| match atom {
+            Atom::Target {
+                target,
+                displacement,
+            } => {
+                let somehow = matches!(displacement, DISPLACED_SOMEHOW | OVERWRITTEN);
+                target == own && (somehow || self.grown.contains(&displacement))
+            }
+            _ => false,
+        };
         let mut atoms = self.holdings.of(held).to_vec();
-        if atoms.iter().all(|(atom, _)| !part_written.contains(atom)) {
+        if atoms.iter().all(|(atom, _)| !is_part_written(*atom)) {
             return held;
         }
         for (atom, _) in &mut atoms {
-            if part_written.contains(atom) {
-                *atom = Atom::Changed { target: short(own) };
+            if is_part_written(*atom) {
+                *atom = Atom::Changed { target: own };
             }
         }
         self.holdings.intern(atoms)

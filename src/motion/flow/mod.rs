@@ -17,8 +17,8 @@ mod writes;
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Statement, TableId, ValueId,
-    VariableId, short,
+    DisplacementId, Held, How, Label, ModalId, Part, PartValue, RoutineId, Script, Statement,
+    TableId, ValueId, VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::{BTreeSet, BinaryHeap};
@@ -120,6 +120,10 @@ fn bits(value: PartValue) -> (u8, u64) {
 /// The flow through a script.
 pub(super) struct Flow<'a> {
     script: &'a Script,
+    /// Which targets are joints.
+    joints: Vec<bool>,
+    /// Displacements of positions of which a part grows.
+    grown: HashSet<DisplacementId>,
     pub holdings: Holdings,
     pub sets: Sets,
     /// Values that writes of parts made, behind those of the script.
@@ -177,7 +181,11 @@ pub(super) struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     /// Follows a script.
-    pub(super) fn of(script: &'a Script) -> Self {
+    pub(super) fn of(script: &'a Script, joints: Vec<bool>) -> Self {
+        let grown = script.writes.iter().filter_map(|write| match write.how {
+            How::PartBy(_, by) => Some(by),
+            _ => None,
+        });
         let mut label_places = vec![u32::MAX; script.labels as usize];
         for (at, statement) in script.statements.iter().enumerate() {
             if let Statement::Label(label) = statement {
@@ -186,6 +194,8 @@ impl<'a> Flow<'a> {
         }
         let mut flow = Self {
             script,
+            joints,
+            grown: grown.collect(),
             holdings: Holdings::new(),
             sets: Sets::new(),
             made: Vec::new(),

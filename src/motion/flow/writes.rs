@@ -104,7 +104,7 @@ impl Flow<'_> {
                     displacement,
                 } => Atom::Target {
                     target,
-                    displacement: displaced_by(&write.how, displacement),
+                    displacement: self.displaced_by(&write.how, target, displacement),
                 },
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
@@ -117,6 +117,19 @@ impl Flow<'_> {
             changed.push((atom, site));
         }
         self.holdings.intern(changed)
+    }
+
+    /// By what a copy of a target is displaced once parts of it are written.
+    fn displaced_by(&self, how: &How, target: u32, before: DisplacementId) -> DisplacementId {
+        let is_joints = self.joints[target as usize];
+        match *how {
+            // numbers of the text do not know of a correction
+            How::PartNumber(_) => OVERWRITTEN,
+            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints => by,
+            How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
+            // what is computed is mostly the old value and something more
+            _ => DISPLACED_SOMEHOW,
+        }
     }
 
     /// A record with other parts; `None` where it is none.
@@ -200,17 +213,5 @@ impl Flow<'_> {
             (&self.more_parts, own)
         };
         list[(parts.start - by) as usize..(parts.end - by) as usize].to_vec()
-    }
-}
-
-/// By what a copy of a target is displaced once parts of it are written.
-fn displaced_by(how: &How, before: DisplacementId) -> DisplacementId {
-    match *how {
-        // numbers of the text do not know of a correction
-        How::PartNumber(_) => OVERWRITTEN,
-        How::PartBy(_, by) if before == NOT_DISPLACED => by,
-        How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
-        // what is computed is mostly the old value and something more
-        _ => DISPLACED_SOMEHOW,
     }
 }

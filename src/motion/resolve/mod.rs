@@ -14,7 +14,8 @@ use crate::program::script::{
     Script, ValueId, short,
 };
 use crate::program::{
-    ExternalState, FrameId, Language, Program, ReadError, Settings, Source, TargetId, ToolId,
+    ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
+    TargetId, ToolId,
 };
 use foldhash::{HashMap, HashMapExt};
 use report::Report;
@@ -45,7 +46,8 @@ pub(super) fn resolve(
     program.externals.sort_by_key(|(target, _)| *target);
     program.externals_of_moves.sort_by_key(|(at, _)| *at);
     program.external_shifts.sort_by_key(|(at, _)| *at);
-    let flow = Flow::of(&script);
+    let is_joints = |target: &Target| target.layout.shape == Shape::Joints;
+    let flow = Flow::of(&script, program.targets.iter().map(is_joints).collect());
     let mut resolver = Resolver {
         language,
         sources,

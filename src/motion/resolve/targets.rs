@@ -149,8 +149,6 @@ impl Resolver<'_, '_> {
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         let displacement = match self.script.displacements.get(displacement as usize) {
-            // a part of a joint target is no shift of the tool
-            Some(Displacement::By(_)) if is_joints => Displacement::Unknown,
             Some(displacement) => displacement.clone(),
             None => Displacement::Unknown,
         };
