@@ -62,7 +62,7 @@ impl Translator<'_> {
     }
 
     /// What an instruction does where the files do not declare a routine of its name.
-    fn meant(&self, callee: Callee, verb: Verb, arguments: Part) -> Verb {
+    pub(super) fn meant(&self, callee: Callee, verb: Verb, arguments: Part) -> Verb {
         let Callee::Named(name) = callee else {
             return verb;
         };

@@ -23,6 +23,7 @@ mod derived;
 mod drive;
 mod elements;
 mod expressions;
+mod grips;
 mod handlers;
 mod insert;
 mod modes;

@@ -7,7 +7,7 @@ use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Expr, Held, How, Instruction, Modal, Remark, Span, Write, Written};
+use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Write, Written};
 use crate::program::{Motion, Source, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
@@ -58,7 +58,7 @@ fn read_speed_zone(name: &str, speed_zone: &mut SpeedZone) {
 }
 
 /// The name that an argument is.
-fn plain(argument: &Argument) -> Option<Symbol> {
+pub(super) fn plain(argument: &Argument) -> Option<Symbol> {
     match argument.expression {
         Expression::Point {
             base: Base::Named { name, .. },
@@ -162,6 +162,19 @@ impl Translator<'_> {
         })
     }
 
+    /// The argument of a move that is its tool.
+    pub(super) fn tool_of_move(&self, verb: Verb, all: &[Argument]) -> Option<usize> {
+        let Verb::Move {
+            path,
+            first,
+            tool_inside,
+        } = verb
+        else {
+            return None;
+        };
+        self.parts(all, path, first, tool_inside)?.tool
+    }
+
     /// Speed and zone of a move with what `\V`, `\T` and `\Z` replace of them: with a time for the
     /// whole path the speed is not known.
     fn switched(&self, all: &[Argument], mut speed_zone: SpeedZone) -> SpeedZone {
@@ -246,7 +259,10 @@ impl Translator<'_> {
             self.emit_move(instruction, Modal::default());
             return;
         };
-        let load = parts.load.map_or(Expr::Absent, |at| self.carried(&all[at]));
+        let load = match parts.load.map_or(Expr::Absent, |at| self.carried(&all[at])) {
+            Expr::Absent => parts.tool.map_or(Expr::Absent, |at| self.gripped(&all[at])),
+            load => load,
+        };
         let speed_zone = self.switched(all, parts.speed_zone);
         self.tell(&parts);
         let tool = match parts.tool {
@@ -373,35 +389,7 @@ impl Translator<'_> {
             self.say("load-chosen-at-run-time", severity, message.into(), hint);
             return Expr::Absent;
         };
-        let [x, y, z] = load.cog_m;
-        let key = [load.mass_kg, x, y, z].map(f64::to_bits);
-        let script = &mut self.builder.script;
-        let value = self.loads.entry(key);
-        Expr::Value(*value.or_insert_with(|| script.value(Held::Load(Some(load)))))
-    }
-
-    /// `GripLoad`
-    pub(super) fn grip_load(&mut self, arguments: Part) {
-        let resolved = self.resolved;
-        let load = resolved.parsed.arguments[indices(arguments)]
-            .iter()
-            .find_map(plain);
-        if let Some(load) = load
-            && !resolved.spelling(load).eq_ignore_ascii_case("load0")
-        {
-            self.other_load(load);
-        }
-    }
-
-    fn other_load(&mut self, load: Symbol) {
-        let message = format!(
-            "the robot carries {} from here on (GripLoad); the correction is that of the tool's load \
-             alone",
-            self.resolved.spelling(load)
-        );
-        let hint = "where joints bend under load, name it at the moves with \\TLoad, or give the profile \
-            a tool with this load";
-        self.say("grip-load", Severity::Warning, message, hint);
+        self.held_load(load)
     }
 
     fn tell(&mut self, parts: &Parts) {

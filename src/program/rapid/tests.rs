@@ -4,6 +4,7 @@ mod arrays;
 mod calls;
 mod derived;
 mod frames;
+mod grips;
 mod posts;
 mod robust;
 mod samples;

@@ -2,6 +2,7 @@
 
 use super::EXTERNAL;
 use super::arguments::NOT_CONNECTED;
+use super::grips::Grips;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
@@ -50,6 +51,7 @@ pub(super) struct Translator<'a> {
     pub records: HashMap<Entity, ValueId>,
     pub frame_elements: HashMap<(Entity, [u32; 3]), ValueId>,
     pub loads: HashMap<[u64; 4], ValueId>,
+    pub grips: Grips,
     pub lists: HashMap<Entity, (u32, u32)>,
     pub tables: HashMap<Entity, TableId>,
     /// The tables of what any element of large arrays has held, by array and by element.
@@ -133,6 +135,7 @@ pub(super) fn translate(
         records: HashMap::new(),
         frame_elements: HashMap::new(),
         loads: HashMap::new(),
+        grips: Grips::default(),
         lists: HashMap::new(),
         tables: HashMap::new(),
         gathered: HashMap::new(),
@@ -152,6 +155,7 @@ pub(super) fn translate(
     };
     translator.find_own();
     translator.find_wanted();
+    translator.find_grips();
     translator.external_axes(&settings.external);
     for at in 0..resolved.parsed.statements.len() {
         translator.statement(at);
