@@ -257,8 +257,8 @@ pub fn diagnose(
             // the calibration itself may be out of date
             match attempt(profile, measurements, Trust::Nothing, options, progress) {
                 Ok(anew) => {
-                    let scale = anew.0.refit.scale.min(trusted.0.refit.scale).powi(2);
-                    let better = |a: &Attempt| a.merit_at(scale);
+                    let evidence = anew.0.refit.evidence().min(trusted.0.refit.evidence());
+                    let better = |a: &Attempt| a.merit_at(evidence.powi(2));
                     if better(&anew.0) + 10.0 < better(&trusted.0) {
                         anew
                     } else {

@@ -377,12 +377,7 @@ pub(super) fn identify(
         &uncertainty.sigma,
     ));
     let observability = observability_of(&problem, &solution, &fit);
-    let expected_m = expected_error_m(
-        &problem,
-        &solution.estimate,
-        solution.loss,
-        uncertainty.applied_factor,
-    );
+    let expected_m = expected_error_m(&problem, &solution.estimate, solution.loss, &uncertainty);
     remarks.extend(plausibility::check_reach(expected_m, &after_misses));
     let compliance = options.selection.level == Level::Compliance;
     remarks.extend(screening::check_masses(&problem, compliance));

@@ -6,11 +6,13 @@ use super::parameters::{FIRST_PHYSICAL, Parameter, Subject};
 use super::problem::{Estimate, PointRef, Problem, Row};
 use super::random::Random;
 use super::robust::Loss;
+use super::uncertainty::Uncertainty;
 use crate::geometry::{Pose, Scalar, Vector, add, cross, scale};
 use crate::model::batch::{Four, WIDTH};
 use crate::model::external::Stand;
 use crate::model::{Conditions, FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
 /// Random postures within the joint limits.
@@ -18,6 +20,8 @@ pub const POSTURES: usize = 300;
 /// Base, tool and points are believed to be within so many of their typical sizes where the data do
 /// not tell.
 const ANYWHERE: f64 = 100.0;
+/// Residuals are larger than the noise stated where chance makes them so less often.
+const BY_CHANCE: f64 = 1e-3;
 
 /// Derivatives of what is observed of a row by the parameters, in their scales and in standard
 /// deviations of the row.
@@ -80,16 +84,17 @@ pub(super) fn four_slopes(
 /// the joint limits, metres.
 ///
 /// The parameters' covariance from the measurements (`loss` as they were weighted, standard
-/// deviations of the rows times `factor`), where values that the data do not tell vary as those of
-/// other arms do: each has its typical size as a prior. `None` where the measurements are touches
-/// only.
+/// deviations of the rows as large as the residuals say), where values that the data do not tell
+/// vary as those of other arms do: each has its typical size as a prior; and what the model misses
+/// of the rows themselves beyond their noise. `None` where the measurements are touches only.
 pub fn expected_error_m(
     problem: &Problem,
     estimate: &Estimate,
     loss: Loss,
-    factor: f64,
+    uncertainty: &Uncertainty,
 ) -> Option<f64> {
     let parameters = &problem.parameters;
+    let factor = uncertainty.applied_factor * uncertainty.shared_factor;
     let mut information =
         Normal::of(problem, estimate, parameters, loss).matrix / (factor * factor).max(1e-12);
     for (i, parameter) in parameters.iter().enumerate() {
@@ -145,5 +150,28 @@ pub fn expected_error_m(
         });
         sum += (&jacobian * &covariance * jacobian.transpose()).trace();
     }
-    Some((sum / POSTURES as f64).sqrt())
+    let mean = sum / POSTURES as f64 + lacking_m2(problem, uncertainty);
+    Some(mean.sqrt())
+}
+
+/// Mean square of what the model misses of a measured place beyond the noise that is stated, where
+/// that is beyond chance, m²; all that it misses where nothing states the noise and nothing of the
+/// arm was fitted.
+fn lacking_m2(problem: &Problem, uncertainty: &Uncertainty) -> f64 {
+    let squared = uncertainty.sigma_factor.powi(2);
+    let freedom = uncertainty.degrees_of_freedom.max(1) as f64;
+    let of_arm = problem.parameters.iter();
+    let of_arm = of_arm.filter(|p| p.rank >= FIRST_PHYSICAL).count();
+    let noise = match (problem.sigma_assumed, of_arm) {
+        (true, 0) => 0.0,
+        (true, _) => return 0.0,
+        (false, _) => 1.0,
+    };
+    let by_chance = ChiSquared::new(freedom).map_or(1.0, |chi| chi.sf(squared * freedom));
+    if by_chance > BY_CHANCE && noise > 0.0 {
+        return 0.0;
+    }
+    let sigmas = problem.rows.iter().map(|row| row.sigma_m.powi(2));
+    let variance = sigmas.sum::<f64>() / problem.rows.len().max(1) as f64;
+    3.0 * variance * (squared - noise).max(0.0)
 }

@@ -201,6 +201,7 @@ impl Measurements {
     #[must_use]
     pub fn moved(mut self, to_from_here: &Pose) -> Self {
         for row in &mut self.rows {
+            row.conditions.device_m = to_from_here.transform(row.conditions.device_m);
             match &mut row.observed {
                 Observed::Position(point) => *point = to_from_here.transform(*point),
                 Observed::Pose(pose) => *pose = *to_from_here * *pose,
@@ -257,42 +258,44 @@ impl Measurements {
     /// measured.
     #[must_use]
     pub fn configurations(&self) -> Vec<usize> {
-        // a sum of angles differs by no more than they do
-        let cell = |q: &[f64; 6]| {
-            let along: f64 = q.iter().zip(ALONG).map(|(q, part)| q * part).sum();
-            #[allow(
-                clippy::cast_possible_truncation,
-                reason = "angles are far below 2^52 of these"
-            )]
-            let cell = (along / SAME_RAD).floor() as i64;
-            cell
-        };
-        let mut known: HashMap<i64, Vec<(usize, usize)>> = HashMap::new();
-        let mut count = 0;
-        let mut all = Vec::with_capacity(self.rows.len());
-        for (index, row) in self.rows.iter().enumerate() {
-            let is_same = |first: usize| {
-                let first = &self.rows[first];
-                let mut angles = row.q.iter().zip(&first.q);
-                angles.all(|(a, b)| (a - b).abs() < SAME_RAD)
-                    && row.stand.bits() == first.stand.bits()
-            };
-            let own = cell(&row.q);
-            let near = (own - 1..=own + 1)
-                .filter_map(|cell| known.get(&cell))
-                .flatten();
-            let same = near
-                .filter(|(first, _)| is_same(*first))
-                .map(|(_, number)| *number);
-            let number = same.min().unwrap_or(count);
-            if number == count {
-                known.entry(own).or_default().push((index, count));
-                count += 1;
-            }
-            all.push(number);
-        }
-        all
+        numbered(self.rows.iter().map(|row| (&row.q, &row.stand)))
     }
+}
+
+/// The number of the configuration of each of these joint angles and places of external axes, as
+/// [`Measurements::configurations`].
+pub(super) fn numbered<'a>(rows: impl Iterator<Item = (&'a [f64; 6], &'a Stand)>) -> Vec<usize> {
+    // a sum of angles differs by no more than they do
+    let cell = |q: &[f64; 6]| {
+        let along: f64 = q.iter().zip(ALONG).map(|(q, part)| q * part).sum();
+        #[allow(
+            clippy::cast_possible_truncation,
+            reason = "angles are far below 2^52 of these"
+        )]
+        let cell = (along / SAME_RAD).floor() as i64;
+        cell
+    };
+    let mut known: HashMap<i64, Vec<usize>> = HashMap::new();
+    let mut firsts: Vec<(&[f64; 6], &Stand)> = Vec::new();
+    let mut all = Vec::new();
+    for (q, stand) in rows {
+        let is_same = |number: usize| {
+            let (first, at) = firsts[number];
+            let mut angles = q.iter().zip(first);
+            angles.all(|(a, b)| (a - b).abs() < SAME_RAD) && stand.bits() == at.bits()
+        };
+        let own = cell(q);
+        let near = (own - 1..=own + 1)
+            .filter_map(|cell| known.get(&cell))
+            .flatten();
+        let same = near.copied().filter(|number| is_same(*number)).min();
+        all.push(same.unwrap_or_else(|| {
+            known.entry(own).or_default().push(firsts.len());
+            firsts.push((q, stand));
+            firsts.len() - 1
+        }));
+    }
+    all
 }
 
 #[cfg(test)]

@@ -52,6 +52,7 @@ pub mod start;
 pub mod base;
 pub mod calibration;
 mod candidates;
+pub(crate) mod clusters;
 pub mod contact;
 mod contact_cells;
 mod degrees;

@@ -138,6 +138,7 @@ pub fn simulate_given(
                 std::array::from_fn(|j| side(before[j], command.q[j]))
             }),
             force_n: command.force_n,
+            device_m: profile.world_from_device().translation,
             ..Conditions::default()
         };
         let mut stand = command.stand.clone();

@@ -20,6 +20,11 @@ pub const STEP_LIMIT: f64 = 1e-7;
 /// A sum of squares that falls by less than this part of itself ends the iteration, if it promised
 /// no more.
 const FALL_LIMIT: f64 = 1e-9;
+/// Passes that a loss may take that leaves rows out: its steps are those of weights, not of
+/// Newton.
+const MOST_SLOW_PASSES: usize = 240;
+/// A step of it is small that is this part of the parameters' standard deviations.
+const SMALL_PART: f64 = 0.01;
 /// A step below this part of every parameter's typical size leaves its square to a further one.
 const SMALL_STEP: f64 = 1e-3;
 /// From so many rows on, a sample is solved first.
@@ -168,11 +173,26 @@ impl Iteration<'_> {
                 damping = f64::max(10.0 * damping, 1e-4);
             }
         }
+        if let Some(fall) = self.nearly(normal) {
+            return Ok(Stop::Fall(fall));
+        }
         Err(IdentifyError::NotConverged {
             passes: self.passes,
             step: largest,
             limit: STEP_LIMIT,
         })
+    }
+
+    /// The part of the loss that a full step promises still, where that step is a small part of the
+    /// parameters' standard deviations: what leaves rows out comes to rest slowly.
+    fn nearly(&self, normal: &Normal) -> Option<f64> {
+        if self.loss.shape != Shape::Tukey {
+            return None;
+        }
+        let step = normal.matrix.clone().cholesky()?.solve(&normal.gradient);
+        let fall = step.dot(&normal.gradient);
+        let is_small = fall < (SMALL_PART * self.loss.scale).powi(2);
+        is_small.then(|| fall / normal.cost.max(f64::MIN_POSITIVE))
     }
 }
 
@@ -255,7 +275,8 @@ fn noise_of(problem: &Problem, normal: &Normal) -> f64 {
 /// [`Estimate::world_from_base`].
 ///
 /// # Errors
-/// Too few numbers for the parameters that the data determine; no rest within 60 passes.
+/// Too few numbers for the parameters that the data determine; no rest within 60 passes (240 with
+/// [`Shape::Tukey`]).
 pub fn solve(
     problem: &Problem,
     start: Estimate,
@@ -324,10 +345,10 @@ pub fn solve_telling(
             free_base,
             tell,
         };
-        let own = if rounds == 0 {
-            FIRST_PASSES
-        } else {
-            MOST_PASSES
+        let own = match (rounds, loss.shape) {
+            (0, _) => FIRST_PASSES,
+            (_, Shape::Tukey) => MOST_SLOW_PASSES,
+            _ => MOST_PASSES,
         };
         let rested = iteration.run(&mut estimate, &mut chosen.normal, passes + own);
         passes = iteration.passes;

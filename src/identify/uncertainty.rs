@@ -1,5 +1,6 @@
 //! How well each parameter is known.
 
+use super::clusters::clustered;
 use super::problem::Problem;
 use super::robust::{Shape, limit};
 use super::solver::Solution;
@@ -18,6 +19,9 @@ pub struct Uncertainty {
     /// What the standard deviations of the rows were multiplied by: `sigma_factor` where it is
     /// above one or no row gave any.
     pub applied_factor: f64,
+    /// What they are multiplied by besides where rows of one configuration miss alike: the root of
+    /// the design effect, else one.
+    pub shared_factor: f64,
     /// Measured numbers minus parameters.
     pub degrees_of_freedom: usize,
 }
@@ -28,6 +32,8 @@ impl Uncertainty {
     ///
     /// A model that misses more than the rows' standard deviations say has parameters that are
     /// known less well: the factor is never below one unless no standard deviations were given.
+    /// Where rows of one configuration miss alike, several reflectors that share what the joints
+    /// scatter by, the covariance is that of the sums of configurations.
     #[must_use]
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
         let Solution {
@@ -68,7 +74,14 @@ impl Uncertainty {
             .clone()
             .cholesky()
             .map_or_else(|| DMatrix::zeros(count, count), |factor| factor.inverse());
-        let covariance = inverse * (applied_factor * applied_factor);
+        let clustered = clustered(problem, solution, &inverse);
+        let shared_factor = clustered.as_ref().map_or(1.0, |c| c.design.sqrt());
+        // the sums have the residuals' own size
+        let beyond = (applied_factor / sigma_factor.max(f64::MIN_POSITIVE)).max(1.0);
+        let covariance = match clustered.and_then(|c| c.covariance) {
+            Some(covariance) => covariance * (beyond * beyond),
+            None => inverse * (applied_factor * shared_factor).powi(2),
+        };
         let sigma = parameters
             .iter()
             .enumerate()
@@ -79,6 +92,7 @@ impl Uncertainty {
             sigma,
             sigma_factor,
             applied_factor,
+            shared_factor,
             degrees_of_freedom,
         }
     }

@@ -64,6 +64,9 @@ pub struct Fit {
     pub freedom: f64,
     /// The scale is at least this.
     pub floor: f64,
+    /// The variance by which evidence counts is this many times the square of the scale: above one
+    /// where rows of one configuration miss alike, see [`design`](super::clusters::design).
+    pub design: f64,
     /// Sum of squared parts along columns held by their calibration, and how many there are.
     pub strain: (f64, usize),
 }
@@ -109,7 +112,14 @@ impl Fit {
         fit.scale = self.scale;
         fit.freedom = self.freedom;
         fit.floor = self.floor;
+        fit.design = self.design;
         fit
+    }
+
+    /// The standard deviation by which evidence counts.
+    #[must_use]
+    pub fn evidence(&self) -> f64 {
+        self.scale * self.design.sqrt()
     }
 
     pub(crate) fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
@@ -126,6 +136,7 @@ impl Fit {
             scale: 1.0,
             freedom: 1.0,
             floor: 0.0,
+            design: 1.0,
             strain: (0.0, 0),
         };
         let mut whole = fit.left.clone();
@@ -367,7 +378,14 @@ impl Fit {
         }
         let slopes: Vec<f64> = group.iter().map(|p| p.slope).collect();
         let squares: Vec<f64> = group.iter().map(|p| p.square).collect();
-        gain_of(&gram, &slopes, &squares, least, self.scale, self.ridge())
+        gain_of(
+            &gram,
+            &slopes,
+            &squares,
+            least,
+            self.evidence(),
+            self.ridge(),
+        )
     }
 
     /// Standard deviations of a group's parameters when all are fitted, in their typical sizes;
@@ -380,7 +398,7 @@ impl Fit {
             Some(factor) => {
                 let inverse = factor.inverse();
                 (0..count)
-                    .map(|i| self.scale * inverse[(i, i)].max(0.0).sqrt())
+                    .map(|i| self.evidence() * inverse[(i, i)].max(0.0).sqrt())
                     .collect()
             }
             None => vec![f64::INFINITY; count],
@@ -403,8 +421,8 @@ pub struct Projection {
 /// What a group of columns gains.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gain {
-    /// Fall of the deviance in units of the scale squared: chi-squared where the columns do
-    /// nothing.
+    /// Fall of the deviance in units of the variance by which evidence counts: chi-squared where
+    /// the columns do nothing.
     pub gain: f64,
     /// Values of the group's parameters in their typical sizes; zero where a column is redundant
     /// or at its bound.

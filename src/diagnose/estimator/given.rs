@@ -8,7 +8,7 @@ use super::table::{Column, dot};
 #[derive(Clone, Debug)]
 pub struct Given {
     deviance: f64,
-    scale: f64,
+    evidence: f64,
     ridge: f64,
     /// Columns of the effects times the fit's M.
     turned: Vec<Column>,
@@ -61,7 +61,7 @@ impl Group {
 }
 
 impl Given {
-    /// Of a fit without effects, at the scale of `full`, the fit with all of them.
+    /// Of a fit without effects, with the evidence of `full`, the fit with all of them.
     #[must_use]
     pub fn of(fit: &Fit, full: &Fit, effects: &[&[Column]]) -> Self {
         let mut owners = Vec::new();
@@ -75,7 +75,7 @@ impl Given {
         let products = |t: &Column| seen.iter().map(|p| dot(t, &p.column)).collect();
         Self {
             deviance: fit.deviance,
-            scale: full.scale,
+            evidence: full.evidence(),
             ridge: full.ridge(),
             gram: turned.iter().map(products).collect(),
             squares: seen.iter().map(|p| p.square).collect(),
@@ -150,7 +150,7 @@ impl Given {
             &slopes,
             &group.squares,
             least,
-            self.scale,
+            self.evidence,
             self.ridge,
         )
     }

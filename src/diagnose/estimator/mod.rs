@@ -5,6 +5,7 @@
 //! `given` and `steps` (what columns gain given effects) → `refit` (values, not linearised).
 
 pub mod chances;
+pub mod clusters;
 pub mod fit;
 pub mod given;
 pub mod refit;

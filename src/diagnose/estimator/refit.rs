@@ -35,12 +35,22 @@ pub struct Refit {
     pub deviance: f64,
     /// Residuals are so many standard deviations of the rows.
     pub scale: f64,
+    /// As of [`Fit::design`].
+    pub design: f64,
     /// Measured numbers in use, by weight, minus free parameters.
     pub freedom: f64,
     /// Sum of squared parts along columns held by their calibration, and how many there are.
     pub strain: (f64, usize),
     /// Residuals at the estimate, in standard deviations of the rows.
     pub residual: Vec<f64>,
+}
+
+impl Refit {
+    /// The standard deviation by which evidence counts.
+    #[must_use]
+    pub fn evidence(&self) -> f64 {
+        self.scale * self.design.sqrt()
+    }
 }
 
 /// A value that is smaller than any that is physical.
@@ -159,6 +169,7 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, F
                 impossible,
                 deviance: fit.deviance,
                 scale: fit.scale,
+                design: fit.design,
                 freedom: fit.freedom,
                 strain: fit.strain,
                 residual,
@@ -234,7 +245,7 @@ pub(crate) fn moved(start: Start, profile: &Profile, refit: &Refit, fit: &Fit) -
     if count < 3 {
         return None;
     }
-    let variance = refit.scale.powi(2);
+    let variance = refit.evidence().powi(2);
     let chance = variance * (count as f64 - 2.0);
     let factor = 1.0 - chance / strain.max(chance);
     if factor < 0.05 {

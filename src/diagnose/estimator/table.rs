@@ -65,6 +65,8 @@ impl Stored {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     starts: Vec<usize>,
+    /// Rows of each configuration; none where each row is one of its own.
+    configurations: Vec<Vec<usize>>,
 }
 
 impl Layout {
@@ -81,7 +83,29 @@ impl Layout {
         for count in counts {
             starts.push(starts[starts.len() - 1] + count);
         }
-        Self { starts }
+        Self {
+            starts,
+            configurations: Vec::new(),
+        }
+    }
+
+    /// The same rows, of which those with the same number are of one configuration.
+    #[must_use]
+    pub fn by_configuration(mut self, numbers: &[usize]) -> Self {
+        let count = numbers.iter().max().map_or(0, |last| last + 1);
+        if count < numbers.len() {
+            self.configurations = vec![Vec::new(); count];
+            for (row, number) in numbers.iter().enumerate() {
+                self.configurations[*number].push(row);
+            }
+        }
+        self
+    }
+
+    /// Rows of each configuration; none where each row is one of its own.
+    #[must_use]
+    pub fn configurations(&self) -> &[Vec<usize>] {
+        &self.configurations
     }
 
     /// Rows of equal length.

@@ -7,6 +7,7 @@
 //! G. H. Golub, C. F. Van Loan, "Matrix Computations": orthogonalisation by the Cholesky factor of
 //! the products.
 
+use super::clusters::design;
 use super::fit::{Fit, Held, INVISIBLE, Projection, REDUNDANT, TURNS, scale_of};
 use super::table::{Column, Layout, add_scaled, dot};
 use crate::identify::robust::limit;
@@ -358,7 +359,11 @@ impl Plain {
         // normal rows beyond the limit are cut: their part of the mean square is small
         full.scale = mean.max(self.floor).max(1e-12);
         full.floor = self.floor;
+        full.design = design(layout, &self.used, &full.left, full.shares.iter().sum());
+        // so many numbers that tell as much as these
+        full.freedom = (weight / full.design - free).max(1.0);
         (held.fit.scale, held.fit.freedom, held.fit.floor) = (full.scale, full.freedom, full.floor);
+        held.fit.design = full.design;
         (held, full)
     }
 }

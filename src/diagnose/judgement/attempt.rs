@@ -7,7 +7,7 @@ use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail}
 use crate::diagnose::estimator::fit::Fit;
 use crate::diagnose::estimator::given::{Given, Kept};
 use crate::diagnose::estimator::refit::{Refit, moved, refit};
-use crate::diagnose::estimator::table::Column;
+use crate::diagnose::estimator::table::{Column, dot};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
 use crate::diagnose::question::{Session, Trust, for_choice, held_of, session};
@@ -17,6 +17,7 @@ use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
+use crate::identify::robust::limit;
 use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::model::profile::Profile;
 
@@ -33,6 +34,10 @@ const STRAINED: f64 = 1e-4;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its
 /// estimate.
 pub(crate) const LOUDER: f64 = 4.0;
+/// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
+pub(crate) const OUTLIER: f64 = 1.6;
+/// More outliers than this part of the rows are no exceptions.
+const MOST_OUTLIERS: f64 = 0.1;
 
 /// A residual beyond the noise.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +130,7 @@ fn outdone(
     let mut outdone = Vec::new();
     for ((i, own), best) in chosen.iter().enumerate().zip(best) {
         let left = refit.deviance.min(fit.deviance);
-        let own_gain = (given.deviance(&kept[i]) - left) / fit.scale.powi(2);
+        let own_gain = (given.deviance(&kept[i]) - left) / fit.evidence().powi(2);
         let parameters = own.values.len() + own.candidate.chosen;
         let more = own_gain * (1.0 + UNKNOWN_PART) + UNKNOWN_BETTER;
         let best = best.into_iter().next();
@@ -146,7 +151,7 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
     if count == 0 {
         return None;
     }
-    let p = chance(strain / (refit.scale.powi(2) * (1.0 + g)), count);
+    let p = chance(strain / (refit.evidence().powi(2) * (1.0 + g)), count);
     (p < STRAINED).then_some(p)
 }
 
@@ -154,11 +159,10 @@ fn strain(trust: Trust, refit: &Refit) -> Option<f64> {
 /// profile's calibration left, where that is beyond chance; `sigma_m` is that of the rows.
 fn louder(
     session: &Session,
-    (refit, sigma_m): (&Refit, f64),
+    ((scale, freedom), sigma_m): ((f64, f64), f64),
     repeats: Option<Repeats>,
     profile: &Profile,
 ) -> Option<Louder> {
-    let (scale, freedom) = (refit.scale, refit.freedom);
     let (chance, times, than) = if !session.problem.sigma_assumed {
         let chance = chi_squared_tail(scale * scale * freedom, freedom);
         (chance, scale, "the noise that sigma_mm states")
@@ -176,6 +180,34 @@ fn louder(
         (chance, ratio.sqrt(), "what the profile's calibration left")
     };
     (chance < normal_tail(LOUDER)).then_some(Louder { times, than })
+}
+
+/// Scale and degrees of freedom of the residuals of all rows but the outliers, which are reported
+/// as such; where there are too many of them, of all.
+fn without_outliers(session: &Session, (refit, fit): (&Refit, &Fit), used: &[bool]) -> (f64, f64) {
+    let layout = &session.layout;
+    let in_use: Vec<usize> = (0..layout.rows()).filter(|row| used[*row]).collect();
+    let is_outlier = |row: &&usize| {
+        let range = layout.row(**row);
+        let squared = dot(
+            &refit.residual[range.clone()],
+            &refit.residual[range.clone()],
+        );
+        squared.sqrt() > OUTLIER * limit(range.len()) * refit.scale
+    };
+    let outliers: Vec<usize> = in_use.iter().filter(is_outlier).copied().collect();
+    if outliers.is_empty() || outliers.len() as f64 > MOST_OUTLIERS * in_use.len() as f64 {
+        return (refit.scale, refit.freedom);
+    }
+    let squares = |of: &[f64], rows: &[usize]| -> f64 {
+        let each = rows.iter().map(|row| layout.row(*row));
+        each.map(|range| dot(&of[range.clone()], &of[range])).sum()
+    };
+    let deviance = (refit.deviance - squares(&fit.left, &outliers)).max(0.0);
+    let weight = squares(&fit.roots, &in_use) - squares(&fit.roots, &outliers);
+    let free: f64 = fit.shares.iter().filter(|s| **s == 1.0).sum();
+    let scale = (deviance / (weight - free).max(1.0)).sqrt();
+    (scale, (weight / fit.design - free).max(1.0))
 }
 
 /// The median of the rows' standard deviations, metres.
@@ -257,6 +289,7 @@ pub(crate) fn attempt(
     let likeness = likeness(&session.problem, &session.layout, &used, &last);
     let leverage = last.leverage(&session.layout);
     let moved = by_trust(trust, &session, profile, (&refit, &last));
+    let loudness = without_outliers(&session, (&refit, &last), &used);
     // each fit holds a basis as large as all columns: no more of them at once than needed
     drop(last);
     let fit = session.world(&used, &options.accept).fit(&chosen);
@@ -265,7 +298,7 @@ pub(crate) fn attempt(
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)
         .and_then(|_| of_repeats(&session.problem, &session.layout, &refit.residual, &used));
-    let louder = louder(&session, (&refit, sigma_m(&session)), repeats, profile);
+    let louder = louder(&session, (loudness, sigma_m(&session)), repeats, profile);
     let merit = merit(&session, trust, &used, &chosen, &refit);
     Ok((
         Attempt {

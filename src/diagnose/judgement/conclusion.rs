@@ -1,7 +1,7 @@
 //! What an attempt's outcome means: effects with their evidence, alternatives, objections, the
 //! verdict, and the improved profile.
 
-use super::attempt::Attempt;
+use super::attempt::{Attempt, OUTLIER};
 use super::poses::{Telling, telling};
 use super::whereabouts::spots;
 use super::{Judged, Standing, is_seldom, judge, stand};
@@ -36,8 +36,6 @@ const NEARLY: f64 = 6.0;
 const NEARLY_PART: f64 = 0.95;
 /// Configurations that tell alternatives apart.
 const TELLING: usize = 12;
-/// A row is an outlier beyond this many times the length that 99.7 % of normal rows stay below.
-const OUTLIER: f64 = 1.6;
 /// A row is followed where so much of its own numbers is in its expectation.
 const FOLLOWED: f64 = 0.7;
 

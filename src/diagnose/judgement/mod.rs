@@ -12,13 +12,13 @@ pub mod whereabouts;
 use self::attempt::{ALIKE, Attempt, Louder};
 use crate::diagnose::diagnosis::{Alternative, Found, Verdict};
 use crate::diagnose::estimator::refit::{Beyond, Refit};
-use crate::diagnose::proof::Proof;
+use crate::diagnose::proof::{FEWEST_PARTS, Proof};
 use crate::diagnose::search::MOST_EFFECTS;
 use crate::diagnose::search::candidates::{CannotTest, least, range};
 use crate::diagnose::search::stand_ins::StandIn;
 use crate::diagnose::search::waves::near;
 use crate::geometry::norm;
-use crate::model::effects::{Effect, Kind, Need, SiteKey};
+use crate::model::effects::{BASE, Effect, Kind, Need, SiteKey};
 use crate::model::{JOINTS, Slot};
 use std::f64::consts::TAU;
 
@@ -159,10 +159,10 @@ pub(crate) fn stand(
             put(labels.join(" + "), group.behind);
         }
         against.sort_by(|a, b| a.odds.total_cmp(&b.odds));
-        let untested = untested(attempt, one);
+        let (untested, twin) = (untested(attempt, one), twin(one));
         let is_tied = against.first().is_some_and(|a| a.odds < odds_of(TIE));
         let (times, of) = one.found_again;
-        let is_again = times as f64 >= AGAIN * of as f64;
+        let is_again = of >= FEWEST_PARTS && times as f64 >= AGAIN * of as f64;
         // the residual is larger than it, or as smooth: the shadow of what is missing may look like
         // this
         let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i])
@@ -174,6 +174,7 @@ pub(crate) fn stand(
             && is_again
             && !(is_shadow || unresolved[i] || one.accepted)
             && untested.is_empty()
+            && twin.is_none()
             && one.p_value < EVIDENT
         {
             Standing::Certain
@@ -188,6 +189,9 @@ pub(crate) fn stand(
             ),
             odds: 1.0,
         }));
+        if let Some(what) = twin {
+            against.insert(0, Against { what, odds: 1.0 });
+        }
         one.against = against;
     }
 }
@@ -197,6 +201,14 @@ fn untested<'a>(attempt: &'a Attempt, found: &Found) -> Vec<&'a CannotTest> {
     let alternatives = found.effect.definition().search.alternatives;
     let all = attempt.session.candidates.cannot_test.iter();
     all.filter(|c| alternatives.contains(&c.kind)).collect()
+}
+
+/// What does exactly the same to the measurements as an effect found, whatever is measured.
+fn twin(found: &Found) -> Option<String> {
+    let effect = &found.effect;
+    let is_base = effect.definition().search.or_of_device && effect.site.index == BASE;
+    let text = "a drift of the measuring device, which a fixed point measured again would show";
+    is_base.then(|| text.to_owned())
 }
 
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a

@@ -14,6 +14,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::model::JOINTS;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A function must be better than nothing by this beyond the logarithm of how many there are, in
@@ -332,17 +333,14 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
             .sum::<f64>()
     };
     // in standard deviations
-    let mean_product = |pairs: &[(usize, usize)]| {
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for (a, b) in pairs {
-            let (x, y) = (part(*a), part(*b));
-            if x.len() == y.len() {
-                let product = dot(x, y);
-                sum += product;
-                squares += product * product;
-            }
-        }
+    let mean = |products: &[f64]| {
+        let sum: f64 = products.iter().sum();
+        let squares: f64 = products.iter().map(|product| product * product).sum();
         (squares > 0.0).then(|| sum / squares.sqrt())
+    };
+    let product = |(a, b): &(usize, usize)| {
+        let (x, y) = (part(*a), part(*b));
+        (x.len() == y.len()).then(|| dot(x, y))
     };
     let tail = |product: Option<f64>| product.map_or(1.0, normal_tail);
     let same = |a: usize, b: usize| problem.rows[a].q == problem.rows[b].q;
@@ -366,11 +364,27 @@ pub fn likeness(problem: &Problem, layout: &Layout, used: &[bool], fit: &Fit) ->
         .collect();
     once.sort_unstable();
     once.dedup();
-    let along = mean_product(&in_order);
+    let mut first: Vec<usize> = (0..layout.rows()).collect();
+    for configuration in layout.configurations() {
+        for row in configuration {
+            first[*row] = configuration[0];
+        }
+    }
+    // pairs of rows of the same two configurations are one
+    let mut of_configurations: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for pair in &once {
+        if let Some(product) = product(pair) {
+            let (a, b) = (first[pair.0], first[pair.1]);
+            *of_configurations.entry((a.min(b), a.max(b))).or_default() += product;
+        }
+    }
+    let near: Vec<f64> = of_configurations.into_values().collect();
+    let along: Vec<f64> = in_order.iter().filter_map(product).collect();
+    let along = mean(&along);
     Likeness {
         in_order: tail(along),
         opposite: tail(along.map(|product| -product)),
-        in_posture: tail(mean_product(&once)),
+        in_posture: tail(mean(&near)),
     }
 }
 

@@ -15,10 +15,12 @@ use crate::identify::measurements::Measurements;
 use crate::identify::statistics::Spread;
 use std::collections::BTreeMap;
 
-/// From so many rows on, one part of them is left out, once.
+/// From so many rows on, one part of them is predicted.
 const MANY_ROWS: usize = 400;
 /// Parts of the measurements that are left out in turn.
 const FOLDS: usize = 5;
+/// With fewer parts left out, found again is no evidence.
+pub(crate) const FEWEST_PARTS: usize = 4;
 /// From so many configurations on, a part is several blocks of neighbours.
 const MANY_CONFIGURATIONS: usize = 80;
 /// Blocks of a part then.
@@ -128,14 +130,8 @@ impl Proof {
     }
 }
 
-/// Rows that are left out, part by part: those kept for it, else contiguous blocks of whole
-/// configurations.
-fn parts(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
-    let rows = choice.len();
-    let validate: Vec<usize> = (0..rows).filter(|r| !choice[*r]).collect();
-    if !validate.is_empty() {
-        return vec![validate];
-    }
+/// Rows to choose with in parts: contiguous blocks of whole configurations.
+fn folds(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
     let configurations = measurements.configurations();
     let last = configurations
         .iter()
@@ -148,11 +144,45 @@ fn parts(measurements: &Measurements, choice: &[bool]) -> Vec<Vec<usize>> {
         1
     };
     let fold = |row: usize| (configurations[row] * FOLDS * each / last) % FOLDS;
-    // many rows: one part is enough to judge by
-    let parts = if rows > MANY_ROWS { 1 } else { FOLDS };
-    (0..parts)
-        .map(|f| (0..rows).filter(|r| fold(*r) == f).collect())
+    (0..FOLDS)
+        .map(|f| {
+            let rows = (0..choice.len()).filter(|row| choice[*row]);
+            rows.filter(|row| fold(*row) == f).collect()
+        })
         .collect()
+}
+
+/// Rows that are predicted, part by part, and those that are left out besides to see what is found
+/// again.
+struct Parts {
+    predicted: Vec<Vec<usize>>,
+    /// Whether the choice is another one without those predicted.
+    are_of_choice: bool,
+    left_out: Vec<Vec<usize>>,
+}
+
+impl Parts {
+    /// Rows kept for it are predicted, else the rows to choose with, of many one part.
+    fn of(measurements: &Measurements, choice: &[bool]) -> Self {
+        let mut folds = folds(measurements, choice);
+        folds.retain(|rows| !rows.is_empty());
+        let validate: Vec<usize> = (0..choice.len()).filter(|r| !choice[*r]).collect();
+        let are_of_choice = validate.is_empty();
+        if !are_of_choice {
+            return Self {
+                predicted: vec![validate],
+                are_of_choice,
+                left_out: folds,
+            };
+        }
+        let most = if choice.len() > MANY_ROWS { 1 } else { FOLDS };
+        let left_out = folds.split_off(most.min(folds.len()));
+        Self {
+            predicted: folds,
+            are_of_choice,
+            left_out,
+        }
+    }
 }
 
 /// Where a step lies is a fact of the data: rows left out near it cannot say.
@@ -189,25 +219,42 @@ struct Part {
     configurations: Vec<usize>,
 }
 
+/// Which of the effects found this choice has, too.
+fn again(found: &[Chosen], own: &[Chosen]) -> Vec<bool> {
+    let is_again = |found: &Chosen| {
+        // one that a person asked for is there whatever its merit
+        let is_again = |c: &Chosen| like(&found.candidate, &c.candidate) && c.merit() > 0.0;
+        own.iter().any(is_again)
+    };
+    found.iter().map(is_again).collect()
+}
+
 /// The choice made again without parts of the measurements, and those predicted.
 pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: &Options) -> Proof {
     let session = &attempt.session;
     let choice = for_choice(measurements);
-    let tests = parts(measurements, &choice);
+    let parts = Parts::of(measurements, &choice);
     let steps = 2 + attempt.chosen.len();
     let mut lengths = vec![Vec::new(); steps];
-    let mut again = vec![(0, 0); attempt.chosen.len()];
     let configurations = measurements.configurations();
     let present = lengths_m(&session.problem, &session.layout, &session.present);
     let free = vec![1.0; session.shares.len()];
-    let one = |test: &Vec<usize>| -> Part {
+    let without = |test: &[usize]| -> Vec<bool> {
         let mut used = choice.clone();
         for row in test {
             used[*row] = false;
         }
-        let world = session.world(&used, &options.accept);
+        used
+    };
+    let choose = |world: &World| -> Vec<Chosen> {
         let mut own = world.search(Vec::new());
-        keep_rows(&world, &attempt.chosen, &mut own);
+        keep_rows(world, &attempt.chosen, &mut own);
+        own
+    };
+    let one = |test: &Vec<usize>| -> Part {
+        let used = without(test);
+        let world = session.world(&used, &options.accept);
+        let own = choose(&world);
         let mut lengths = vec![test.iter().map(|r| present[*r]).collect()];
         let predicted = |world: &World, kept: &[Chosen]| -> Vec<f64> {
             let fit = world.fit(kept);
@@ -225,24 +272,19 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         }
         let found = among(&attempt.chosen);
         let anew = session.world_of(&used, &options.accept, &free);
-        let again = (attempt.chosen.iter()).map(|found| {
-            // one that a person asked for is there whatever its merit
-            let is_again = |c: &Chosen| like(&found.candidate, &c.candidate) && c.merit() > 0.0;
-            own.iter().any(is_again)
-        });
         Part {
             lengths,
             equal: [predicted(&anew, &[]), predicted(&anew, &found)],
             all: predicted(&world, &attempt.chosen),
-            again: again.collect(),
+            again: again(&attempt.chosen, &own),
             configurations: test.iter().map(|r| configurations[*r]).collect(),
         }
     };
-    // one after the other: each holds a basis of its own, and its search runs on all cores
-    let parts = tests.iter().filter(|t| !t.is_empty()).map(one);
     let (mut equal, mut of_rows) = ([Vec::new(), Vec::new()], Vec::new());
     let mut of_all: Vec<f64> = Vec::new();
-    for part in parts {
+    let mut flags: Vec<Vec<bool>> = Vec::new();
+    // one after the other: each holds a basis of its own, and its search runs on all cores
+    for part in parts.predicted.iter().map(one) {
         for (all, own) in lengths.iter_mut().zip(part.lengths) {
             all.extend(own);
         }
@@ -251,11 +293,17 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         }
         of_rows.extend(part.configurations);
         of_all.extend(part.all);
-        for ((times, of), found) in again.iter_mut().zip(part.again) {
-            *of += 1;
-            *times += usize::from(found);
-        }
+        flags.extend(parts.are_of_choice.then_some(part.again));
     }
+    if !attempt.chosen.is_empty() {
+        flags.extend(parts.left_out.iter().map(|test| {
+            let used = without(test);
+            let own = choose(&session.world(&used, &options.accept));
+            again(&attempt.chosen, &own)
+        }));
+    }
+    let times = |i: usize| flags.iter().filter(|again| again[i]).count();
+    let again = (0..attempt.chosen.len()).map(|i| (times(i), flags.len()));
     let profile = match attempt.trust {
         Trust::Calibrated { .. } => Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false),
         Trust::Nothing => None,
@@ -270,6 +318,45 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         lengths,
         profile,
         equal: Compared::of(&equal[0], &equal[1], &of_rows, true),
-        again,
+        again: again.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of three reflectors at each of so many configurations, the last kept for validation.
+    fn rows(configurations: usize, validate: usize) -> (Measurements, Vec<bool>) {
+        let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,point\n";
+        let mut csv = header.to_owned();
+        for k in 0..3 * configurations {
+            csv += &format!("{},0,0,0,0,0,{k},0,0,p{}\n", k / 3, k % 3);
+        }
+        let measurements = Measurements::from_csv(csv.as_bytes()).expect("a table");
+        let choice = (0..3 * configurations).map(|k| k / 3 < configurations - validate);
+        let choice = choice.collect();
+        (measurements, choice)
+    }
+
+    #[test]
+    fn parts_are_whole_configurations_and_many_enough() {
+        for (configurations, validate, predicted) in [(60, 0, 5), (200, 0, 1), (60, 10, 1)] {
+            let (measurements, choice) = rows(configurations, validate);
+            let parts = Parts::of(&measurements, &choice);
+            assert_eq!(parts.predicted.len(), predicted);
+            assert_eq!(parts.are_of_choice, validate == 0);
+            let again = parts.left_out.len() + if validate == 0 { predicted } else { 0 };
+            assert!(again >= FEWEST_PARTS, "{configurations}: {again}");
+            let all: Vec<&Vec<usize>> = parts.predicted.iter().chain(&parts.left_out).collect();
+            for part in &all {
+                for row in *part {
+                    let first = row / 3 * 3;
+                    assert!((first..first + 3).all(|other| part.contains(&other)));
+                }
+            }
+            let count: usize = all.iter().map(|part| part.len()).sum();
+            assert_eq!(count, 3 * configurations);
+        }
     }
 }

@@ -192,7 +192,7 @@ pub fn session(
     let (mut problem, own) =
         Problem::new(profile, measurements, &selection, profile.world_from_base)?;
     problem.gravity_by_base = on_track;
-    let layout = Layout::of(&problem);
+    let layout = Layout::of(&problem).by_configuration(&measurements.configurations());
     let used = fit.rows.len();
     let numbers: usize = (0..layout.rows())
         .filter(|r| measurements.rows[*r].purpose != Some(Purpose::Validate))

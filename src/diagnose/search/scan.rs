@@ -155,7 +155,7 @@ impl View {
     pub(crate) fn loss(&self, keep: &[bool]) -> f64 {
         let given = &self.side.given;
         let all = given.kept(&vec![true; keep.len()]);
-        (given.deviance(&given.kept(keep)) - given.deviance(&all)) / self.full.scale.powi(2)
+        (given.deviance(&given.kept(keep)) - given.deviance(&all)) / self.full.evidence().powi(2)
     }
 
     /// Every candidate given those of the effects shown that are kept, best first.

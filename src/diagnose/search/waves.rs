@@ -118,7 +118,7 @@ pub(crate) fn peaks(
 ) -> Vec<Effect> {
     let orders = orders();
     let periods: Vec<f64> = orders.iter().map(|n| wave(0, *n).site.periods()).collect();
-    let variance = fit.scale * fit.scale;
+    let variance = fit.evidence().powi(2);
     // a wave of no period: the joint's rotation alone
     let turns: Vec<(Effect, Vec<usize>)> = (0..JOINTS).map(|i| (wave(i, 0), vec![0])).collect();
     let turns = columns_of(problem, estimate, &turns);

@@ -23,6 +23,7 @@ fn conditions() -> Conditions {
         temperature_c: Some(27.0),
         time_s: Some(300.0),
         gravity_m_s2: None,
+        device_m: [0.4, -2.9, 1.1],
         row: Some(7),
         moved: [0.4, -0.9, 0.3, 1.2, -0.5, 2.0],
     }

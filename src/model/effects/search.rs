@@ -23,6 +23,9 @@ pub struct Search {
     pub mass: Option<usize>,
     /// Effects that do nearly the same where a column is missing that would tell them.
     pub alternatives: &'static [Kind],
+    /// At the base it does exactly what the measuring device may do itself: no row tells them
+    /// apart.
+    pub or_of_device: bool,
 }
 
 impl Search {
@@ -35,6 +38,7 @@ impl Search {
         never_negative: &[],
         mass: None,
         alternatives: &[],
+        or_of_device: false,
     };
 
     /// A structure that bends about x and y.

@@ -35,6 +35,7 @@ impl Equation for WarmUpDrift {
         shown_against: Shown::Time,
         search: Search {
             held: true,
+            or_of_device: true,
             sets: Sets::At(4, List::Times),
             ..Search::PLAIN
         },

@@ -92,6 +92,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                     temperature_c: Some(27.0),
                     time_s: Some(900.0),
                     gravity_m_s2: None,
+                    device_m: [0.0; 3],
                     row: Some(random.random_range(1..6)),
                     moved: [0.7, -1.1, 0.2, 2.0, -0.6, 0.9],
                 };
