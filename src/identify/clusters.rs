@@ -3,10 +3,10 @@
 //!
 //! # Source
 //! K.-Y. Liang, S. L. Zeger, "Longitudinal data analysis using generalized linear models",
-//! Biometrika 73 (1986): the covariance by the sums of clusters. R. M. Bell, D. F. McCaffrey, "Bias
+//! Biometrika 73 (1986): the covariance by the sums of clusters. R. M. Bell, D. F. `McCaffrey`, "Bias
 //! reduction in standard errors for linear regression with multi-stage samples", Survey Methodology
 //! 28 (2002): residuals over the root of what their own rows leave of them (of single rows HC2 of
-//! J. G. MacKinnon, H. White, Journal of Econometrics 29 (1985)). L. Kish, "Survey Sampling" (1965):
+//! J. G. `MacKinnon`, H. White, Journal of Econometrics 29 (1985)). L. Kish, "Survey Sampling" (1965):
 //! the design effect, here by mean squares of the analysis of variance.
 
 use super::expectation::slopes;

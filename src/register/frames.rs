@@ -8,13 +8,12 @@ pub use datums::{Datums, three_two_one};
 pub(crate) use planes::weighted_points_and_planes;
 pub use planes::{FeatureFit, Misfit, Part, TouchedPlane, points_and_planes};
 
-use super::features::{self, FeatureError, Plane};
-use super::kabsch::kabsch;
-use super::uncertainty::{PoseCovariance, crossing};
-use super::{RegisterError, linear};
+use super::RegisterError;
+use super::features::FeatureError;
+use super::uncertainty::PoseCovariance;
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
-use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
+use crate::geometry::{Pose, Rotation, Vector, cross, dot, norm, scale, sub};
+use nalgebra::{DMatrix, Matrix6};
 
 /// A point nearer to a line than this part of the line's length does not say which way a frame
 /// rotates about it.

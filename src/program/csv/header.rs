@@ -156,10 +156,10 @@ fn missing(names: &[&[u8]]) -> Wrong {
         return Wrong::Separator;
     }
     let has = |column: &&[u8]| names.contains(column);
-    let orientation = POSE[3..].iter().any(|column| has(column));
+    let orientation = POSE[3..].iter().any(&has);
     let found: &[&'static [u8]] = if orientation {
         &POSE
-    } else if JOINTS.iter().any(|column| has(column)) {
+    } else if JOINTS.iter().any(&has) {
         &JOINTS
     } else {
         return Wrong::Missing;

@@ -242,7 +242,7 @@ impl<'a> Reader<'a> {
             return;
         }
         let position = self.position(given);
-        let value = self.expr(position);
+        let value = self.expr(&position);
         if callees.is_empty() {
             arguments.push(Argument {
                 parameter: None,

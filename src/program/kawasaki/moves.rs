@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
                     self.switch(Held::Flag(false));
                 }
                 let found = self.position(first);
-                self.go(part, Some(first), found, motion, is_free);
+                self.go(part, Some(first), &found, motion, is_free);
             }
             Verb::Arc(is_end) => {
                 self.here.arc += 1;
@@ -101,7 +101,7 @@ impl<'a> Reader<'a> {
                 }
                 let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
-                let target = self.expr(found);
+                let target = self.expr(&found);
                 let mut modal = self.modal_of(motion, Some(&found));
                 if is_chain {
                     modal.guards = self.reason(Cause::ArcChain);
@@ -111,12 +111,12 @@ impl<'a> Reader<'a> {
             }
             Verb::Near(motion) => {
                 let found = self.position(first).in_tool(second.map(back));
-                self.go(part, None, found, motion, false);
+                self.go(part, None, &found, motion, false);
             }
             Verb::Away(motion) => {
                 let found = self.here.last;
                 let found = found.map(|last| last.in_tool(first.value().map(back)));
-                self.relative(part, found, motion);
+                self.relative(part, found.as_ref(), motion);
             }
             Verb::Draw(in_tool) => {
                 let given = literals::<6>(&list[..list.len().min(6)]);
@@ -131,13 +131,13 @@ impl<'a> Reader<'a> {
                         last.along(is_plain.then_some([x, y, z]))
                     }
                 });
-                self.relative(part, found, Motion::Linear);
+                self.relative(part, found.as_ref(), Motion::Linear);
             }
             Verb::Search => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
                 let found = self.position(first.part(0..till));
                 let guards = self.reason(Cause::Search);
-                let target = self.expr(found);
+                let target = self.expr(&found);
                 let modal = Modal {
                     guards,
                     ..self.modal_of(Motion::Linear, Some(&found))
@@ -166,18 +166,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A move from where the robot stands.
-    fn relative(&mut self, part: Words<'a, '_>, to: Option<Position>, motion: Motion) {
-        let known = to.filter(|to| to.by.is_some());
-        let found = known.unwrap_or_else(|| Position {
-            base: self.unknown(Cause::Relative.remark()),
-            by: None,
-            on: None,
-        });
-        if known.is_some() {
-            return self.go(part, None, found, motion, false);
+    fn relative(&mut self, part: Words<'a, '_>, to: Option<&Position>, motion: Motion) {
+        if let Some(known) = to.filter(|to| to.by.is_some()) {
+            return self.go(part, None, known, motion, false);
         }
+        let unknown = self.unknown(Cause::Relative.remark());
         let modal = self.modal_of(motion, None);
-        self.put(part, None, found.base, motion, false, modal);
+        self.put(part, None, unknown, motion, false, modal);
         self.here.last = None;
     }
 
@@ -195,14 +190,14 @@ impl<'a> Reader<'a> {
         &mut self,
         part: Words<'a, '_>,
         named: Option<Words<'a, '_>>,
-        to: Position,
+        to: &Position,
         motion: Motion,
         is_free: bool,
     ) {
         let target = self.expr(to);
-        let modal = self.modal_of(motion, Some(&to));
+        let modal = self.modal_of(motion, Some(to));
         self.put(part, named, target, motion, is_free, modal);
-        self.here.last = Some(to);
+        self.here.last = Some(*to);
     }
 
     /// With what a move to a position runs.

@@ -215,21 +215,16 @@ impl<'a> Reader<'a> {
         if plates.is_empty() {
             return;
         }
-        let known = match base {
-            Expr::Value(value) => match &self.builder.script.values[value as usize] {
+        let known = if let Expr::Value(value) = base {
+            match &self.builder.script.values[value as usize] {
                 Held::Frame(frame) => Some((frame.name.to_string(), frame.pose)),
                 _ => None,
-            },
-            _ => {
-                let first = words.list().first().copied().unwrap_or(words);
-                let pose = self.known_sum(first);
-                pose.map(|pose| {
-                    (
-                        crate::program::Source::text(first.whole()).into(),
-                        Some(pose),
-                    )
-                })
             }
+        } else {
+            let first = words.list().first().copied().unwrap_or(words);
+            let name = crate::program::Source::text(first.whole());
+            let pose = self.known_sum(first);
+            pose.map(|pose| (name.into(), Some(pose)))
         };
         for plate in plates {
             let value = match &known {

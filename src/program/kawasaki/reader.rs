@@ -409,7 +409,7 @@ impl<'a> Reader<'a> {
             return self.write_name(&name, How::Whole(value));
         }
         let position = self.position(value);
-        let value = self.expr(position);
+        let value = self.expr(&position);
         self.write_name(&name, How::Whole(value));
     }
 

@@ -432,7 +432,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A position as the script has it.
-    pub(super) fn expr(&mut self, position: Position) -> Expr {
+    pub(super) fn expr(&mut self, position: &Position) -> Expr {
         let nothing = Pose::identity();
         let script = &mut self.builder.script;
         let by = match position.by {

@@ -1,10 +1,10 @@
 //! Registration of points and planes together.
 
-use super::FrameError;
 use super::contradicted::{Contradicted, contradicted};
+use super::{FrameError, NEAR_LINE};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
-use crate::register::features::{self, FeatureError, Plane};
+use crate::register::features::{self, Plane};
 use crate::register::kabsch::kabsch;
 use crate::register::uncertainty::{PoseCovariance, crossing};
 use crate::register::{RegisterError, linear};

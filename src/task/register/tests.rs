@@ -3,6 +3,7 @@
 use super::{Construction, Options, Pairing, Registration, register};
 use crate::program::Source;
 use crate::task::Failure;
+use crate::task::parts::Sigma;
 
 fn source(name: &str, text: &str) -> Source {
     Source::new(name, text.as_bytes().to_vec())
@@ -272,7 +273,7 @@ fn more_touches_than_six_check_one_another() {
     let own: String = text.lines().map(|line| format!("{line},0.02\n")).collect();
     let own = own.replacen("z_mm,0.02", "z_mm,sigma_mm", 1);
     let rows = frame(&own, &Options::default()).expect("a frame");
-    let of = |found: &Registration| found.sigma.as_ref().map(|s| s.xyz_mm());
+    let of = |found: &Registration| found.sigma.as_ref().map(Sigma::xyz_mm);
     let (own_mm, all_mm) = (of(&rows).expect("known"), of(&found).expect("known"));
     assert!(
         (0..3).all(|k| (own_mm[k] - all_mm[k]).abs() < 1e-9),
