@@ -67,18 +67,6 @@ pub(crate) fn course(
     Course::Tool(ToolCourse::of(&from, via, wanted, turning, ride))
 }
 
-/// The arc through a point from where joints stand.
-pub(super) fn middle_of(
-    equipped: &Equipped,
-    start: &[f64; 6],
-    via: &Pose,
-    end: &Pose,
-    walk_options: &WalkOptions,
-) -> ToolCourse {
-    let from = equipped.controller.forward(start, &Conditions::default());
-    ToolCourse::arc(&from, via.translation, end, walk_options.turning)
-}
-
 /// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
 /// by continuity. `None` where it leaves the reach on its way.
 pub(super) fn follow(

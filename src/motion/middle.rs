@@ -4,13 +4,14 @@
 //! controllers do not look at the orientation that is written for the point between: the robot
 //! passes it in the rotation that the path has there, and it must be corrected in that one.
 
+use super::arms::Equipped;
 use super::course::ToolCourse;
-use super::follow::middle_of;
 use super::ground::Ground;
 use super::walk::{Arrival, WalkOptions};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation};
+use crate::model::Conditions;
 use crate::program::{Before, Displacement, Motion, Move, Value};
 
 /// A smaller rotation away from the path's is none.
@@ -35,7 +36,8 @@ pub(super) fn middle(
     }
     let end = end_pose(ground, at)?;
     let equipped = ground.equipped(motion.tool)?;
-    let course = middle_of(equipped, &start.q, wanted, &end, walk_options);
+    let from = start_pose(ground, equipped, start, walk_options);
+    let course = ToolCourse::arc(&from, wanted.translation, &end, walk_options.turning);
     let there = rotation_on(&course, wanted);
     let middle = wanted.rotation.transpose() * there;
     if ground.language.turns_through_middle() {
@@ -51,6 +53,25 @@ pub(super) fn middle(
 /// The rotation of a path at its point nearest to a pose.
 fn rotation_on(course: &ToolCourse, through: &Pose) -> Rotation {
     course.pose(course.part_at(through.translation)).rotation
+}
+
+/// Where the tool stands at an arrival. Joints of poses are those of the nominal arm where the walk
+/// does not ask for a calibrated controller's own.
+fn start_pose(
+    ground: &Ground,
+    equipped: &Equipped,
+    start: &Arrival,
+    walk_options: &WalkOptions,
+) -> Pose {
+    let before = &ground.program.moves[start.motion as usize];
+    let is_own = walk_options.exact || before.target.is_some_and(|of| ground.is_joints(of));
+    if is_own || equipped.calibrated_controller.is_none() {
+        equipped
+            .controller
+            .forward(&start.q, &Conditions::default())
+    } else {
+        equipped.arm.forward(&start.q)
+    }
 }
 
 /// Where the arc through the point of a move ends; `None` where nobody knows, or external axes move
