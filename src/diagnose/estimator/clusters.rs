@@ -4,7 +4,7 @@ use super::table::Layout;
 use crate::identify::clusters::Shared;
 
 /// How many times the mean square of all numbers that of what configurations have in common is, of
-/// residuals `left` that so many parameters were fitted to: see [`Shared::design`].
+/// residuals `left` that so many parameters were fitted to: see `Shared::design`.
 #[must_use]
 pub fn design(layout: &Layout, used: &[bool], left: &[f64], fitted: f64) -> f64 {
     let mut shared = Shared::default();
