@@ -219,6 +219,8 @@ def _keywords(options: list[str]) -> dict[str, Any]:
             found["context"] = [top] if top.is_file() else sorted(p for p in top.rglob("*") if p.is_file())
         elif word == "--joint-targets":
             found["joint_targets"] = next(words)
+        elif word == "--max-derived-error":
+            found["max_derived_error_mm"] = float(next(words))
         elif word == "--tool":
             found["tool"] = next(words)
         elif word == "--frame":
