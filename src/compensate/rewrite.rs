@@ -404,7 +404,7 @@ fn worst(all: impl Iterator<Item = Separation>) -> Separation {
     all.fold(Separation::default(), largest)
 }
 
-fn largest(a: Separation, b: Separation) -> Separation {
+pub(super) fn largest(a: Separation, b: Separation) -> Separation {
     Separation {
         distance_m: a.distance_m.max(b.distance_m),
         angle_rad: a.angle_rad.max(b.angle_rad),

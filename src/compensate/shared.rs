@@ -1,6 +1,7 @@
 //! One set of numbers for all approaches of a target.
 
 use super::approach::{Approach, Solved};
+use super::rewrite::largest;
 use super::{Job, displaced};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -116,11 +117,7 @@ pub(super) fn landings(job: &Job, group: &[Solved], given: &Fake) -> [Separation
     for solved in group {
         let is_other = group.len() > 1 && solved.is_passed();
         let most = &mut farthest[usize::from(is_other)];
-        let gap = landing(job, solved, given);
-        *most = Separation {
-            distance_m: most.distance_m.max(gap.distance_m),
-            angle_rad: most.angle_rad.max(gap.angle_rad),
-        };
+        *most = largest(*most, landing(job, solved, given));
     }
     farthest
 }

@@ -255,13 +255,7 @@ impl Sets<'_> {
         if rmsd_m.powi(2) - of_size <= limit_m.powi(2) {
             return Ok(());
         }
-        let message = format!(
-            "{}: the points do not lie as those of FROM: the best motion leaves {:.3} mm root mean \
-             square (limit {:.3} mm, 5 % of their spread)",
-            self.name,
-            mm_from_m(rmsd_m),
-            mm_from_m(limit_m)
-        );
+        let message = unlike(self.name, rmsd_m, limit_m);
         Err(Failure::with_hint(message, self.order(limit_m)))
     }
 
@@ -482,4 +476,14 @@ fn centre_sigma_m(pair: &Pair, fit: &Round) -> Option<f64> {
     let sum: f64 = variances.sum::<Option<f64>>()?;
     let trace: f64 = (0..3).map(|k| fit.centre_covariance[k][k]).sum();
     Some((trace / 3.0 * sum / pair.to.len() as f64).sqrt())
+}
+
+/// That no motion lays the points of TO on those of FROM.
+pub(super) fn unlike(name: &str, rmsd_m: f64, limit_m: f64) -> String {
+    format!(
+        "{name}: the points do not lie as those of FROM: the best motion leaves {:.3} mm root mean \
+         square (limit {:.3} mm, 5 % of their spread)",
+        mm_from_m(rmsd_m),
+        mm_from_m(limit_m)
+    )
 }

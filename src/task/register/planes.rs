@@ -1,6 +1,6 @@
 //! Points and touches of planes together.
 
-use super::matched::{Touched, UNLIKE, other_sigma, variance_of, warning, weights};
+use super::matched::{Touched, UNLIKE, other_sigma, unlike, variance_of, warning, weights};
 use super::points::Pair;
 use super::{Motion, Options, Residual};
 use crate::finding::{Finding, Severity};
@@ -126,13 +126,7 @@ impl Touches<'_> {
         if rmsd_m <= limit_m {
             return Ok(());
         }
-        let message = format!(
-            "{}: the points do not lie as those of FROM: the best motion leaves {:.3} mm root mean \
-             square (limit {:.3} mm, 5 % of their spread)",
-            self.name,
-            mm_from_m(rmsd_m),
-            mm_from_m(limit_m)
-        );
+        let message = unlike(self.name, rmsd_m, limit_m);
         let worst = fit.misfits.first().map(|misfit| self.named(misfit.part));
         let worst = worst.map_or_else(String::new, |name| {
             format!("; the others contradict {name} most")
