@@ -35,25 +35,18 @@
 //! # Ok::<(), poseshift::model::profile::ProfileError>(())
 //! ```
 
-// what is not for callers is pub(crate): the compiler holds the layering
 #![forbid(unsafe_code)]
 #![warn(unreachable_pub)]
 
-pub mod check;
+#[doc(inline)]
+pub use poseshift_kinematics::{geometry, inverse, model};
+#[doc(inline)]
+pub use poseshift_measuring::{diagnose, identify, register};
+#[doc(inline)]
+pub use poseshift_programs::{check, compensate, finding, motion, program};
+
 #[cfg(feature = "cli")]
 mod cli;
-pub mod compensate;
-pub mod diagnose;
-pub mod finding;
-pub mod geometry;
-pub mod identify;
-pub mod inverse;
-pub mod model;
-pub mod motion;
-mod nearest;
-mod printable;
-pub mod program;
-pub mod register;
 #[cfg(feature = "html")]
 #[cfg_attr(
     not(feature = "cli"),
@@ -66,15 +59,10 @@ pub mod report;
 pub mod task;
 #[cfg(feature = "urdf")]
 pub mod urdf;
-#[cfg(any(feature = "mesh", feature = "urdf"))]
-#[cfg_attr(
-    not(feature = "mesh"),
-    allow(
-        dead_code,
-        reason = "meshes alone look at attributes and first children"
-    )
-)]
-mod xml;
+
+use poseshift_kinematics::{nearest, printable};
+#[cfg(feature = "urdf")]
+use poseshift_programs::xml;
 
 #[cfg(feature = "cli")]
 pub use cli::run_with;

@@ -1,0 +1,211 @@
+//! Shapes as profile and cell files write them.
+
+use super::file::{Number, PoseFile};
+use super::reading::{metres, pose};
+use super::{Fault, ProfileError};
+use crate::geometry::units::m_from_mm;
+use crate::geometry::{Pose, norm, scale};
+use crate::model::shape::{Form, Shape};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_yaml::{Location, Spanned};
+
+/// Defines a type of entry that holds a shape besides keys of its own. (A flattened struct would
+/// lose the place of errors.)
+#[macro_export]
+macro_rules! with_shape {
+    ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }) => {
+        $(#[$meta])*
+        #[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $($(#[$field_meta])* pub $field: $type,)*
+            /// All points within a radius of a segment.
+            #[serde(default)]
+            pub capsule_mm: Option<$crate::model::profile::shape::CapsuleFile>,
+            /// Full edge lengths of a box about the origin.
+            #[serde(default)]
+            pub box_mm: Option<[$crate::model::profile::file::Number; 3]>,
+            /// A ball about the origin.
+            #[serde(default)]
+            pub sphere_mm: Option<$crate::model::profile::shape::SphereFile>,
+            /// A cylinder about z, centred on the origin.
+            #[serde(default)]
+            pub cylinder_mm: Option<$crate::model::profile::shape::CylinderFile>,
+            /// All below a plane.
+            #[serde(default)]
+            pub plane: Option<$crate::model::profile::shape::PlaneFile>,
+            /// A mesh file: STL, OBJ, DAE or glTF, relative to this file.
+            #[serde(default)]
+            pub mesh: Option<String>,
+            /// Millimetres of one unit of the mesh file (default 1; DAE and glTF, in metres by their own unit, 1000).
+            #[serde(default)]
+            pub scale: Option<$crate::model::profile::file::Number>,
+            /// Where the shape is in its frame.
+            #[serde(default)]
+            #[schemars(with = "Option<crate::model::profile::file::PoseFile>")]
+            pub at: Option<serde_yaml::Spanned<$crate::model::profile::file::PoseFile>>,
+        }
+
+        impl $name {
+            /// The shape of this entry, which stands at `place`.
+            pub(crate) fn shape(
+                &self,
+                place: serde_yaml::Location,
+            ) -> Result<$crate::model::shape::Shape, $crate::model::profile::ProfileError> {
+                $crate::model::profile::shape::Keys {
+                    capsule: self.capsule_mm.as_ref(),
+                    size: self.box_mm.as_ref(),
+                    sphere: self.sphere_mm.as_ref(),
+                    cylinder: self.cylinder_mm.as_ref(),
+                    plane: self.plane.as_ref(),
+                    mesh: self.mesh.as_ref(),
+                    scale: self.scale,
+                    at: self.at.as_ref(),
+                }
+                .shape(place)
+            }
+        }
+    };
+}
+with_shape! {
+    /// A body of a link, for collisions.
+    LinkShapeFile {
+        /// The link: 0 is the base, 1 to 6 the rows of the chain.
+        link: u8,
+    }
+}
+
+/// A capsule.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CapsuleFile {
+    /// One end of the segment.
+    pub from: [Number; 3],
+    /// The other end.
+    pub to: [Number; 3],
+    /// Radius.
+    pub radius: Number,
+}
+
+/// A ball.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SphereFile {
+    /// Radius.
+    pub radius: Number,
+}
+
+/// A cylinder.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CylinderFile {
+    /// Radius.
+    pub radius: Number,
+    /// Full height.
+    pub height: Number,
+}
+
+/// All below a plane.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneFile {
+    /// Direction out of the body.
+    pub normal: [Number; 3],
+    /// Distance of the plane from the origin along the normal.
+    pub offset_mm: Number,
+}
+
+/// The keys of one entry that make its shape.
+pub struct Keys<'a> {
+    pub capsule: Option<&'a CapsuleFile>,
+    pub size: Option<&'a [Number; 3]>,
+    pub sphere: Option<&'a SphereFile>,
+    pub cylinder: Option<&'a CylinderFile>,
+    pub plane: Option<&'a PlaneFile>,
+    pub mesh: Option<&'a String>,
+    pub scale: Option<Number>,
+    pub at: Option<&'a Spanned<PoseFile>>,
+}
+
+impl Keys<'_> {
+    pub fn shape(self, place: Location) -> Result<Shape, ProfileError> {
+        let length = |key: &'static str, number: Number| {
+            if number.0 > 0.0 {
+                Ok(m_from_mm(number.0))
+            } else {
+                let fault = Fault::NotPositive {
+                    key,
+                    found: number.0,
+                };
+                Err(fault.at(place))
+            }
+        };
+        let mut forms = Vec::new();
+        if let Some(c) = self.capsule {
+            forms.push(Form::Capsule {
+                from_m: metres(c.from),
+                to_m: metres(c.to),
+                radius_m: length("radius", c.radius)?,
+            });
+        }
+        if let Some([x, y, z]) = self.size {
+            let size_m = [
+                length("box_mm", *x)?,
+                length("box_mm", *y)?,
+                length("box_mm", *z)?,
+            ];
+            forms.push(Form::Box { size_m });
+        }
+        if let Some(s) = self.sphere {
+            let radius_m = length("radius", s.radius)?;
+            forms.push(Form::Sphere { radius_m });
+        }
+        if let Some(c) = self.cylinder {
+            forms.push(Form::Cylinder {
+                radius_m: length("radius", c.radius)?,
+                height_m: length("height", c.height)?,
+            });
+        }
+        if let Some(p) = self.plane {
+            let normal = p.normal.map(|n| n.0);
+            let long = norm(normal);
+            if long < 1e-9 {
+                return Err(Fault::NotPositive {
+                    key: "the length of normal",
+                    found: long,
+                }
+                .at(place));
+            }
+            forms.push(Form::Plane {
+                normal: scale(long.recip(), normal),
+                offset_m: m_from_mm(p.offset_mm.0),
+            });
+        }
+        if let Some(file) = self.mesh {
+            if let Some(scale) = self.scale
+                && scale.0 <= 0.0
+            {
+                return Err(Fault::NotPositive {
+                    key: "scale",
+                    found: scale.0,
+                }
+                .at(place));
+            }
+            forms.push(Form::Mesh {
+                file: file.clone(),
+                scale: self.scale.map(|scale| [scale.0; 3]),
+            });
+        } else if self.scale.is_some() {
+            return Err(Fault::ScaleWithoutMesh.at(place));
+        }
+        let found = forms.len();
+        let [form]: [Form; 1] = forms
+            .try_into()
+            .map_err(|_| Fault::NotOneShape { found }.at(place))?;
+        Ok(Shape {
+            form,
+            frame_from_shape: self.at.map_or(Ok(Pose::identity()), pose)?,
+        })
+    }
+}

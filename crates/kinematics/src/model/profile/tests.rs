@@ -1,0 +1,328 @@
+//! The controller's own effects, and what import writes.
+
+use super::universal_robots::{UrError, link_geometry};
+use super::*;
+
+const UR5: &str = include_str!("../../../../../robots/universal_robots_ur5.yaml");
+const CONF: &str =
+    include_str!("../../../../../tests/data/ur_calibration/ur5_usual.calibration.conf");
+
+fn ur5(controller: &str, calibration: &str) -> Result<Profile, ProfileError> {
+    let text = UR5.replace("{language: urscript, model: nominal}", controller);
+    let start = text.find("calibration:\n").expect("the last block");
+    Profile::from_yaml(&(text[..start].to_owned() + calibration))
+}
+
+const ONE: &str = "{effect: link_geometry, link: 3, a_mm: 0.5}";
+const OTHER: &str = "{effect: link_geometry, link: 4, a_mm: 0.25}";
+
+#[test]
+fn a_calibrated_controller_has_its_own_effects_or_the_geometry_of_the_calibration() {
+    let spring = "{effect: joint_compliance, joint: 2, rad_per_n_m: 1.0e-6}";
+    let calibration = format!("calibration: {{effects: [{ONE}, {spring}]}}\n");
+    let labels =
+        |effects: Vec<Effect>| -> Vec<String> { effects.iter().map(Effect::label).collect() };
+    for (controller, computes) in [
+        ("{model: nominal}".to_owned(), vec![]),
+        (
+            "{model: calibrated}".to_owned(),
+            vec!["link_geometry link 3"],
+        ),
+        (
+            format!("{{model: calibrated, effects: [{OTHER}]}}"),
+            vec!["link_geometry link 4"],
+        ),
+        ("{model: calibrated, effects: []}".to_owned(), vec![]),
+    ] {
+        let profile = ur5(&controller, &calibration).expect(&controller);
+        assert_eq!(
+            labels(profile.controller_effects()),
+            computes,
+            "{controller}"
+        );
+        assert_eq!(profile.real_effects(), profile.effects, "{controller}");
+    }
+    // nothing was identified: the arm is as the controller computes it
+    let profile = ur5(
+        &format!("{{model: calibrated, effects: [{OTHER}]}}"),
+        "calibration: {}\n",
+    );
+    assert_eq!(
+        labels(profile.expect("valid").real_effects()),
+        ["link_geometry link 4"]
+    );
+}
+
+#[test]
+fn effects_that_no_controller_has_are_faults_with_their_place() {
+    let backlash = "{effect: backlash, joint: 1, width_deg: 0.01}";
+    for (controller, wanted) in [
+        (
+            format!("{{model: nominal, effects: [{ONE}]}}"),
+            "computes with the nominal chain",
+        ),
+        (
+            format!("{{model: calibrated, effects: [{backlash}]}}"),
+            "cannot be part",
+        ),
+        (
+            format!("{{model: calibrated, effects: [{ONE}, {ONE}]}}"),
+            "stands twice",
+        ),
+    ] {
+        let error = ur5(&controller, "calibration: {}\n").expect_err(&controller);
+        assert!(error.to_string().contains(wanted), "{error}");
+        assert!(!error.hint().is_empty() && error.line > 10, "{error:?}");
+    }
+}
+
+#[test]
+fn the_controller_of_a_text_is_replaced_and_nothing_else() {
+    let profile = Profile::from_yaml(UR5).expect("a shipped profile");
+    let effects = link_geometry(CONF, &profile).expect("a calibration");
+    let block = UR5.replace(
+        "controller: {language: urscript, model: nominal}",
+        "controller:   # of the cell\n  language: urscript\n\n  # still\n  model: nominal\n\n# the \
+         arm",
+    );
+    let crlf = UR5.replace('\n', "\r\n");
+    for text in [UR5, &block, &crlf] {
+        let written = with_controller(text, &profile, &effects, "note").expect("a block");
+        let read = Profile::from_yaml(&written).expect("a profile");
+        assert_eq!(read.own_effects.map(|own| own.len()), Some(6));
+        let (start, end) = (
+            text.find("controller:").expect("a key"),
+            text.find("kinematics:").expect("a key"),
+        );
+        assert!(written.starts_with(&text[..start]) && written.ends_with(&text[end..]));
+        assert_eq!(written.contains("\r\n"), text.contains("\r\n"));
+        assert_eq!(written.matches('\n').count(), written.lines().count());
+        assert!(text.contains("# the arm") == written.contains("# the arm"));
+    }
+    // one long line has no block
+    let flow = "{poseshift: profile/1}";
+    assert_eq!(with_controller(flow, &profile, &effects, "note"), None);
+}
+
+#[test]
+fn what_is_no_calibration_of_this_arm_is_reported() {
+    let profile = Profile::from_yaml(UR5).expect("a shipped profile");
+    let refusal = |text: &str| link_geometry(text, &profile).expect_err(text);
+    assert_eq!(refusal("a: 1"), UrError::Unknown);
+    let without = CONF.replace("delta_d ", "delta_x ");
+    assert_eq!(refusal(&without), UrError::Missing { key: "delta_d" });
+    let twice = format!("{CONF}delta_a = [0, 0, 0, 0, 0, 0]\n");
+    assert!(matches!(
+        refusal(&twice),
+        UrError::Twice {
+            key: "delta_a",
+            line: 8
+        }
+    ));
+    let five = CONF.replacen(", 0]", "]", 1);
+    assert!(matches!(
+        refusal(&five),
+        UrError::NotSix {
+            key: "delta_a",
+            line: 3
+        }
+    ));
+    let wild = CONF.replacen(", 0]", ", 1e999]", 1);
+    assert!(matches!(
+        refusal(&wild),
+        UrError::NotSix {
+            key: "delta_a",
+            line: 3
+        }
+    ));
+    let off = CONF.replace("calibration_status = 2", "calibration_status = 0");
+    assert!(matches!(refusal(&off), UrError::NotCalibrated { line: 7 }));
+    let moved = CONF.replacen(", 0]", ", 0.001]", 1);
+    assert!(matches!(
+        refusal(&moved),
+        UrError::Rows(crate::model::RowsError::Flange { .. })
+    ));
+    let far = CONF.replace("439.846", "439.946");
+    assert!(matches!(
+        refusal(&far),
+        UrError::Rows(crate::model::RowsError::TooDifferent { .. })
+    ));
+    assert!(matches!(
+        refusal("kinematics:\n  shoulder: {x: 0}\n"),
+        UrError::Yaml { line: 2, .. }
+    ));
+    let other = Profile::from_yaml(include_str!("../../../../../robots/abb_irb120.yaml"));
+    let error = link_geometry(CONF, &other.expect("a shipped profile")).expect_err("an ABB");
+    assert!(matches!(error, UrError::NotTheTable { .. }), "{error}");
+}
+
+#[test]
+fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
+    let with = |entry: &str| {
+        ur5(
+            "{model: nominal}",
+            &format!("calibration:\n  effects:\n    - {entry}\n"),
+        )
+    };
+    for (entry, key) in [
+        (
+            "{effect: link_geometry, link: 3, theta_deg: 2.1}",
+            "theta_deg",
+        ),
+        ("{effect: link_geometry, link: 3, a_mm: -20.5}", "a_mm"),
+        (
+            "{effect: joint_compliance, joint: 2, rad_per_n_m: 5e-3}",
+            "rad_per_n_m",
+        ),
+        ("{effect: base_frame, x_mm: 75}", "x_mm"),
+        ("{effect: backlash, joint: 2, width_deg: 3}", "width_deg"),
+    ] {
+        let error = with(entry).expect_err(entry);
+        assert!(
+            matches!(&error.fault, Fault::Large { key: of, .. } if *of == key),
+            "{error}"
+        );
+        assert!(
+            error.line > 0 && error.hint().contains("large: true"),
+            "{error}"
+        );
+        let meant = entry.replace('}', ", large: true, reason: \"measured\"}");
+        let profile = with(&meant).expect(&meant);
+        assert_eq!(
+            profile.large.calibration.values().collect::<Vec<_>>(),
+            ["measured"]
+        );
+        // both stay when the profile is written again
+        let text = ur5_text(&format!("calibration:\n  effects:\n    - {meant}\n"));
+        let again = rewritten(&text, &profile).expect("a plain layout");
+        assert!(
+            again.contains("large: true, reason: \"measured\"}"),
+            "{again}"
+        );
+        assert_eq!(
+            Profile::from_yaml(&again).expect("read back").large,
+            profile.large
+        );
+    }
+    for entry in [
+        "{effect: base_frame, x_mm: 75, large: true}",
+        "{effect: base_frame, x_mm: 75, large: true, reason: \" \"}",
+        "{effect: base_frame, x_mm: 75, large: 1, reason: a}",
+        "{effect: base_frame, x_mm: 1, reason: a}",
+    ] {
+        let error = with(entry).expect_err(entry);
+        assert!(
+            matches!(error.fault, Fault::LargeWithoutReason { .. }),
+            "{error}"
+        );
+    }
+    for entry in [
+        "{effect: link_geometry, link: 3, theta_deg: 2, a_mm: 20}",
+        "{effect: joint_compliance, joint: 2, rad_per_n_m: 4.9e-3}",
+        "{effect: payload_error, mass_kg: 1, cog_x_mm: 50}",
+        "{effect: base_frame, x_mm: 1, large: false}",
+    ] {
+        assert!(with(entry).is_ok(), "{entry}: {:?}", with(entry));
+    }
+    assert!(with("{effect: base_frame, x_mm: .inf}").is_err());
+    let schema = Profile::schema().to_string();
+    assert!(schema.contains("\"reason\"") && schema.contains("\"payload_kg\""));
+}
+
+fn ur5_text(calibration: &str) -> String {
+    let start = UR5.find("calibration:\n").expect("the last block");
+    UR5[..start].to_owned() + calibration
+}
+
+#[test]
+fn tools_and_frames_in_other_units_are_faults_with_their_place() {
+    let tools = |tool: &str| {
+        let start = UR5.find("calibration:\n").expect("the last block");
+        let text = UR5[..start].replace("tools: {}\n", "");
+        let text = text.replace("robot: {", "robot: {payload_kg: 5, ");
+        Profile::from_yaml(&format!("{text}tools:\n  t: {tool}\n"))
+    };
+    let frame = |z: &str, rz: &str| {
+        format!("{{frame: {{x_mm: 0, y_mm: 0, z_mm: {z}, rx_deg: 0, ry_deg: 0, rz_deg: {rz}}}")
+    };
+    for good in [
+        frame("0", "0") + "}",
+        frame("1.5", "-360") + ", mass_kg: 5}",
+    ] {
+        assert!(tools(&good).is_ok(), "{good}: {:?}", tools(&good));
+    }
+    let fault = |tool: String| tools(&tool).expect_err(&tool).fault;
+    assert!(matches!(
+        fault(frame("0.1", "0") + "}"),
+        Fault::TinyTool { .. }
+    ));
+    assert!(matches!(
+        fault(frame("100", "721") + "}"),
+        Fault::EndlessAngle { .. }
+    ));
+    let twice = frame("100", "0") + "}\n  T: " + &frame("90", "0") + "}";
+    assert!(matches!(fault(twice), Fault::SameTool { .. }));
+    let heavy = frame("100", "0") + ", mass_kg: 5.1}";
+    assert!(matches!(fault(heavy), Fault::BeyondPayload { .. }));
+}
+
+#[test]
+fn numbers_of_the_chain_in_other_units_are_faults() {
+    let changed = |old: &str, new: &str| {
+        assert!(UR5.contains(old), "{old}");
+        Profile::from_yaml(&UR5.replacen(old, new, 1))
+    };
+    let gravity = "gravity_m_s2: [0, 0, -9.81]";
+    for good in [
+        "[0, 0, 9.81]",
+        "[9.81, 0, 0]",
+        "[0, 6.94, -6.94]",
+        "[0, 0, 0]",
+    ] {
+        let profile = changed(gravity, &format!("gravity_m_s2: {good}"));
+        assert!(profile.is_ok(), "{good}: {profile:?}");
+    }
+    for bad in ["[0, 0, -1]", "[0, 0, -9810]", "[0, 9.81, -9.81]"] {
+        let error = changed(gravity, &format!("gravity_m_s2: {bad}")).expect_err(bad);
+        assert!(
+            matches!(error.fault, Fault::Gravity { .. }),
+            "{bad}: {error}"
+        );
+        assert!(error.line > 0 && error.hint().contains("m/s²"), "{bad}");
+    }
+    let limits = changed("max_deg: 360", "max_deg: 9190").expect_err("limits");
+    assert!(matches!(
+        limits.fault,
+        Fault::OutOfRange { key: "max_deg", .. }
+    ));
+    assert!(limits.hint().contains("degrees"));
+    let tools = |tool: &str| changed("tools: {}\n", &format!("tools:\n  t: {tool}\n"));
+    let frame = |z: &str| {
+        format!("{{frame: {{x_mm: 0, y_mm: 0, z_mm: {z}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}")
+    };
+    let far = tools(&(frame("1e9") + "}")).expect_err("far").fault;
+    assert!(matches!(far, Fault::OutOfRange { key: "z_mm", .. }));
+    let metres = frame("100") + ", mass_kg: 2, cog_mm: [0, 0, 0.08]}";
+    let metres = tools(&metres).expect_err("metres").fault;
+    assert!(matches!(metres, Fault::TinyCog { .. }));
+    let none = frame("100") + ", mass_kg: 2, cog_mm: [0, 0, 0]}";
+    assert!(tools(&none).is_ok());
+}
+
+#[test]
+fn an_arm_in_metres_is_refused() {
+    let mut text = include_str!("../../../../../robots/abb_irb120.yaml").to_owned();
+    for (mm, metres) in [
+        ("d_mm: 290", "d_mm: 0.29"),
+        ("a_mm: 270", "a_mm: 0.27"),
+        ("a_mm: 70", "a_mm: 0.07"),
+        ("d_mm: 302", "d_mm: 0.302"),
+        ("d_mm: 72", "d_mm: 0.072"),
+    ] {
+        assert!(text.contains(mm), "{mm}");
+        text = text.replace(mm, metres);
+    }
+    let error = Profile::from_yaml(&text).expect_err("a millimetre of an arm");
+    assert!(matches!(error.fault, Fault::TinyArm { .. }), "{error}");
+    assert!(error.to_string().contains("1.004 mm"), "{error}");
+}

@@ -1,0 +1,113 @@
+//! Names that are nearly one that is not known: "did you mean".
+
+/// Names are alike from this similarity on (Jaro–Winkler: 1 is the same name).
+const ALIKE: f64 = 0.8;
+/// So many are proposed at most.
+const MOST: usize = 3;
+/// Longer lists are not written out.
+const MOST_LISTED: usize = 40;
+
+/// Letters and digits in lower case: case and punctuation are typed in many ways.
+pub fn plain(name: &str) -> String {
+    let letters = name.chars().filter(|c| c.is_alphanumeric());
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+fn first_word(name: &str) -> String {
+    plain(name.split(['_', '-', ' ']).next().unwrap_or_default())
+}
+
+/// Known names that may be meant, the likeliest first: three at most, none where none is alike.
+///
+/// # Source
+/// W. E. Winkler, "String comparator metrics and enhanced decision rules in the Fellegi–Sunter
+/// model of record linkage" (1990). A name that holds what was typed, or begins with the same word,
+/// counts as alike, too.
+pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let (wanted, first) = (plain(wanted), first_word(wanted));
+    let likeness = |name: &str| {
+        // the first word is left out by many, as the maker of a robot
+        let parts = [name, name.split_once('_').map_or(name, |(_, rest)| rest)];
+        let alike = parts.map(|part| strsim::jaro_winkler(&wanted, &plain(part)));
+        let alike = alike[0].max(alike[1]);
+        let held = wanted.len() >= 3 && plain(name).contains(&wanted);
+        if held || first_word(name) == first {
+            alike.max(ALIKE + 0.01 * alike)
+        } else {
+            alike
+        }
+    };
+    let mut rated: Vec<(f64, &str)> = known
+        .into_iter()
+        .map(|name| (likeness(name), name))
+        .collect();
+    rated.retain(|(likeness, _)| *likeness >= ALIKE);
+    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+    rated.dedup();
+    rated.into_iter().take(MOST).map(|(_, name)| name).collect()
+}
+
+/// The way out of a name that is not known: what may be meant, and the known names unless they are
+/// too many. `what` names these: `tools of the profile`.
+pub fn hint<'a>(wanted: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    let mut sentences = Vec::new();
+    let near: Vec<String> = nearest(wanted, known.iter().copied())
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect();
+    if let Some((last, before)) = near.split_last() {
+        let before = before.join(", ");
+        let or = if before.is_empty() { "" } else { " or " };
+        sentences.push(format!("did you mean {before}{or}{last}?"));
+    }
+    if known.is_empty() {
+        sentences.push(format!("there are no {what}"));
+    } else if known.len() <= MOST_LISTED {
+        sentences.push(format!("{what}: {}", known.join(", ")));
+    } else if sentences.is_empty() {
+        sentences.push(format!("none of the {} {what} is alike", known.len()));
+    }
+    sentences.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_finds_the_one_that_is_meant() {
+        let known = [
+            "joint_compliance",
+            "joint_coupling",
+            "backlash",
+            "base_frame",
+        ];
+        assert_eq!(nearest("back_lash", known)[0], "backlash");
+        assert_eq!(nearest("joint_complience", known)[0], "joint_compliance");
+        assert_eq!(nearest("Base-Frame", known)[0], "base_frame");
+        assert!(nearest("xyz", known).is_empty());
+        let robots = ["abb_irb120", "abb_irb1600_6_145", "kuka_kr6_r900"];
+        assert_eq!(nearest("irb120", robots)[0], "abb_irb120");
+        assert!(nearest("irb16oo", robots).contains(&"abb_irb1600_6_145"));
+    }
+
+    #[test]
+    fn the_hint_proposes_and_lists() {
+        let sentences = hint("gripr", "tools of the profile", ["gripper", "torch"]);
+        assert_eq!(
+            sentences,
+            "did you mean `gripper`? tools of the profile: gripper, torch"
+        );
+        assert_eq!(
+            hint("x", "tools of the profile", []),
+            "there are no tools of the profile"
+        );
+        assert_eq!(hint("q", "columns", ["a", "b"]), "columns: a, b");
+        let many = ["a"; MOST_LISTED + 1];
+        assert_eq!(
+            hint("q", "columns", many),
+            "none of the 41 columns is alike"
+        );
+    }
+}

@@ -1,0 +1,626 @@
+//! Wanted target → fake target: the heart.
+//!
+//! For each target of a program, with its tool and work frame:
+//!
+//! ```text
+//! W = world_from_frame · frame_from_tool              the wanted pose: the target as the file has it
+//!     (work_offset · W where the part stands elsewhere than in the simulation)
+//! q = the joints with which the real arm reaches W    pose shift on the branch that the program means
+//! F = controller_forward(q)                           where the controller believes to be then
+//! fake target = world_from_frame⁻¹ · F
+//! ```
+//!
+//! External axes put the base and the frame elsewhere at each target ([`crate::motion`]): both
+//! poses are then those that an arm with its base at home sees.
+//!
+//! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to
+//! each target; `approach` lists the approaches, `solve` finds the joints (`singular` at
+//! the wrist's singularity), `shared` one set of numbers for all approaches, `limit` what a
+//! correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new
+//! targets between them, `displaced` says what a correction does to points that the program derives
+//! from a target; `written` puts it all into the files and reads them again. `context` and
+//! `refused` say which files stay.
+//!
+//! # Source
+//! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::compensate::{Options, compensate};
+//! use poseshift::model::profile::Profile;
+//! use poseshift::program::{Source, language_of};
+//!
+//! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
+//! let text = include_bytes!("../../../../programs/rapid/olp/in/Deburr.mod");
+//! let sources = [Source::new("Deburr.mod", text.to_vec())];
+//! let language = language_of(&sources[0]).expect("a language");
+//! let done = compensate(language, &sources, &profile, &Options::default())?;
+//! assert!(!done.is_refused() && done.summary.mean_after_m < 0.01 * done.summary.mean_before_m);
+//! let written = done.written(language, &sources, "", false)?;
+//! assert_ne!(written.sources[0].bytes, text);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod added;
+mod approach;
+mod context;
+mod displaced;
+mod limit;
+mod outcome;
+mod refused;
+mod remarks;
+mod rewrite;
+mod shared;
+mod singular;
+mod solve;
+mod strange;
+mod written;
+
+use approach::{Approach, Solved};
+use limit::Limits;
+use outcome::Tally;
+pub use outcome::{Added, Compensation, Summary, TargetReport};
+use rewrite::{Portion, Split};
+pub use written::{Differs, Draft, Written};
+
+use crate::finding::{Acceptance, Finding, Severity, accept};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::geometry::{Pose, Separation};
+pub use crate::inverse::Methods;
+use crate::inverse::{Outcome, Unsupported};
+use crate::model::profile::Profile;
+use crate::motion::ground::Ground;
+use crate::motion::walk::{self, WalkOptions};
+pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
+use crate::motion::{external, plausibility, setting};
+pub use crate::program::meaning;
+use crate::program::{Edits, Language, Move, ReadError, Source, sha256};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// How far points that are derived from a target may land off their wanted pose by default, metres.
+const LIMIT_DERIVED_M: f64 = 0.05 * MM;
+/// Angles of a positioner that differ by less are the same.
+const SAME_ANGLE_RAD: f64 = 1e-9;
+/// Targets rewritten by one thread at a time.
+const CHUNK: usize = 512;
+
+/// What the user decides.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Tools and work frames for names that the program files do not tell.
+    pub given: Given,
+    /// Where the part really stands: moves every wanted pose in the world, `W' = work_offset · W`
+    /// (FROM: as simulated; TO: as measured). The controller's frames stay what they are.
+    pub work_offset: Option<Pose>,
+    /// Shift joint targets too.
+    pub correct_joint_targets: bool,
+    /// At least so many decimals of a millimetre, and as many of other units as that is worth.
+    pub decimals: Option<usize>,
+    /// Report on the whole only, not on each target: a long program needs less memory.
+    pub summary_only: bool,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
+    /// How far points that the running program derives from a target may land off their wanted
+    /// pose, metres; 0.05 mm where it is not given.
+    pub max_derived_error_m: Option<f64>,
+    /// Write a target out at each of its moves where one set of numbers does not serve all.
+    pub split_targets: bool,
+    /// What becomes of a target at the wrist's singularity that the real arm does not reach on the
+    /// meant side.
+    pub at_singularity: AtSingularity,
+    /// Errors that the user takes.
+    pub accepted: Vec<Acceptance>,
+    /// A tool or frame that is not known is an error of the programs that use it, and does not
+    /// stop the others.
+    pub each_for_itself: bool,
+    /// The joints in which the robot stands when a program starts, radians.
+    pub start_joints: Option<[f64; 6]>,
+    /// Which methods may search the joints of the real arm.
+    pub methods: Methods,
+    /// How far a correction may shift a target; without it ten times what the profile's effects
+    /// usually do, and at most 20 mm and 2 degrees.
+    pub max_shift: Option<Separation>,
+}
+
+impl Options {
+    /// What differs from the defaults so that a reader of the file should know it.
+    fn decided(&self) -> Vec<String> {
+        let mut decided = Vec::new();
+        if let Some(limit_m) = self
+            .max_derived_error_m
+            .filter(|limit| *limit > LIMIT_DERIVED_M)
+        {
+            decided.push(format!("max-derived-error {}", tidy(mm_from_m(limit_m))));
+        }
+        match self.at_singularity {
+            AtSingularity::Refuse => {}
+            AtSingularity::Flip => decided.push("at-singularity flip".into()),
+            AtSingularity::Nearest => decided.push("at-singularity nearest".into()),
+        }
+        decided
+    }
+}
+
+/// What becomes of a target at the wrist's singularity that the real arm does not reach on the
+/// meant side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtSingularity {
+    /// It is an error, which says what the others would give.
+    #[default]
+    Refuse,
+    /// Joint 5 goes through zero: the tool lands, the configuration is another.
+    Flip,
+    /// Joint 4 stays where the nominal arm has it: the tip lands, the orientation nearly.
+    Nearest,
+}
+
+/// Why nothing could be compensated.
+#[derive(Debug, thiserror::Error)]
+pub enum CompensateError {
+    /// The program cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A tool or frame is unknown.
+    #[error(transparent)]
+    Placement(#[from] PlacementError),
+    /// A measured work frame cannot be meant.
+    #[error(transparent)]
+    MeasuredFrame(#[from] MeasuredFrameError),
+    /// A tool or work frame is given that none is needed for.
+    #[error(transparent)]
+    Given(#[from] GivenError),
+    /// The arm has no closed-form inverse.
+    #[error(transparent)]
+    Arm(#[from] Unsupported),
+    /// There is nothing to correct.
+    #[error(
+        "the profile has no effect that moves the tool: the program would be marked as compensated \
+         and be the same"
+    )]
+    NothingToCorrect,
+    /// The part is moved in the world, and a positioner rotates it in between.
+    #[error(
+        "{file}:{line}: --work-offset moves the part in the world, and positioner `{positioner}`, \
+         which carries it, stands elsewhere here than in line {other_line}"
+    )]
+    OffsetOnPositioner {
+        /// The file.
+        file: String,
+        /// The line of the move.
+        line: usize,
+        /// The positioner.
+        positioner: String,
+        /// The line of a move at which it stands elsewhere.
+        other_line: usize,
+    },
+    /// Not one of several targets can be reached from where the base stands, but from the origin
+    /// they can.
+    #[error(
+        "none of the {targets} targets is within reach from kinematics.base, which is at ({:.0}, \
+         {:.0}, {:.0}) mm; with the base at the \
+         origin {in_reach} are",
+        base_mm[0], base_mm[1], base_mm[2]
+    )]
+    BaseElsewhere {
+        /// How many there are.
+        targets: usize,
+        /// How many can be reached from the origin.
+        in_reach: usize,
+        /// Where the base stands.
+        base_mm: [f64; 3],
+    },
+    /// Not one of several targets can be reached with the rail as the profile has it, but with
+    /// another direction, or another rotation of the base, they can.
+    #[error(
+        "none of the {targets} targets is within reach; with {instead}, which the profile has \
+         otherwise, {fit} are where their configuration data say"
+    )]
+    RailElsewhere {
+        /// How many there are.
+        targets: usize,
+        /// How many fit.
+        fit: usize,
+        /// With what.
+        instead: String,
+    },
+    /// Not one of several targets can be reached.
+    #[error("none of the {targets} targets is within reach: is this the profile of this robot?")]
+    NothingInReach {
+        /// How many there are.
+        targets: usize,
+    },
+}
+
+/// A part on a positioner is moved in the world where the positioner stands alike at all moves.
+fn check_offset(ground: &Ground, needs: impl Fn(&Move) -> bool) -> Result<(), CompensateError> {
+    let external = &ground.profile.external;
+    let mut first: Option<(&Move, usize, &[f64])> = None;
+    for motion in ground.program.moves.iter().filter(|motion| needs(motion)) {
+        let stand = ground.program.frames[motion.frame].stand.as_ref();
+        let Some((stand, at)) = stand.and_then(|stand| Some((stand, stand.positioner?))) else {
+            continue;
+        };
+        let own = external.first_of(at);
+        let values = &stand.values[own..own + external.positioners[at].axes.len()];
+        let Some((before, other, known)) = first else {
+            first = Some((motion, at, values));
+            continue;
+        };
+        let is_alike = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_ANGLE_RAD;
+        if at != other || !values.iter().zip(known).all(is_alike) {
+            return Err(CompensateError::OffsetOnPositioner {
+                file: ground.sources[motion.file as usize].name.clone(),
+                line: ground.line_of(motion),
+                positioner: external.positioners[at].name.clone(),
+                other_line: ground.line_of(before),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// What every step looks at.
+struct Job<'a> {
+    ground: Ground<'a>,
+    options: &'a Options,
+    limits: Limits,
+}
+
+/// Computes fake targets for a program and the edits that put them in its files.
+///
+/// # Errors
+/// If the program cannot be read, a tool or frame is unknown, the arm has no inverse, or the
+/// profile corrects nothing. A target that cannot be compensated is a [`Finding`] of severity error
+/// instead.
+///
+/// # Panics
+/// By a fault of poseshift alone: hashing fails on no bytes.
+pub fn compensate(
+    language: &dyn Language,
+    sources: &[Source],
+    profile: &Profile,
+    options: &Options,
+) -> Result<Compensation, CompensateError> {
+    with(language, sources, profile, options, false)
+}
+
+/// As [`compensate`]; a trial asks nothing of other profiles itself.
+fn with(
+    language: &dyn Language,
+    sources: &[Source],
+    profile: &Profile,
+    options: &Options,
+    is_trial: bool,
+) -> Result<Compensation, CompensateError> {
+    let settings = external::settings_of(profile, options.accept_absolutely_accurate);
+    // the files are hashed while they are read
+    let mut source_sha256 = Vec::new();
+    let read = rayon::in_place_scope(|scope| {
+        let hashes = sources.iter().map(|source| sha256(&source.bytes));
+        scope.spawn(|_| source_sha256 = hashes.collect());
+        crate::motion::read(language, sources, &settings)
+    });
+    let mut program = read?;
+    program.shrink_to_fit();
+    let mut findings = std::mem::take(&mut program.findings);
+    if program.targets.is_empty()
+        && let Some(source) = sources.first()
+    {
+        let message = "no target in this program: nothing is changed".to_owned();
+        let hint = "a program that calls others is compensated together with them";
+        findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
+    }
+    context::leave(&mut program, sources, &mut findings);
+    external::settle(
+        language,
+        &mut program,
+        sources,
+        (profile, &[]),
+        &mut findings,
+    );
+    setting::check_measured(&program, &options.given)?;
+    setting::check_given(&[&program], &options.given)?;
+    if options.each_for_itself {
+        let joints = options.correct_joint_targets;
+        setting::block_unplaced(
+            language,
+            &mut program,
+            sources,
+            profile,
+            &options.given,
+            &mut findings,
+            |program, motion| approach::needs(program, joints, motion),
+        );
+    }
+    let joints = options.correct_joint_targets;
+    let mut ground = Ground::new::<CompensateError>(
+        language,
+        &settings,
+        &program,
+        sources,
+        profile,
+        &options.given,
+        |motion| approach::needs(&program, joints, motion),
+    )?;
+    if let Some(offset) = &options.work_offset {
+        let is_moved = *offset != Pose::identity();
+        check_offset(&ground, |motion| {
+            is_moved && approach::needs(&program, joints, motion)
+        })?;
+        ground.move_part(offset);
+        if is_moved && !joints {
+            findings.extend(remarks::staying(&ground));
+        }
+    }
+    plausibility::units(&ground, Severity::Error, &mut findings);
+    plausibility::names(&ground, &mut findings);
+    plausibility::models(&ground, &mut findings);
+    let limits = Limits::new(&ground, options.max_shift);
+    let job = Job {
+        ground,
+        options,
+        limits,
+    };
+    let walk_options = WalkOptions {
+        start_joints: options.start_joints,
+        directed: solve::is_directed(&job),
+        ..WalkOptions::default()
+    };
+    let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
+    let mut approaches = approach::gather(&job, &arrivals, &mut findings);
+    if !is_trial {
+        let strange = strange::look(&job, &findings, &|profile: &Profile| {
+            with(language, sources, profile, options, true).map(|found| found.findings)
+        });
+        findings.extend(strange?);
+    }
+    if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
+        return Err(CompensateError::NothingToCorrect);
+    }
+    let mut outcomes = solve::solve(
+        &job,
+        &arrivals,
+        &walk_options,
+        &mut approaches,
+        &mut findings,
+    );
+    if solve::is_directed(&job) {
+        findings.extend(remarks::corners(&job, &approaches));
+    }
+    singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
+    let derived = displaced::arrivals(&job, &arrivals);
+    drop(arrivals);
+    let Rewritten {
+        reports: mut targets,
+        edits,
+        tally,
+        fakes,
+        mut splits,
+        mut meant,
+    } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
+    displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
+    drop((approaches, outcomes));
+    outcome::name_places(&job, &mut targets);
+    let (compensated, summary) = tally.finish();
+    let shift_limits = job.limits.asked_for();
+    splits.sort_unstable_by_key(|split| split.insertion.motion);
+    meant.sort_unstable_by_key(|(index, _)| *index);
+    let mut compensation = Compensation {
+        program,
+        settings,
+        source_sha256,
+        targets,
+        findings,
+        edits,
+        compensated,
+        refused: Vec::new(),
+        added: Added::default(),
+        untouched: BTreeMap::new(),
+        put_in: BTreeMap::new(),
+        inserted: BTreeMap::new(),
+        own_joints: BTreeMap::new(),
+        shift_limits,
+        meant,
+        decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
+        summary,
+    };
+    compensation.decided.extend(options.decided());
+    compensation.split(language, sources, &splits);
+    compensation.judge(sources, &options.accepted);
+    Ok(compensation)
+}
+
+/// Without the rounding of a unit.
+fn tidy(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}
+
+/// The limit of shifts as the marker has it.
+fn raised(max_shift: &Separation) -> String {
+    format!(
+        "max-shift {}mm,{}deg",
+        tidy(mm_from_m(max_shift.distance_m)),
+        tidy(max_shift.angle_rad / DEG)
+    )
+}
+
+impl Compensation {
+    /// Gives moves that share a target targets of their own.
+    fn split(&mut self, language: &dyn Language, sources: &[Source], splits: &[Split]) {
+        if splits.is_empty() {
+            return;
+        }
+        let program = std::mem::take(&mut self.program);
+        for file in 0..sources.len() {
+            let of_file: Vec<&Split> = splits
+                .iter()
+                .filter(|split| program.moves[split.insertion.motion].file as usize == file)
+                .collect();
+            if of_file.is_empty() {
+                continue;
+            }
+            let insertions: Vec<_> = of_file
+                .iter()
+                .map(|split| split.insertion.clone())
+                .collect();
+            let done = self.insert(language, sources, &program, file, &insertions);
+            for (split, is_done) in of_file.iter().zip(done) {
+                if is_done {
+                    self.own_joints.insert(split.insertion.motion, split.joints);
+                } else {
+                    self.findings.push(split.refusal.clone());
+                }
+            }
+        }
+        self.program = program;
+    }
+
+    /// Looks at all findings: brings them into the order of the files, takes what the user accepts,
+    /// tells which files are refused. Who adds findings later calls it again.
+    pub fn judge(&mut self, sources: &[Source], accepted: &[Acceptance]) {
+        let of_context = |finding: &Finding| {
+            let mut of = sources.iter().filter(|source| source.name == finding.file);
+            of.next().is_some_and(|source| source.is_context)
+        };
+        if sources.iter().any(|source| source.is_context) {
+            self.findings.retain(|finding| !of_context(finding));
+        }
+        self.findings
+            .retain(|finding| finding.id != "acceptance-unused");
+        let (idle, taken) = accept(&mut self.findings, accepted);
+        // what an earlier look took is no error any more
+        let is_open = |acceptance: &&&Acceptance| {
+            !self
+                .decided
+                .contains(&format!("accepted {}", acceptance.id()))
+        };
+        let idle: Vec<Finding> = idle
+            .iter()
+            .filter(is_open)
+            .map(|acceptance| acceptance.idle(sources.first().map_or("", |source| &source.name)))
+            .collect();
+        self.findings.extend(idle);
+        self.decided
+            .extend(taken.iter().map(|id| format!("accepted {id}")));
+        self.decided.sort_unstable();
+        self.decided.dedup();
+        outcome::sort(sources, &mut self.findings);
+        self.refused = refused::files(&self.program, sources, &self.findings);
+    }
+}
+
+/// What became of all targets.
+struct Rewritten {
+    /// Of each of the program's targets, unless only the summary is asked for.
+    reports: Vec<TargetReport>,
+    /// Of each source.
+    edits: Vec<Edits>,
+    tally: Tally,
+    /// Fake targets that points are derived from.
+    fakes: BTreeMap<usize, Pose>,
+    /// Moves that are to get a target of their own.
+    splits: Vec<Split>,
+    /// Configuration data that change: index in the program's numbers, and the value.
+    meant: Vec<(u32, f64)>,
+}
+
+/// Puts the fake targets into edits, on all processors.
+fn rewrite_all(
+    job: &Job,
+    approaches: &[Approach],
+    outcomes: &[Outcome],
+    findings: &mut Vec<Finding>,
+) -> Rewritten {
+    let fractions = rewrite::fractions(job);
+    let mut groups: Vec<std::ops::Range<usize>> = Vec::with_capacity(approaches.len());
+    let mut from = 0;
+    for at in 1..=approaches.len() {
+        if at == approaches.len() || approaches[at].target != approaches[from].target {
+            groups.push(from..at);
+            from = at;
+        }
+    }
+    if approaches.is_empty() {
+        groups.clear();
+    }
+    let bases = displaced::bases(job);
+    let rewrite = |groups: &[std::ops::Range<usize>]| {
+        let mut portion = Portion::new(&bases);
+        let mut group = Vec::with_capacity(1);
+        for range in groups {
+            group.clear();
+            let solved = |at: usize| Solved::of(job, &approaches[at], &outcomes[at]);
+            group.extend(range.clone().map(solved));
+            portion.add(job, &group, &fractions);
+        }
+        portion
+    };
+    let reported = if job.options.summary_only {
+        0
+    } else {
+        job.ground.program.targets.len()
+    };
+    let mut all = Rewritten {
+        reports: vec![TargetReport::new(None); reported],
+        edits: room_for_edits(job),
+        tally: Tally::new(job),
+        fakes: BTreeMap::new(),
+        splits: Vec::new(),
+        meant: Vec::new(),
+    };
+    let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
+    // a few chunks for each thread at a time: what they return is not in memory twice for a long
+    // program
+    let mut some = chunks.chunks(2 * rayon::current_num_threads());
+    let of = |some: &[&[std::ops::Range<usize>]]| -> Vec<Portion> {
+        some.par_iter().map(|groups| rewrite(groups)).collect()
+    };
+    let mut portions = some.next().map(of);
+    while let Some(done) = portions {
+        // the next are written while these are put together
+        let next = some.next();
+        portions = rayon::join(|| next.map(of), || all.add(job, done, findings)).0;
+    }
+    all
+}
+
+impl Rewritten {
+    /// Adds what was done with some of the targets.
+    fn add(&mut self, job: &Job, portions: Vec<Portion>, findings: &mut Vec<Finding>) {
+        for portion in portions {
+            for (target, report) in portion.reports {
+                self.tally.add(job, target, &report);
+                if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
+                    self.fakes.insert(target, fake);
+                }
+                if let Some(place) = self.reports.get_mut(target) {
+                    *place = report;
+                }
+            }
+            for (source, changes) in &portion.edits {
+                self.edits[*source as usize].append(changes);
+            }
+            findings.extend(portion.findings);
+            self.splits.extend(portion.splits);
+            self.meant.extend(portion.meant);
+        }
+    }
+}
+
+/// For each file an empty list with room for new text in place of all numbers of its targets.
+fn room_for_edits(job: &Job) -> Vec<Edits> {
+    let program = job.ground.program;
+    let mut room = vec![(0, 0); job.ground.sources.len()];
+    for target in &program.targets {
+        let (spans, bytes) = &mut room[target.file as usize];
+        for number in program.numbers_of(target) {
+            *spans += 1;
+            *bytes += usize::from(number.length) + 1;
+        }
+    }
+    room.into_iter()
+        .map(|(spans, bytes)| Edits::with_room(spans, bytes))
+        .collect()
+}

@@ -1,0 +1,602 @@
+//! The controller's path from one target to the next.
+//!
+//! Every path is written over [`Scalar`], so that it gives poses at a parameter s from 0 to 1 and,
+//! with [`Jet`]s, bounds of slope and curvature over whole intervals of s.
+
+use super::arms::Equipped;
+use super::ride::Ride;
+use crate::geometry::{
+    Jet, Pose, Rotation, Scalar, Vector, add, constant, cross, dot, norm, scale, sub,
+};
+use crate::inverse::Branch;
+use crate::model::{Conditions, Model};
+use std::sync::Arc;
+
+/// Angles below this, radians, are no rotation; circles whose three points are as near to a line
+/// are a line.
+const SMALL: f64 = 1e-9;
+/// An interval shorter than this whose bounds are not finite is not halved again.
+const SHORTEST: f64 = 1.0 / 512.0;
+/// Pieces in which a joint with backlash may turn back are not shorter.
+const SHORTEST_TURN: f64 = 1.0 / 256.0;
+/// A joint whose rate is less than this stands, radians per metre.
+pub(super) const STANDSTILL_RAD_M: f64 = 1e-3;
+/// What the search for joints leaves, radians.
+const SLACK_RAD: f64 = 1e-8;
+
+/// How a straight or circular move rotates the tool on its path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum ToolRotation {
+    /// About one axis at a constant rate (quaternion slerp, two-angle method).
+    #[default]
+    Slerp,
+    /// The three angles of `Rz(a) · Ry(b) · Rx(c)` each at a constant rate.
+    Euler,
+}
+
+/// A path of the tool in the world.
+#[derive(Clone, Debug)]
+pub(crate) enum Course {
+    /// Each joint at a constant rate.
+    Joint {
+        /// Joints where it begins, radians.
+        from: [f64; 6],
+        /// Joints where it ends.
+        to: [f64; 6],
+    },
+    /// A straight line or an arc of the tool.
+    Tool(ToolCourse),
+}
+
+/// A straight or circular path of the tool.
+#[derive(Clone, Debug)]
+pub(crate) struct ToolCourse {
+    line: Line,
+    turn: PathRotation,
+    /// It is a line on a part that moves.
+    ride: Option<Arc<Ride>>,
+}
+
+#[derive(Clone, Debug)]
+enum Line {
+    Straight {
+        from: Vector,
+        along: Vector,
+    },
+    Circle {
+        centre: Vector,
+        /// From the centre to where it begins, and a quarter of a turn on.
+        axes: [Vector; 2],
+        angle_rad: f64,
+    },
+}
+
+#[derive(Clone, Debug)]
+enum PathRotation {
+    Axis {
+        from: Rotation,
+        axis: Vector,
+        angle_rad: f64,
+    },
+    Angles {
+        from: [f64; 3],
+        by: [f64; 3],
+    },
+}
+
+impl ToolCourse {
+    /// The straight line, or the arc through a point; on what external axes carry meanwhile where
+    /// they bend it.
+    #[must_use]
+    pub(crate) fn of(
+        from: &Pose,
+        via: Option<&Pose>,
+        to: &Pose,
+        turning: ToolRotation,
+        ride: Option<Arc<Ride>>,
+    ) -> Self {
+        let moves = |ride: &Arc<Ride>| ride.bends() || (via.is_some() && ride.moves());
+        let ride = ride.filter(moves);
+        let on_part = |pose: &Pose, s: f64| match &ride {
+            Some(ride) => ride.home_from_part(s).inverse() * *pose,
+            None => *pose,
+        };
+        let (from, to) = (on_part(from, 0.0), on_part(to, 1.0));
+        let course = match via {
+            // halfway, as far as anybody knows
+            Some(via) => Self::arc(&from, on_part(via, 0.5).translation, &to, turning),
+            None => Self::straight(&from, &to, turning),
+        };
+        Self { ride, ..course }
+    }
+
+    /// The straight line.
+    #[must_use]
+    pub(crate) fn straight(from: &Pose, to: &Pose, turning: ToolRotation) -> Self {
+        Self {
+            line: Line::Straight {
+                from: from.translation,
+                along: sub(to.translation, from.translation),
+            },
+            turn: PathRotation::between(from, to, turning),
+            ride: None,
+        }
+    }
+
+    /// The arc through a point; a straight line where the three are on one.
+    #[must_use]
+    pub(crate) fn arc(from: &Pose, via: Vector, to: &Pose, turning: ToolRotation) -> Self {
+        let start = from.translation;
+        let (u, v) = (sub(via, start), sub(to.translation, start));
+        let normal = cross(u, v);
+        let squared = dot(normal, normal);
+        if squared.sqrt() <= SMALL * norm(u) * norm(v) {
+            return Self::straight(from, to, turning);
+        }
+        // circumcentre of three points, seen from the first
+        let out = sub(
+            scale(dot(u, u), cross(v, normal)),
+            scale(dot(v, v), cross(u, normal)),
+        );
+        let to_centre = scale(0.5 / squared, out);
+        let centre = add(start, to_centre);
+        let first = scale(-1.0, to_centre);
+        let unit = scale(squared.sqrt().recip(), normal);
+        let second = cross(unit, first);
+        let axes = [first, second];
+        // the normal of start, via, end makes via come before the end
+        let angle_rad = angle_on(&axes, sub(to.translation, centre));
+        Self {
+            line: Line::Circle {
+                centre,
+                axes,
+                angle_rad,
+            },
+            turn: PathRotation::between(from, to, turning),
+            ride: None,
+        }
+    }
+
+    /// Length of the tool's way, metres.
+    #[must_use]
+    pub(crate) fn length_m(&self) -> f64 {
+        let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().0);
+        carried
+            + match &self.line {
+                Line::Straight { along, .. } => norm(*along),
+                Line::Circle {
+                    axes, angle_rad, ..
+                } => norm(axes[0]) * angle_rad,
+            }
+    }
+
+    /// By how much the tool turns, or the arc goes round, radians.
+    #[must_use]
+    pub(crate) fn angle_rad(&self) -> f64 {
+        let turned = match &self.turn {
+            PathRotation::Axis { angle_rad, .. } => angle_rad.abs(),
+            PathRotation::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
+        };
+        let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().1);
+        match &self.line {
+            Line::Straight { .. } => turned + carried,
+            Line::Circle { angle_rad, .. } => turned + angle_rad + carried,
+        }
+    }
+
+    /// The part of the path, 0 to 1, at a point that lies on it.
+    #[must_use]
+    pub(super) fn part_at(&self, point: Vector) -> f64 {
+        match &self.line {
+            Line::Straight { from, along } => {
+                let squared = dot(*along, *along);
+                if squared == 0.0 {
+                    return 0.0;
+                }
+                (dot(sub(point, *from), *along) / squared).clamp(0.0, 1.0)
+            }
+            Line::Circle {
+                centre,
+                axes,
+                angle_rad,
+            } => angle_on(axes, sub(point, *centre)) / angle_rad,
+        }
+    }
+
+    /// Whether it is an arc.
+    #[must_use]
+    pub(crate) fn is_arc(&self) -> bool {
+        matches!(self.line, Line::Circle { .. })
+    }
+
+    /// The tool at `s`.
+    #[must_use]
+    pub fn pose<S: Scalar>(&self, s: S) -> Pose<S> {
+        let k = S::constant;
+        let translation = match &self.line {
+            Line::Straight { from, along } => add(constant(*from), scale(s, constant(*along))),
+            Line::Circle {
+                centre,
+                axes,
+                angle_rad,
+            } => {
+                let (sine, cosine) = (k(*angle_rad) * s).sin_cos();
+                let across = add(
+                    scale(cosine, constant(axes[0])),
+                    scale(sine, constant(axes[1])),
+                );
+                add(constant(*centre), across)
+            }
+        };
+        let rotation = match &self.turn {
+            PathRotation::Axis {
+                from,
+                axis,
+                angle_rad,
+            } => {
+                if *angle_rad == 0.0 {
+                    from.cast()
+                } else {
+                    about(axis, k(*angle_rad) * s) * from.cast()
+                }
+            }
+            PathRotation::Angles { from, by } => {
+                let angle = |i: usize| k(from[i]) + k(by[i]) * s;
+                Rotation::about_z(angle(0))
+                    * Rotation::about_y(angle(1))
+                    * Rotation::about_x(angle(2))
+            }
+        };
+        let pose = Pose {
+            rotation,
+            translation,
+        };
+        match &self.ride {
+            None => pose,
+            Some(ride) => ride.home_from_part(s) * pose,
+        }
+    }
+}
+
+/// The angle from the first axis to a direction in the plane of both, 0 to 2 pi.
+fn angle_on(axes: &[Vector; 2], seen: Vector) -> f64 {
+    let angle = dot(seen, axes[1]).atan2(dot(seen, axes[0]));
+    angle.rem_euclid(std::f64::consts::TAU)
+}
+
+/// Rotation about a unit axis (O. Rodrigues).
+fn about<S: Scalar>(axis: &Vector, angle: S) -> Rotation<S> {
+    let (sine, cosine) = angle.sin_cos();
+    let rest = S::one() - cosine;
+    let [x, y, z] = constant::<S>(*axis);
+    Rotation([
+        [
+            cosine + rest * x * x,
+            rest * x * y - sine * z,
+            rest * x * z + sine * y,
+        ],
+        [
+            rest * x * y + sine * z,
+            cosine + rest * y * y,
+            rest * y * z - sine * x,
+        ],
+        [
+            rest * x * z - sine * y,
+            rest * y * z + sine * x,
+            cosine + rest * z * z,
+        ],
+    ])
+}
+
+impl PathRotation {
+    fn between(from: &Pose, to: &Pose, turning: ToolRotation) -> Self {
+        match turning {
+            ToolRotation::Slerp => {
+                let [w, x, y, z] = (to.rotation * from.rotation.transpose()).quaternion().0;
+                let long = norm([x, y, z]);
+                if long < SMALL {
+                    return Self::Axis {
+                        from: from.rotation,
+                        axis: [0.0, 0.0, 1.0],
+                        angle_rad: 0.0,
+                    };
+                }
+                // the shorter way
+                let side = if w < 0.0 { -1.0 } else { 1.0 };
+                Self::Axis {
+                    from: from.rotation,
+                    axis: scale(side / long, [x, y, z]),
+                    angle_rad: 2.0 * long.atan2(w.abs()),
+                }
+            }
+            ToolRotation::Euler => {
+                let (from, to) = (from.rotation.rzryrx(0.0), to.rotation.rzryrx(0.0));
+                let turn = std::f64::consts::TAU;
+                let by = std::array::from_fn(|i| {
+                    let by = to[i] - from[i];
+                    by - turn * (by / turn).round()
+                });
+                Self::Angles { from, by }
+            }
+        }
+    }
+}
+
+/// A move of an arm: the path, and the posture in which it begins.
+pub(crate) struct Leg<'a> {
+    pub equipped: &'a Equipped,
+    pub course: Course,
+    /// The controller's joints where it begins, radians.
+    pub start: [f64; 6],
+    /// The branch of the inverse on which a path of the tool is followed.
+    pub branch: Branch,
+    pub conditions: Conditions,
+    /// What external axes do meanwhile.
+    pub ride: Option<Arc<Ride>>,
+}
+
+/// A part of a move over which the joints' rates are bounded.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    pub from: f64,
+    pub to: f64,
+    /// The controller's joints where it begins, radians.
+    pub start: [f64; 6],
+    /// The controller's joints, in radians, and their derivatives by s.
+    pub joints: [Jet; 6],
+    /// The conditions of the arm in it: from which side joints with backlash come.
+    pub conditions: Conditions,
+    /// The bounds hold everywhere in the piece; else it is near a singularity or the controller
+    /// has a chain of its own.
+    pub certified: bool,
+}
+
+impl Piece {
+    /// Whether the joints' values and rates have bounds that say something.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.joints.iter().all(|joint| {
+            joint.value.radius < 1.0
+                && joint.slope.radius.is_finite()
+                && joint.bend.radius.is_finite()
+        })
+    }
+
+    /// Whether these joints lie within the bounds: with those of both ends in one piece the way
+    /// between them has no leap.
+    pub(crate) fn holds(&self, joints: &[f64; 6]) -> bool {
+        let within =
+            |(jet, q): (&Jet, &f64)| (q - jet.value.middle).abs() <= jet.value.radius + SLACK_RAD;
+        self.joints.iter().zip(joints).all(within)
+    }
+}
+
+impl Leg<'_> {
+    /// The controller's joints at `s`, by whole revolutions nearest to `near`.
+    pub(crate) fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
+        match &self.course {
+            Course::Joint { from, to } => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
+            Course::Tool(course) => {
+                let pose = course.pose(s);
+                match &self.equipped.calibrated_controller {
+                    None => self.equipped.arm.solve_along(&pose, self.branch, near).q,
+                    Some(controller) => controller.solve(&pose, self.branch, near).q,
+                }
+            }
+        }
+    }
+
+    /// How far beyond reach the controller's nominal arm is asked to go at `s`; 0 within.
+    pub(crate) fn beyond(&self, s: f64) -> f64 {
+        match &self.course {
+            Course::Joint { .. } => 0.0,
+            Course::Tool(course) => {
+                let pose = course.pose(s);
+                self.equipped
+                    .arm
+                    .solve_along(&pose, self.branch, &self.start)
+                    .beyond
+            }
+        }
+    }
+
+    /// Where the real arm wants its tool at `s` for the controller's to be at a pose: both at home.
+    pub fn real_from_nominal<S: Scalar>(&self, s: S, pose: Pose<S>) -> Pose<S> {
+        match &self.ride {
+            None => pose,
+            Some(ride) => ride.real_from_nominal(s) * pose,
+        }
+    }
+
+    /// Where the controller, with this model, believes the tool to be.
+    pub(crate) fn controller_pose<S: Scalar>(
+        &self,
+        s: S,
+        joints: &[S; 6],
+        controller: &Model<S>,
+    ) -> Pose<S> {
+        match &self.course {
+            Course::Joint { .. } => controller.forward(joints, &Conditions::default()),
+            Course::Tool(course) => course.pose(s),
+        }
+    }
+
+    /// Bounds of the joints between `from` and `to`, given the joints in the middle.
+    pub(crate) fn enclose(&self, from: f64, to: f64, middle: &[f64; 6]) -> Piece {
+        let s = Jet::variable(from, to);
+        let (joints, certified) = match &self.course {
+            Course::Joint { from, to } => (
+                std::array::from_fn(|i| {
+                    Jet::constant(from[i]) + Jet::constant(to[i] - from[i]) * s
+                }),
+                true,
+            ),
+            Course::Tool(course) => {
+                let half_width = 0.5 * (to - from);
+                let arm = &self.equipped.arm;
+                let enclosed =
+                    arm.enclose(&course.pose(s), half_width, self.branch.signs(), middle);
+                let exact = self.equipped.calibrated_controller.is_none();
+                let joints = if exact {
+                    enclosed
+                } else {
+                    let middle_pose = course.pose(0.5 * (from + to));
+                    let nominal = arm.solve_along(&middle_pose, self.branch, middle).q;
+                    std::array::from_fn(|i| shifted(enclosed[i], middle[i] - nominal[i]))
+                };
+                (joints, exact)
+            }
+        };
+        let mut piece = Piece {
+            from,
+            to,
+            start: *middle,
+            joints,
+            conditions: self.conditions,
+            certified,
+        };
+        piece.certified &= piece.is_bounded();
+        // gravity is taken as it is at the end, and what begins nobody knows where is taken to
+        // stand
+        piece.certified &= self
+            .ride
+            .as_ref()
+            .is_none_or(|ride| ride.is_known() && !(ride.moves() && ride.leans()));
+        piece
+    }
+
+    /// The whole move in pieces whose bounds are tight enough to work with. A piece in which a
+    /// joint with backlash may turn back stands there once for each side from which it may
+    /// come.
+    pub(crate) fn pieces(&self) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        let mut near = self.start;
+        self.split(0.0, 1.0, &mut near, &mut pieces);
+        pieces
+    }
+
+    fn split(&self, from: f64, to: f64, near: &mut [f64; 6], out: &mut Vec<Piece>) {
+        let middle = self.joints(0.5 * (from + to), near);
+        let mut piece = self.enclose(from, to, &middle);
+        let end = self.joints(to, &middle);
+        piece.certified &= piece.holds(near) && piece.holds(&end);
+        piece.start = *near;
+        let long = to - from;
+        let sides = self.sides(&piece);
+        let is_one_sided = sides.iter().all(|sides| sides.len() == 1);
+        let steady = piece.joints.iter().all(|joint| {
+            let change = joint.bend.magnitude() * long;
+            change <= 0.5 * joint.slope.magnitude() + 0.2 && joint.slope.magnitude() * long < 1.0
+        });
+        let exact = self.equipped.calibrated_controller.is_none();
+        let is_fine = steady && (piece.certified || !exact);
+        if (is_fine && (is_one_sided || long <= SHORTEST_TURN)) || long <= SHORTEST {
+            *near = end;
+            each_side(&piece, &sides, out);
+        } else {
+            let half = 0.5 * (from + to);
+            self.split(from, half, near, out);
+            self.split(half, to, near, out);
+        }
+    }
+}
+
+impl Leg<'_> {
+    /// From which sides each joint may come in a piece. A joint that stands keeps the side of the
+    /// move's end.
+    fn sides(&self, piece: &Piece) -> [Vec<f64>; 6] {
+        let Course::Tool(course) = &self.course else {
+            return self.conditions.direction.map(|side| vec![side]);
+        };
+        let stands = STANDSTILL_RAD_M * (course.length_m() + course.angle_rad());
+        std::array::from_fn(|i| {
+            let slope = &piece.joints[i].slope;
+            let (low, high) = (slope.middle - slope.radius, slope.middle + slope.radius);
+            if !self.equipped.has_backlash[i] || (low > -stands && high < stands) {
+                vec![self.conditions.direction[i]]
+            } else if low > 0.0 {
+                vec![1.0]
+            } else if high < 0.0 {
+                vec![-1.0]
+            } else {
+                vec![-1.0, 1.0]
+            }
+        })
+    }
+}
+
+/// The piece with the joints on each of their sides.
+fn each_side(piece: &Piece, sides: &[Vec<f64>; 6], out: &mut Vec<Piece>) {
+    let mut all = vec![[0.0; 6]];
+    for (joint, sides) in sides.iter().enumerate() {
+        all = sides
+            .iter()
+            .flat_map(|side| {
+                let of = |direction: &[f64; 6]| {
+                    let mut direction = *direction;
+                    direction[joint] = *side;
+                    direction
+                };
+                all.iter().map(of).collect::<Vec<_>>()
+            })
+            .collect();
+    }
+    out.extend(all.into_iter().map(|direction| Piece {
+        conditions: Conditions {
+            direction,
+            ..piece.conditions
+        },
+        ..piece.clone()
+    }));
+}
+
+/// Bounds of a joint of a controller whose own chain is calibrated: those of the nominal one,
+/// shifted and widened. Its chain differs by thousandths; the widening is ten times that.
+fn shifted(nominal: Jet, by: f64) -> Jet {
+    let mut joint = nominal + Jet::constant(by);
+    joint.value.radius += 0.5 * by.abs();
+    joint.slope.radius += 0.05 * nominal.slope.magnitude();
+    joint.bend.radius += 0.05 * (nominal.bend.magnitude() + nominal.slope.magnitude());
+    joint
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose(p: [f64; 6]) -> Pose {
+        Pose::from_xyz_rxryrz(p)
+    }
+
+    #[test]
+    fn paths_begin_and_end_at_their_targets_and_arcs_pass_through_their_point() {
+        let (a, b) = (
+            pose([0.1, 0.2, 0.3, 0.1, 0.2, 0.3]),
+            pose([0.5, -0.2, 0.4, 1.1, -0.4, 0.9]),
+        );
+        let via = [0.4, 0.3, 0.2];
+        for turning in [ToolRotation::Slerp, ToolRotation::Euler] {
+            for course in [
+                ToolCourse::straight(&a, &b, turning),
+                ToolCourse::arc(&a, via, &b, turning),
+            ] {
+                for (s, end) in [(0.0, &a), (1.0, &b)] {
+                    let gap = course.pose(s).separation(end);
+                    assert!(gap.distance_m < 1e-12 && gap.angle_rad < 1e-12, "{gap:?}");
+                }
+            }
+        }
+        let arc = ToolCourse::arc(&a, via, &b, ToolRotation::Slerp);
+        let nearest = (0..=100_000)
+            .map(|k| norm(sub(arc.pose(f64::from(k) / 1e5).translation, via)))
+            .fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-5, "{nearest}");
+    }
+
+    #[test]
+    fn three_points_on_a_line_make_a_line() {
+        let (a, b) = (pose([0.0; 6]), pose([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        let arc = ToolCourse::arc(&a, [0.4, 0.0, 0.0], &b, ToolRotation::Slerp);
+        assert!(!arc.is_arc());
+        assert!((arc.length_m() - 1.0).abs() < 1e-12);
+    }
+}

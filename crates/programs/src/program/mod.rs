@@ -1,0 +1,589 @@
+//! Robot programs as bytes, and the targets in them.
+//!
+//! A [`Language`] reads program files into a [`Program`]: which numbers at which bytes make a
+//! target, and which moves drive to it with which tool in which work frame. It never evaluates
+//! kinematics. Writing is the reverse: the new numbers of a target replace the digits at their
+//! spans, in the style of the digits that stood there ([`number`]), and every other byte
+//! stays as it was ([`Edits`]).
+//!
+//! # Example
+//!
+//! ```
+//! use poseshift::motion;
+//! use poseshift::program::{Settings, Source, language_of};
+//!
+//! let text = include_bytes!("../../../../programs/rapid/olp/in/Deburr.mod");
+//! let sources = [Source::new("Deburr.mod", text.to_vec())];
+//! let language = language_of(&sources[0]).expect("a language");
+//! assert_eq!(language.about().id, "rapid");
+//! let program = motion::read(language, &sources, &Settings::default())?;
+//! assert!(program.targets.len() > 10);
+//! # Ok::<(), poseshift::program::ReadError>(())
+//! ```
+
+pub mod csv;
+mod drive;
+mod edit;
+mod error;
+mod external;
+pub mod fanuc;
+pub mod inform;
+mod insert;
+pub mod kawasaki;
+mod kit;
+pub mod krl;
+mod language;
+mod marker;
+mod names;
+mod notation;
+pub mod number;
+pub mod rapid;
+pub mod script;
+mod source;
+pub mod urscript;
+pub mod val3;
+mod words;
+
+pub use drive::Step;
+pub use edit::Edits;
+pub use error::ReadError;
+pub use external::{External, ExternalNames, ExternalState, ExternalUse};
+pub use insert::{Between, Inserted, Insertion, Replacements};
+pub(crate) use kit::check_bytes;
+pub use language::{About, Language};
+pub use marker::{Found, Marker, sha256, sha256_of};
+pub use script::{Instruction, Place, Script};
+pub use source::Source;
+
+use crate::finding::Finding;
+use crate::geometry::{Pose, Vector};
+use std::ops::Range;
+use std::path::Path;
+
+/// Every language there is.
+pub const LANGUAGES: &[&dyn Language] = &[
+    &rapid::Rapid,
+    &krl::Krl,
+    &fanuc::Fanuc,
+    &urscript::UrScript,
+    &inform::Inform,
+    &val3::Val3,
+    &kawasaki::Kawasaki,
+    &csv::Csv,
+];
+
+/// Whether a file's name ends as programs of a language do.
+#[must_use]
+pub fn has_extension(language: &dyn Language, path: &Path) -> bool {
+    let extension = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .map(str::to_ascii_lowercase);
+    extension.is_some_and(|e| language.about().extensions.contains(&e.as_str()))
+}
+
+/// The language of a file: the one whose ending it has and whose content it shows, else the only
+/// one whose content it shows, else the only one whose ending it has.
+#[must_use]
+pub fn language_of(source: &Source) -> Option<&'static dyn Language> {
+    let ends =
+        |language: &&&'static dyn Language| has_extension(**language, Path::new(&source.name));
+    let shows = |language: &&&'static dyn Language| language.recognises(source);
+    let only = |mut found: Box<dyn Iterator<Item = &&'static dyn Language> + '_>| {
+        let first = found.next();
+        first.filter(|_| found.next().is_none()).copied()
+    };
+    let both = LANGUAGES
+        .iter()
+        .filter(ends)
+        .find(|language| shows(language));
+    both.copied()
+        .or_else(|| only(Box::new(LANGUAGES.iter().filter(shows))))
+        .or_else(|| only(Box::new(LANGUAGES.iter().filter(ends))))
+}
+
+/// Which kind of target the numbers are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// A tool pose in a work frame, with or without configuration data.
+    Pose,
+    /// Six joint angles.
+    Joints,
+}
+
+/// Which numbers make a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Layout {
+    /// Pose or joints.
+    pub shape: Shape,
+    /// Which of the language's own forms: with or without configuration data, Euler angles or
+    /// quaternion, degrees or pulses.
+    pub variant: u8,
+}
+
+/// What a language must know besides the files.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Settings {
+    /// External axes that the profile describes.
+    pub external: ExternalNames,
+    /// Where the profile has the base of an arm that stands still.
+    pub world_from_base: Option<Pose>,
+    /// Encoder pulses of one degree of each joint, where programs count in pulses.
+    pub pulses_per_deg: Option<[f64; 6]>,
+    /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
+    pub accept_absolutely_accurate: bool,
+}
+
+/// What one number of a target is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Coordinate of the position.
+    Position,
+    /// Part of the orientation.
+    Orientation,
+    /// Joint angle.
+    Joint,
+    /// Integer that tells which inverse solution is meant.
+    Configuration,
+}
+
+/// What a target asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// `frame_from_tool`, metres.
+    Pose(Pose),
+    /// Controller's joint angles, radians.
+    Joints([f64; 6]),
+}
+
+/// A target's numbers, understood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decoded {
+    /// The pose or the joints.
+    pub value: Value,
+    /// What the configuration data say about the joints.
+    pub configuration: Configuration,
+}
+
+/// Which inverse solutions a target's configuration data allow. `None` is: they do not say.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Configuration {
+    /// The wrist centre lies behind axis 1.
+    pub behind_axis_1: Option<bool>,
+    /// The wrist centre lies behind the lower arm.
+    pub behind_lower_arm: Option<bool>,
+    /// Joint 5 is negative.
+    pub joint_5_negative: Option<bool>,
+    /// The range `[low, high)` of each of the controller's joint angles, radians.
+    pub joints: [Option<(f64, f64)>; 6],
+    /// Which of the three sides above, in their order, are those of the posture before where they
+    /// are not stated.
+    pub kept: [bool; 3],
+    /// Many files leave the sides at zero: where no solution has them, the ranges count alone.
+    pub ranges_suffice: bool,
+}
+
+/// What configuration data are computed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture {
+    /// Controller's joint angles, radians.
+    pub joints_rad: [f64; 6],
+    /// The wrist centre lies behind axis 1: its x is negative in the frame that turns with axis 1.
+    pub behind_axis_1: bool,
+    /// The wrist centre lies behind the lower arm.
+    pub behind_lower_arm: bool,
+}
+
+/// A number at its place in a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// First byte of its field: the sign or first digit, or the blanks before it where the column
+    /// is kept.
+    pub start: u32,
+    /// Bytes of the field; 0 where the text leaves the number out, which then is 0 and would stand
+    /// there.
+    pub length: u16,
+    /// Its value in the file's unit.
+    pub value: f64,
+}
+
+impl Number {
+    /// Its text; `0` where the file leaves it out.
+    #[must_use]
+    pub fn text<'a>(&self, bytes: &'a [u8]) -> &'a [u8] {
+        let start = self.start as usize;
+        match self.length {
+            0 => b"0",
+            length => &bytes[start..start + usize::from(length)],
+        }
+    }
+}
+
+/// Index of a target in [`Program::targets`].
+pub type TargetId = usize;
+/// Index of a tool in [`Program::tools`].
+pub type ToolId = usize;
+/// Index of a work frame in [`Program::frames`].
+pub type FrameId = usize;
+
+/// One target and where its numbers stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its name in the program, such as `p10` or `P[3]`; none where it stands inside a move.
+    pub name: Option<Box<str>>,
+    /// Index of its file in the sources.
+    pub file: u32,
+    /// First byte of the whole target.
+    pub offset: u32,
+    /// Behind its last byte.
+    pub end: u32,
+    /// Which numbers it has.
+    pub layout: Layout,
+    /// Its numbers in [`Program::numbers`], in the order of [`Language::roles`]. None where it is
+    /// blocked because it has no numbers of its own.
+    pub numbers: Range<u32>,
+    /// It must stay as it is; a finding says why.
+    pub blocked: bool,
+}
+
+/// How the controller goes to a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Motion {
+    /// Joints interpolated.
+    Joint,
+    /// Straight line of the tool.
+    Linear,
+    /// A curve through successive points, whose shape the controller alone knows: taken as straight
+    /// from point to point.
+    Spline,
+    /// The point an arc passes through.
+    ArcVia,
+    /// The end of an arc.
+    ArcEnd,
+}
+
+/// What is added to a target before the robot goes there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Displacement {
+    /// Nothing: the robot goes to the target.
+    None,
+    /// A motion that the text tells.
+    By(Box<Shift>),
+    /// Something that only the running program knows.
+    Unknown,
+    /// The running program puts numbers of its own in the place of some of a copy's: these lose
+    /// their correction.
+    Overwritten,
+}
+
+/// `shifted frame_from_tool = in_frame · frame_from_tool · in_tool`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shift {
+    /// A motion in the work frame (RAPID `Offs`).
+    pub in_frame: Pose,
+    /// A motion in the tool frame (RAPID `RelTool`).
+    pub in_tool: Pose,
+}
+
+impl Shift {
+    /// A translation in the work frame alone, metres.
+    #[must_use]
+    pub fn along([x, y, z]: Vector) -> Self {
+        Self {
+            in_frame: Pose::from_translation(x, y, z),
+            in_tool: Pose::identity(),
+        }
+    }
+
+    /// `frame_from_tool`, shifted.
+    #[must_use]
+    pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
+        self.in_frame * *frame_from_tool * self.in_tool
+    }
+}
+
+/// How fast a move is, and how far from its target the next one may begin, where the program tells.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct SpeedZone {
+    /// Programmed speed of the tool, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Radius of the corner, metres; 0 where the robot stops.
+    pub zone_m: Option<f64>,
+    /// The robot cuts the corner, by how much the text does not tell.
+    pub blends: bool,
+}
+
+impl SpeedZone {
+    /// Whether the robot may pass its target by.
+    #[must_use]
+    pub fn cuts_corner(&self) -> bool {
+        self.blends || self.zone_m.is_some_and(|zone| zone > 0.0)
+    }
+}
+
+/// One use of a target by a move instruction with one tool in one work frame, in the order of the
+/// text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// Index of the file in the sources.
+    pub file: u32,
+    /// First byte of the instruction.
+    pub offset: u32,
+    /// How the robot gets there.
+    pub motion: Motion,
+    /// Where to; `None` where only the running program knows, or nobody does.
+    pub target: Option<TargetId>,
+    /// With which tool.
+    pub tool: ToolId,
+    /// In which work frame.
+    pub frame: FrameId,
+    /// Added to the target.
+    pub displacement: Displacement,
+    /// The controller honours the target's configuration data in this move.
+    pub configured: bool,
+    /// On the way the orientation is free: only the end counts.
+    pub free_orientation: bool,
+    /// Index in [`Program::instructions`].
+    pub instruction: u32,
+    /// The moves that may come before it, see [`Program::before`].
+    pub before: Before,
+    /// Where its tool is written, where that is not its declaration.
+    pub tool_written: Option<Place>,
+    /// Likewise its work frame.
+    pub frame_written: Option<Place>,
+    /// What is done to external axes besides the target: from 1 an index in
+    /// [`Program::external_states`], 0 is nothing.
+    pub external_state: u32,
+}
+
+impl Default for Move {
+    /// A joint move to nowhere.
+    fn default() -> Self {
+        Self {
+            file: 0,
+            offset: 0,
+            motion: Motion::Joint,
+            target: None,
+            tool: 0,
+            frame: 0,
+            displacement: Displacement::None,
+            configured: false,
+            free_orientation: false,
+            instruction: 0,
+            before: Before::Start,
+            tool_written: None,
+            frame_written: None,
+            external_state: 0,
+        }
+    }
+}
+
+/// The moves that may come before a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Before {
+    /// None: the program starts with it.
+    #[default]
+    Start,
+    /// Any, or ones that are not known.
+    Anywhere,
+    /// One, by its index in [`Program::moves`].
+    One(u32),
+    /// Several, by index in [`Program::befores`].
+    Several(u32),
+}
+
+/// A tool that moves name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// Its name in the program.
+    pub name: String,
+    /// Where its tip is; `None` where the files do not tell.
+    pub flange_from_tool: Option<Pose>,
+    /// Its load where the files give one.
+    pub load: Option<Load>,
+}
+
+/// The mass a flange carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Centre of gravity in the flange frame, metres.
+    pub cog_m: Vector,
+}
+
+/// A work frame that moves name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Its name in the program.
+    pub name: String,
+    /// Where it is; `None` where the files do not tell. On a mechanical unit, where it is on that.
+    pub world_from_frame: Option<Pose>,
+    /// The mechanical unit that carries it, by all its names; none where it stands still.
+    pub on: Box<[Box<str>]>,
+    /// Where external axes stand at the moves that have it, as far as the profile knows any.
+    pub stand: Option<Stand>,
+}
+
+/// [`Frame::on`] of a frame that rides on the axes of the robot's own base.
+pub const BASE_UNIT: &str = "the base";
+
+impl Frame {
+    /// Whether a mechanical unit besides the robot's own base carries it.
+    #[must_use]
+    pub fn is_carried(&self) -> bool {
+        self.on.first().is_some_and(|unit| **unit != *BASE_UNIT)
+    }
+}
+
+/// Where external axes stand at a move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stand {
+    /// By index in [`ExternalNames::listed`], metres and radians; those that no pose of the move
+    /// depends on are not a number.
+    pub values: Box<[f64]>,
+    /// Direction in which each moves there: −1, +1, or 0 where it is unknown.
+    pub directions: Box<[f64]>,
+    /// Index of the positioner that carries the frame.
+    pub positioner: Option<usize>,
+    /// The frame rides on the base.
+    pub on_base: bool,
+    /// It is the frame of moves to joints: the world, seen from what carries the work piece.
+    pub of_joints: bool,
+}
+
+/// What program files hold.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Program {
+    /// All targets with numbers in the files, by file and place.
+    pub targets: Vec<Target>,
+    /// The numbers of all targets.
+    pub numbers: Vec<Number>,
+    /// The moves to them, by file and place.
+    pub moves: Vec<Move>,
+    /// Tools as moves use them; one name may stand for several values.
+    pub tools: Vec<Tool>,
+    /// Work frames as moves use them.
+    pub frames: Vec<Frame>,
+    /// What moves say, with the bytes where they say it.
+    pub instructions: Vec<Instruction>,
+    /// Speeds and corners by [`Instruction::modal`].
+    pub speed_zones: Vec<SpeedZone>,
+    /// Moves that come before others where there are several.
+    pub befores: Vec<Box<[Before]>>,
+    /// Where targets say that external axes stand, by target.
+    pub externals: Vec<(TargetId, External)>,
+    /// Likewise moves, by [`Move::instruction`]: they go before their targets.
+    pub externals_of_moves: Vec<(u32, External)>,
+    /// What moves add to where their targets say that external axes stand, by
+    /// [`Move::instruction`].
+    pub external_shifts: Vec<(u32, External)>,
+    /// What programs do to external axes besides their targets.
+    pub external_states: Vec<ExternalState>,
+    /// Where each listed external axis stands at the end of each move, see
+    /// [`Program::stands_at`].
+    pub stands: Vec<Option<f64>>,
+    /// What the reader saw that a person should look at.
+    pub findings: Vec<Finding>,
+}
+
+impl Target {
+    /// Its bytes in its file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.offset as usize..self.end as usize
+    }
+}
+
+impl Program {
+    /// Whether only external axes go, and the arm stands.
+    pub fn is_arm_still(&self, motion: &Move) -> bool {
+        let instruction = &self.instructions[motion.instruction as usize];
+        let own = &self.externals_of_moves;
+        motion.target.is_none()
+            && instruction.target == script::Expr::Absent
+            && (own.binary_search_by_key(&motion.instruction, |(at, _)| *at)).is_ok()
+    }
+
+    /// Where each listed external axis stands at the end of a move, metres and radians, where that
+    /// is known; empty where none is listed.
+    pub fn stands_at(&self, motion: usize) -> &[Option<f64>] {
+        let count = self.stands.len() / self.moves.len().max(1);
+        &self.stands[motion * count..(motion + 1) * count]
+    }
+
+    /// How fast a move is, and with which corner.
+    pub fn speed_zone(&self, motion: &Move) -> SpeedZone {
+        let instruction = &self.instructions[motion.instruction as usize];
+        self.speed_zones[instruction.modal as usize]
+    }
+
+    /// The joints, radians, that the controller's inverse starts from where the move names them.
+    pub fn near(&self, motion: &Move) -> Option<&[f64; 6]> {
+        let text = &self.instructions[motion.instruction as usize];
+        text.near.as_deref()
+    }
+
+    /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or
+    /// [`Before::One`].
+    pub fn before<'a>(&'a self, motion: &'a Move) -> &'a [Before] {
+        match motion.before {
+            Before::Several(at) => &self.befores[at as usize],
+            _ => std::slice::from_ref(&motion.before),
+        }
+    }
+
+    /// Gives back the memory that lists of unknown length took too much.
+    pub fn shrink_to_fit(&mut self) {
+        self.targets.shrink_to_fit();
+        self.numbers.shrink_to_fit();
+        self.moves.shrink_to_fit();
+    }
+
+    /// The target of a move.
+    #[must_use]
+    pub fn target_of(&self, motion: &Move) -> Option<&Target> {
+        motion.target.map(|target| &self.targets[target])
+    }
+
+    /// Whether a move goes to a pose with numbers in the files.
+    #[must_use]
+    pub fn goes_to_pose(&self, motion: &Move) -> bool {
+        self.target_of(motion)
+            .is_some_and(|target| target.layout.shape == Shape::Pose)
+    }
+
+    /// The numbers of one target.
+    #[must_use]
+    pub fn numbers_of(&self, target: &Target) -> &[Number] {
+        &self.numbers[target.numbers.start as usize..target.numbers.end as usize]
+    }
+}
+
+/// What the numbers of a target mean; a blocked target may have none.
+#[must_use]
+pub fn meaning(
+    language: &dyn Language,
+    program: &Program,
+    settings: &Settings,
+    target: TargetId,
+) -> Option<Decoded> {
+    let target = &program.targets[target];
+    let numbers = program.numbers_of(target);
+    // a target has few, and this is asked often
+    let mut few = [0.0; FEW_NUMBERS];
+    let many: Vec<f64>;
+    let values = if let Some(values) = few.get_mut(..numbers.len()) {
+        for (value, number) in values.iter_mut().zip(numbers) {
+            *value = number.value;
+        }
+        &*values
+    } else {
+        many = numbers.iter().map(|number| number.value).collect();
+        &many
+    };
+    (!values.is_empty()).then(|| language.decode(target.layout, values, settings))
+}
+
+/// As many numbers as a target mostly has.
+const FEW_NUMBERS: usize = 24;
