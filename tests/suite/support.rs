@@ -183,6 +183,27 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
+/// The source files of the program and of its crates: place below `src`, text.
+pub fn sources() -> Vec<(PathBuf, String)> {
+    let crates = repository("crates");
+    let mut folders: Vec<PathBuf> = std::fs::read_dir(&crates)
+        .expect("the crates")
+        .map(|entry| entry.expect("a crate").path().join("src"))
+        .collect();
+    folders.push(repository("src"));
+    folders.sort();
+    let of_folder = |folder: PathBuf| {
+        files_below(&folder)
+            .into_iter()
+            .filter(|file| file.extension().is_some_and(|ending| ending == "rs"))
+            .map(move |file| {
+                let text = std::fs::read_to_string(folder.join(&file)).expect("source");
+                (file, text)
+            })
+    };
+    folders.into_iter().flat_map(of_folder).collect()
+}
+
 /// Runs the program at the top of the repository: status, standard output, standard error.
 pub fn run(arguments: &[&str]) -> (i32, String, String) {
     let output = poseshift()

@@ -1,6 +1,6 @@
 //! The direction in which the modules use each other.
 
-use crate::support::{files_below, repository};
+use crate::support::{files_below, repository, sources};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path};
 
@@ -135,9 +135,8 @@ fn modules_use_each_other_in_one_direction() {
         .iter()
         .map(|(name, uses)| (*name, uses.iter().copied().collect()))
         .collect();
-    let source = repository("src");
     let mut seen = 0;
-    for file in files_below(&source) {
+    for (file, text) in sources() {
         let first = file.components().next().expect("a path");
         let Component::Normal(top) = first else {
             panic!("{}", file.display())
@@ -152,7 +151,6 @@ fn modules_use_each_other_in_one_direction() {
         let may = allowed
             .get(top)
             .unwrap_or_else(|| panic!("{} is in no module of the list", file.display()));
-        let text = std::fs::read_to_string(source.join(&file)).expect("source");
         for used in used_by(&text)
             .into_iter()
             .filter(|used| used != top && !used.is_empty() && !is_test)
@@ -168,14 +166,12 @@ fn modules_use_each_other_in_one_direction() {
     assert!(seen > 20, "{seen} uses seen");
 }
 
-/// The code of the files of a folder below `src`, tests in them left out.
+/// The code of the files of a folder of the sources, tests in them left out.
 fn code_of(folder: &str) -> Vec<(String, String)> {
-    let top = repository("src").join(folder);
-    files_below(&top)
-        .iter()
-        .filter(|file| file.extension().is_some_and(|e| e == "rs"))
-        .map(|file| {
-            let text = std::fs::read_to_string(top.join(file)).expect("source");
+    sources()
+        .into_iter()
+        .filter_map(|(file, text)| Some((file.strip_prefix(folder).ok()?.to_owned(), text)))
+        .map(|(file, text)| {
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
             let code: Vec<&str> = code
                 .lines()
@@ -266,7 +262,7 @@ const NAMED: [(&str, &str); 3] = [
 
 #[test]
 fn only_its_own_file_names_an_effect() {
-    let registry = crate::support::text("src/model/effects/mod.rs");
+    let registry = crate::support::text("crates/kinematics/src/model/effects/mod.rs");
     let list = registry.split("registry! {").nth(1).expect("the list");
     let list = list.split('}').next().expect("its end");
     let kinds: Vec<&str> = (list.split(','))

@@ -65,7 +65,7 @@ fn documents_and_what_is_printed_have_the_words_of_the_field() {
         ("src/report", ".rs", '"'),
         ("src/cli", ".rs", '"'),
         ("src/task", ".rs", '"'),
-        ("src/finding", ".rs", '"'),
+        ("crates/programs/src/finding", ".rs", '"'),
     ] {
         for path in files_below(&repository(folder)) {
             let name = format!("{folder}/{}", path.display());
@@ -90,7 +90,7 @@ fn documents_and_what_is_printed_have_the_words_of_the_field() {
 fn comments_and_names_have_the_words_of_the_field() {
     let mut wrong = Vec::new();
     let mut lines = 0;
-    for folder in ["src", "tests", "examples", "benches"] {
+    for folder in ["src", "crates", "tests", "examples", "benches"] {
         for path in files_below(&repository(folder)) {
             let name = format!("{folder}/{}", path.display());
             let is_rust = path.extension().is_some_and(|ending| ending == "rs");

@@ -1,6 +1,6 @@
 //! The table of findings: one for all, and the same as what modules say of themselves.
 
-use crate::support::{files_below, repository, run};
+use crate::support::{run, sources};
 use poseshift::finding::{TABLE, kind};
 use poseshift::program::LANGUAGES;
 use serde_json::Value;
@@ -8,13 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Every text of the source that is in quotes, the table itself left out.
 fn quoted() -> BTreeSet<String> {
-    let source = repository("src");
     let mut words = BTreeSet::new();
-    for file in files_below(&source) {
-        if file.extension().is_none_or(|e| e != "rs") || file.starts_with("finding") {
+    for (file, text) in sources() {
+        if file.starts_with("finding") {
             continue;
         }
-        let text = std::fs::read_to_string(source.join(file)).expect("source");
         words.extend(text.split('"').map(str::to_owned));
     }
     words
@@ -51,21 +49,16 @@ fn code(text: &str) -> String {
 fn the_languages_of_a_finding_are_the_folders_that_find_it() {
     let languages: Vec<&str> = LANGUAGES.iter().map(|l| l.about().id).collect();
     let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    let source = repository("src");
-    for file in files_below(&source) {
+    for (file, text) in sources() {
         let name = file.to_string_lossy().into_owned();
-        if file.extension().is_none_or(|e| e != "rs")
-            || name.starts_with("finding")
-            || name.contains("/tests")
-        {
+        if name.starts_with("finding") || name.contains("/tests") {
             continue;
         }
         let folder = name
             .strip_prefix("program/")
             .and_then(|name| name.split('/').next());
         let language = folder.and_then(|folder| languages.iter().find(|l| **l == folder));
-        let text = code(&std::fs::read_to_string(source.join(&file)).expect("source"));
-        for word in text.split('"').skip(1).step_by(2) {
+        for word in code(&text).split('"').skip(1).step_by(2) {
             if let Some(kind) = kind(word).filter(|kind| kind.id == word) {
                 // what is found outside the folders is found in all languages
                 found
@@ -135,13 +128,11 @@ fn is_id(text: &str) -> bool {
 
 #[test]
 fn what_the_source_finds_is_in_the_table() {
-    let source = repository("src");
     let mut seen = BTreeSet::new();
-    for file in files_below(&source) {
-        if file.extension().is_none_or(|e| e != "rs") || file.starts_with("finding") {
+    for (file, text) in sources() {
+        if file.starts_with("finding") {
             continue;
         }
-        let text = std::fs::read_to_string(source.join(&file)).expect("source");
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let lines: Vec<&str> = code.lines().collect();
         for (n, line) in lines.iter().enumerate() {

@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::geometry::Pose;
+//! use poseshift_kinematics::geometry::Pose;
 //!
 //! let world_from_base = Pose::<f64>::from_xyz_rxryrz([1.0, 0.0, 0.5, 0.0, 0.0, 0.3]);
 //! let base_from_tool = Pose::from_translation(0.4, 0.1, 0.2);

@@ -8,7 +8,7 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::model::{Conditions, profile::{Mounted, Profile}};
+//! use poseshift_kinematics::model::{Conditions, profile::{Mounted, Profile}};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
 //! let (tool, conditions) = (Mounted::flange(), Conditions::default());
@@ -16,7 +16,7 @@
 //! let nominal = profile.controller_model(&tool).forward(&q, &conditions);
 //! let real = profile.real_model(&tool, &conditions).forward(&q, &conditions);
 //! assert!(real.separation(&nominal).distance_m > 1e-4);
-//! # Ok::<(), poseshift::model::profile::ProfileError>(())
+//! # Ok::<(), poseshift_kinematics::model::profile::ProfileError>(())
 //! ```
 
 pub mod batch;

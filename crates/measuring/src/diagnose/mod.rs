@@ -17,9 +17,9 @@
 //! A robot whose joint 3 has backlash that its profile does not know, measured at 80 postures:
 //!
 //! ```
-//! use poseshift::diagnose::{Options, Verdict, diagnose};
-//! use poseshift::identify::measurements::Measurements;
-//! use poseshift::model::{Conditions, profile::Profile};
+//! use poseshift_measuring::diagnose::{Options, Verdict, diagnose};
+//! use poseshift_measuring::identify::measurements::Measurements;
+//! use poseshift_kinematics::model::{Conditions, profile::Profile};
 //!
 //! let text = include_str!("../../../../robots/abb_irb120_thesis.yaml");
 //! let profile = Profile::from_yaml(text)?;

@@ -13,7 +13,7 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::register::kabsch::kabsch;
+//! use poseshift_measuring::register::kabsch::kabsch;
 //!
 //! let simulated = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]];
 //! let measured = simulated.map(|[x, y, z]| [x + 0.001, y, z - 0.002]);

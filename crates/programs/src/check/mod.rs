@@ -15,9 +15,9 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::check::{Options, Scene, Subject, check};
-//! use poseshift::model::profile::Profile;
-//! use poseshift::program::{Source, language_of};
+//! use poseshift_programs::check::{Options, Scene, Subject, check};
+//! use poseshift_kinematics::model::profile::Profile;
+//! use poseshift_programs::program::{Source, language_of};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
 //! let text = include_bytes!("../../../../programs/rapid/olp/in/Deburr.mod");

@@ -3,7 +3,7 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::finding::{Acceptance, kind};
+//! use poseshift_programs::finding::{Acceptance, kind};
 //!
 //! let shared = kind("target-shared").expect("a finding of the table");
 //! println!("{}: {}", shared.meaning, shared.remedy);

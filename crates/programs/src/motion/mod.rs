@@ -10,8 +10,8 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::motion;
-//! use poseshift::program::{Before, Settings, Source, language_of};
+//! use poseshift_programs::motion;
+//! use poseshift_programs::program::{Before, Settings, Source, language_of};
 //!
 //! let text = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}\nsub()\nEND\n\
 //!     DEF sub()\nLIN {X 500,Y 0,Z 600,A 0,B 90,C 0}\nEND\n";
@@ -20,7 +20,7 @@
 //! let program = motion::read(language, &sources, &Settings::default())?;
 //! // the line in the routine begins where the move before its call ends
 //! assert_eq!(program.before(&program.moves[1]), [Before::One(0)]);
-//! # Ok::<(), poseshift::program::ReadError>(())
+//! # Ok::<(), poseshift_programs::program::ReadError>(())
 //! ```
 
 pub(crate) mod arms;

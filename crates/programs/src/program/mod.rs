@@ -9,8 +9,8 @@
 //! # Example
 //!
 //! ```
-//! use poseshift::motion;
-//! use poseshift::program::{Settings, Source, language_of};
+//! use poseshift_programs::motion;
+//! use poseshift_programs::program::{Settings, Source, language_of};
 //!
 //! let text = include_bytes!("../../../../programs/rapid/olp/in/Deburr.mod");
 //! let sources = [Source::new("Deburr.mod", text.to_vec())];
@@ -18,7 +18,7 @@
 //! assert_eq!(language.about().id, "rapid");
 //! let program = motion::read(language, &sources, &Settings::default())?;
 //! assert!(program.targets.len() > 10);
-//! # Ok::<(), poseshift::program::ReadError>(())
+//! # Ok::<(), poseshift_programs::program::ReadError>(())
 //! ```
 
 pub mod csv;

@@ -324,6 +324,7 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// This fault at a place of the file.
     pub fn at(self, location: Location) -> ProfileError {
         let span = location.span();
         let bytes = span.byte_offset().zip(span.byte_len());

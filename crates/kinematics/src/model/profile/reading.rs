@@ -395,6 +395,10 @@ pub fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
     Ok(())
 }
 
+/// The pose that six numbers, or three and a quaternion, of a file describe: metres.
+///
+/// # Errors
+/// Neither form is whole, both are given, or a number is none of a pose; at the place of the pose.
 pub fn pose(file: &Spanned<PoseFile>) -> Result<Pose, ProfileError> {
     let p = &file.value;
     let translation = metres([p.x_mm, p.y_mm, p.z_mm]);

@@ -116,19 +116,31 @@ pub struct PlaneFile {
     pub offset_mm: Number,
 }
 
-/// The keys of one entry that make its shape.
+/// The keys of one entry that make its shape; one of them says what it is.
 pub struct Keys<'a> {
+    /// All points within a radius of a segment.
     pub capsule: Option<&'a CapsuleFile>,
+    /// Full edge lengths of a box about the origin, mm.
     pub size: Option<&'a [Number; 3]>,
+    /// A ball about the origin.
     pub sphere: Option<&'a SphereFile>,
+    /// A cylinder about z, centred on the origin.
     pub cylinder: Option<&'a CylinderFile>,
+    /// All below a plane.
     pub plane: Option<&'a PlaneFile>,
+    /// The name of a mesh file.
     pub mesh: Option<&'a String>,
+    /// Millimetres of one unit of the mesh file.
     pub scale: Option<Number>,
+    /// Where the shape is in its frame.
     pub at: Option<&'a Spanned<PoseFile>>,
 }
 
 impl Keys<'_> {
+    /// The shape that these keys describe.
+    ///
+    /// # Errors
+    /// None of the keys, several, or a number that is no size; at the key, or at `place`.
     pub fn shape(self, place: Location) -> Result<Shape, ProfileError> {
         let length = |key: &'static str, number: Number| {
             if number.0 > 0.0 {
