@@ -325,7 +325,9 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 none.then(|| need.describe().to_owned())
             }
             Need::Places => {
-                let others = rows.iter().any(|r| r.observed.point_m().is_none());
+                let others = rows
+                    .iter()
+                    .any(|r| matches!(r.observed, Observed::Contact(_)));
                 others.then(|| need.describe().to_owned())
             }
         };
@@ -336,7 +338,8 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
     None
 }
 
-fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
+/// The parameter of an effect that stands at this place of an estimate.
+pub(crate) fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
     let definition = &at.definition().parameters[number];
     Parameter {
         key: String::new(),
