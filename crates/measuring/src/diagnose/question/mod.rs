@@ -265,7 +265,10 @@ pub fn session(
         .collect();
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
-    let candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let mut candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let own = (&columns[..], &shares[..]);
+    let normal = Normal::of((&layout, &used), &residual, own, LEAST);
+    candidates.say_absorbed(&normal, &estimate.effects);
     let repeats = if problem.sigma_assumed {
         of_repeats(&problem, &layout, &residual, &used)
     } else {
