@@ -167,7 +167,7 @@ impl Device {
         let Some(known) = &self.known else {
             return Vec::new();
         };
-        let gram = without(free, columns);
+        let (gram, _) = without(free, columns);
         let Some(factor) = (known + &gram).cholesky() else {
             return Vec::new();
         };
@@ -195,16 +195,17 @@ impl Device {
     }
 }
 
-/// The Gram matrix of columns when others that are free have taken their part.
-fn without(free: &[Column], columns: &[Column]) -> DMatrix<f64> {
+/// The Gram matrix of columns when others that are free have taken their part, and how many of those
+/// are not redundant.
+fn without(free: &[Column], columns: &[Column]) -> (DMatrix<f64>, usize) {
     let numbers = columns.first().map_or(0, Vec::len);
     let (layout, used) = (Layout::of_counts([numbers]), [true]);
     let (nothing, shares) = (vec![0.0; numbers], vec![1.0; free.len()]);
     let fit = Normal::of((&layout, &used), &nothing, (free, &shares), 0.0).plain();
     let partial: Vec<Column> = columns.iter().map(|c| fit.partial(free, c)).collect();
-    DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-        dot(&partial[i], &partial[j])
-    })
+    let gram = |i: usize, j: usize| dot(&partial[i], &partial[j]);
+    let count = columns.len();
+    (DMatrix::from_fn(count, count, gram), fit.shares.len())
 }
 
 fn base_frame(estimate: &Estimate) -> Effect {
@@ -230,12 +231,13 @@ fn information(problem: &Problem, estimate: &Estimate, absorbed: bool) -> DMatri
     let both = problem.parameters.iter().zip(columns);
     let others = both.filter(|(parameter, _)| fitted(parameter.subject));
     let others: Vec<Column> = others.map(|(_, column)| column).collect();
-    let freedom = residual.len().saturating_sub(others.len() + PLACE).max(1);
+    let (gram, fitted) = without(&others, &own);
+    let freedom = residual.len().saturating_sub(fitted + PLACE).max(1);
     let mut variance = dot(&residual, &residual) / freedom as f64;
     if !problem.sigma_assumed {
         variance = variance.max(1.0);
     }
-    without(&others, &own) / variance.max(LEAST)
+    gram / variance.max(LEAST)
 }
 
 /// The rows of one positioner.

@@ -124,7 +124,7 @@ impl Summed {
             let each = |c: &Column| others.iter().map(|o| with(c, o, first)).collect();
             columns.iter().map(each).collect()
         };
-        let own = fitted.iter().map(|c| weighted(c));
+        let own = fitted.iter().map(weighted);
         let own: Vec<Column> = own.collect();
         Self {
             fitted: all(&slices(&own), numbers.start),
