@@ -4,7 +4,7 @@ use super::{Group, NOISE_MM, normal};
 use crate::physics::matrix::M4;
 use poseshift::geometry::{Pose, Quaternion, Rotation};
 use poseshift::model::Conditions;
-use poseshift::model::effects::{Effect, Need};
+use poseshift::model::effects::{Effect, Kind, Need};
 use rand::RngExt;
 use rand::rngs::StdRng;
 
@@ -98,6 +98,14 @@ impl Device {
         self.reads == Reads::Positions
     }
 
+    /// Effects that move what it reads: a device of lengths that are wrong reads other lengths from
+    /// its posts, and no other place.
+    pub fn moving(&self, hidden: &[Effect]) -> Vec<Effect> {
+        let is_read =
+            |e: &&Effect| self.reads != Reads::Distances || e.kind != Kind::MeasurementScale;
+        hidden.iter().filter(is_read).cloned().collect()
+    }
+
     /// The table of what it reads where the tool stands so, and the length of each position's noise
     /// in mm.
     pub fn table(
@@ -135,12 +143,14 @@ impl Device {
         );
         let mut text = header.join(",") + "\n";
         let mut noise = Vec::new();
+        let scales = hidden.iter().filter(|e| e.kind == Kind::MeasurementScale);
+        let longer = 1.0 + scales.map(|e| e.parameters[0]).sum::<f64>();
         for (r, pose) in seen.iter().enumerate() {
             let mut cells: Vec<String> = q[r]
                 .iter()
                 .map(|a| format!("{:.9}", a.to_degrees()))
                 .collect();
-            let (read, length) = self.read(r, pose, random);
+            let (read, length) = self.read(r, pose, longer, random);
             noise.push(length);
             cells.extend(read);
             let c = &conditions[r];
@@ -161,8 +171,8 @@ impl Device {
         (text, noise)
     }
 
-    /// The cells of one row, and the length of its noise in mm.
-    fn read(&self, row: usize, pose: &M4, random: &mut StdRng) -> (Vec<String>, f64) {
+    /// The cells of one row, and the length of its noise in mm; distances are so many times `longer`.
+    fn read(&self, row: usize, pose: &M4, longer: f64, random: &mut StdRng) -> (Vec<String>, f64) {
         let reflector = match self.reads {
             Reads::Reflectors => REFLECTORS[row % REFLECTORS.len()],
             _ => [0.0; 3],
@@ -189,7 +199,7 @@ impl Device {
             let from = POSTS[row % POSTS.len()].map(|m| 1e3 * m);
             let length = (0..3).map(|k| (p[k] - from[k]).powi(2)).sum::<f64>().sqrt();
             let error = NOISE_MM * normal(random);
-            let mut cells = vec![mm(length + error)];
+            let mut cells = vec![mm(longer * length + error)];
             cells.extend(from.map(mm));
             return (cells, error.abs());
         }

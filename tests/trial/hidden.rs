@@ -116,11 +116,14 @@ pub fn scaled(effect: &Effect, by: f64) -> Effect {
 
 /// Kinds that may be hidden: all, but those that are fitted anew where the start is a drawing.
 pub fn kinds(start: Start) -> Vec<Kind> {
+    // what frames, geometry and compliance that are fitted along do: the length of every link with
+    // that of the device, too
     let absorbed = [
         Kind::BaseFrame,
         Kind::ToolFrame,
         Kind::LinkGeometry,
         Kind::JointCompliance,
+        Kind::MeasurementScale,
     ];
     of_arm()
         .filter(|k| start != Start::Nominal || !absorbed.contains(k))

@@ -277,7 +277,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
         ));
         (*name).clone_into(&mut what);
     }
-    let seen = see(&effects, &more);
+    let seen = see(&device.moving(&effects), &more);
     let (text, noise) = device.table(&q, &seen, &conditions, &effects, &mut random);
     let missing = |e: &&Effect| !profile.effects.iter().any(|known| known.same_place(e));
     let undetermined = match group.start {

@@ -9,7 +9,7 @@ mod standing;
 mod written;
 
 use crate::trial::{Case, GROUPS, Group, case, label};
-use poseshift::diagnose::{Options, Verdict, diagnose};
+use poseshift::diagnose::{Options, Standing, Verdict, diagnose};
 use poseshift::identify::measurements::Measurements;
 
 /// Poses of a case.
@@ -113,4 +113,70 @@ fn nothing_is_named_where_nothing_is_missing() {
 #[test]
 fn what_no_effect_explains_gets_no_confident_name() {
     trial("unregistered", 0..12, 2);
+}
+
+#[test]
+fn distances_that_are_wrong_in_proportion_are_no_error_of_the_links() {
+    // every pose measured by a length from one of four posts
+    let case = case(group("devices"), 18, 314, ROWS);
+    assert_eq!(case.answer, ["measurement_scale"]);
+    assert!(case.csv.starts_with("q1_deg") && case.csv.contains("distance_mm"));
+    let found = diagnose(
+        &case.profile,
+        &case.measurements,
+        &Options::default(),
+        &mut |_| {},
+    );
+    let found = found.expect("enough rows");
+    assert_eq!(found.verdict, Verdict::Explained, "{:?}", found.reasons);
+    assert_eq!(found.found.len(), 1);
+    let effect = &found.found[0].effect;
+    assert_eq!(effect.label(), "measurement_scale");
+    let hidden = case.effects[0].parameters[0];
+    assert!((effect.parameters[0] / hidden - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn an_effect_that_what_is_fitted_along_does_is_said_to_be_untested() {
+    let untested = |name: &str| {
+        let case = case(group(name), 0, SEED, ROWS);
+        let options = Options {
+            quick: true,
+            ..Options::default()
+        };
+        let found = diagnose(&case.profile, &case.measurements, &options, &mut |_| {});
+        let cannot = found.expect("enough rows").cannot_test;
+        let ids = cannot.iter().map(|c| c.kind.definition().id);
+        ids.map(str::to_owned).collect::<Vec<String>>()
+    };
+    // links of any length do what a device of any scale does
+    assert_eq!(untested("nominal"), ["measurement_scale"]);
+    assert!(untested("calibrated").is_empty());
+}
+
+#[test]
+fn a_value_that_no_arm_has_is_not_certain() {
+    // the tool's compliance is larger than any arm's, so that another stands in its place
+    let case = case(group("devices"), 36, 21, ROWS);
+    assert!(case.effects[0].beyond_usual().is_some());
+    let found = diagnose(
+        &case.profile,
+        &case.measurements,
+        &Options::default(),
+        &mut |_| {},
+    );
+    let found = found.expect("enough rows");
+    assert_ne!(found.verdict, Verdict::Explained);
+    let named = found
+        .found
+        .iter()
+        .find(|f| f.effect.beyond_usual().is_some());
+    let named = named.expect("a compliance larger than any arm's");
+    assert_eq!(named.standing, Standing::Likely);
+    let words = "and no arm has more than 5e-3";
+    assert!(
+        found.reasons.iter().any(|r| r.contains(words)),
+        "{:?}",
+        found.reasons
+    );
 }

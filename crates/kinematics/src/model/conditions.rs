@@ -19,7 +19,8 @@ pub struct Conditions {
     /// Gravity along the axes of the arm's own world, m/s², where the base leans with a track;
     /// else that of the profile.
     pub gravity_m_s2: Option<Vector>,
-    /// Where the origin of the measuring device's frame is in the world, metres.
+    /// Where the origin of the measuring device's frame is in the world, of a distance where it is
+    /// read from, metres.
     pub device_m: Vector,
     /// Row of the measurements, from 1; none outside a session of measurements.
     pub row: Option<u32>,

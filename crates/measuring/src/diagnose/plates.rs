@@ -12,20 +12,19 @@
 //! I − D (S + DᵀD)⁻¹ Dᵀ = I − Σ a q qᵀ      a: eigenvalues of L⁻¹ DᵀD L⁻ᵀ, L Lᵀ = S + DᵀD;  q: columns of D L⁻ᵀ U, of length 1
 //! ```
 //!
-//! so that each of these columns is held with the share `a` (see [`crate::diagnose::estimator::fit::Held`]). An axis is
+//! so that each of these columns is held with the share `a` (see [`crate::diagnose::estimator::fit`]). An axis is
 //! not blamed for a device that is known no better.
 
 use crate::diagnose::diagnosis::{Diagnosis, Found, Options, Verdict};
 use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
-use crate::diagnose::estimator::fit::{Fit, REDUNDANT};
+use crate::diagnose::estimator::fit::{Fit, Normal};
 use crate::diagnose::estimator::table::{
     Column, Layout, Stored, add_scaled, dot, lengths_m, table,
 };
-use crate::diagnose::estimator::weights::Plain;
 use crate::diagnose::judgement::attempt::LOUDER;
 use crate::diagnose::judgement::conclusion::corrected;
 use crate::diagnose::judgement::{AGAIN, Against, CLEAR, EVIDENT, Standing, TIE, odds_of};
-use crate::diagnose::question::{LEAST, held_of};
+use crate::diagnose::question::LEAST;
 use crate::diagnose::search::candidates::{Candidate, Candidates, columns_of};
 use crate::diagnose::search::{Chosen, World, by_gain};
 use crate::geometry::units::mm_from_m;
@@ -168,9 +167,7 @@ impl Device {
         let Some(known) = &self.known else {
             return Vec::new();
         };
-        let basis = basis_of(free.iter().cloned());
-        let clean: Vec<Column> = columns.iter().map(|c| without(c.clone(), &basis)).collect();
-        let gram = DMatrix::from_fn(PLACE, PLACE, |i, j| dot(&clean[i], &clean[j]));
+        let (gram, _) = without(free, columns);
         let Some(factor) = (known + &gram).cholesky() else {
             return Vec::new();
         };
@@ -198,33 +195,17 @@ impl Device {
     }
 }
 
-/// A column without what others do, which are orthonormal.
-fn without(mut column: Column, basis: &[Column]) -> Column {
-    // twice is enough (Kahan)
-    for _ in 0..2 {
-        for q in basis {
-            let part = dot(q, &column);
-            add_scaled(&mut column, -part, q);
-        }
-    }
-    column
-}
-
-/// Orthonormal columns that do what these do.
-fn basis_of(columns: impl Iterator<Item = Column>) -> Vec<Column> {
-    let mut basis: Vec<Column> = Vec::new();
-    for column in columns {
-        let before = dot(&column, &column);
-        let mut column = without(column, &basis);
-        let after = dot(&column, &column);
-        if after > REDUNDANT * before {
-            for x in &mut column {
-                *x /= after.sqrt();
-            }
-            basis.push(column);
-        }
-    }
-    basis
+/// The Gram matrix of columns when others that are free have taken their part, and how many of those
+/// are not redundant.
+fn without(free: &[Column], columns: &[Column]) -> (DMatrix<f64>, usize) {
+    let numbers = columns.first().map_or(0, Vec::len);
+    let (layout, used) = (Layout::of_counts([numbers]), [true]);
+    let (nothing, shares) = (vec![0.0; numbers], vec![1.0; free.len()]);
+    let fit = Normal::of((&layout, &used), &nothing, (free, &shares), 0.0).plain();
+    let partial: Vec<Column> = columns.iter().map(|c| fit.partial(free, c)).collect();
+    let gram = |i: usize, j: usize| dot(&partial[i], &partial[j]);
+    let count = columns.len();
+    (DMatrix::from_fn(count, count, gram), fit.shares.len())
 }
 
 fn base_frame(estimate: &Estimate) -> Effect {
@@ -249,16 +230,14 @@ fn information(problem: &Problem, estimate: &Estimate, absorbed: bool) -> DMatri
     };
     let both = problem.parameters.iter().zip(columns);
     let others = both.filter(|(parameter, _)| fitted(parameter.subject));
-    let basis = basis_of(others.map(|(_, column)| column));
-    let clean: Vec<Column> = own.into_iter().map(|c| without(c, &basis)).collect();
-    let freedom = residual.len().saturating_sub(basis.len() + PLACE).max(1);
+    let others: Vec<Column> = others.map(|(_, column)| column).collect();
+    let (gram, fitted) = without(&others, &own);
+    let freedom = residual.len().saturating_sub(fitted + PLACE).max(1);
     let mut variance = dot(&residual, &residual) / freedom as f64;
     if !problem.sigma_assumed {
         variance = variance.max(1.0);
     }
-    DMatrix::from_fn(PLACE, PLACE, |i, j| {
-        dot(&clean[i], &clean[j]) / variance.max(LEAST)
-    })
+    gram / variance.max(LEAST)
 }
 
 /// The rows of one positioner.
@@ -347,15 +326,13 @@ impl One {
         } else {
             1.0
         };
-        let held = held_of(&self.held, &self.shares);
+        let own = (&self.held[..], &self.shares[..]);
         World {
             layout: &self.layout,
-            residual: &self.residual,
             held: &self.held,
-            shares: &self.shares,
             candidates,
             used,
-            plain: Plain::of(&self.layout, used, &self.residual, &held, floor),
+            normal: Normal::of((&self.layout, used), &self.residual, own, floor),
             ln_numbers: (self.problem.numbers() as f64).ln(),
             accepted,
         }
@@ -439,12 +416,12 @@ impl One {
     }
 
     fn found(&self, world: &World, fit: &Fit, chosen: &[Chosen], accepted: &[Pick]) -> Vec<Found> {
-        let held = world.held(chosen);
-        let values = fit.values(held.len());
-        let without = fit.with_held(&self.residual, &held[..self.held.len()]);
-        let own: Vec<Column> = chosen.iter().flat_map(|c| c.columns.clone()).collect();
-        let projections = without.projections(&own);
-        let deviations = without.deviations(&projections.iter().collect::<Vec<_>>());
+        let first = self.held.len();
+        let sought = chosen
+            .iter()
+            .map(|c| c.candidate.sought.len())
+            .sum::<usize>();
+        let values = fit.values(first + sought);
         let mut at = 0;
         let of = |one: &Chosen| {
             let candidate = &one.candidate;
@@ -456,8 +433,8 @@ impl One {
             for (number, k) in candidate.sought.iter().zip(range) {
                 let definition = &effect.definition().parameters[*number];
                 let size = definition.prior_sigma * definition.unit.in_si();
-                effect.parameters[*number] = values[self.held.len() + k] * size;
-                sigmas.push(deviations[k] * size);
+                effect.parameters[*number] = values[first + k] * size;
+                sigmas.push(fit.deviation(first + k) * size);
             }
             let against = one.alternatives.iter().map(|other| {
                 let label = world.candidates.list[other.index].effect.label();
@@ -532,9 +509,7 @@ impl LeftOut {
                 *times += usize::from(anew.iter().any(|c| same(&c.candidate.effect, own)));
             }
             for (lengths, model) in lengths.iter_mut().zip([&[][..], chosen]) {
-                let fit = world.fit(model);
-                let rest = fit.unweighted_rest(&one.residual, &world.held(model));
-                let all = lengths_m(&one.problem, &one.layout, &rest);
+                let all = lengths_m(&one.problem, &one.layout, &world.rest(model));
                 let out = all.into_iter().enumerate().filter(|(row, _)| is_out(*row));
                 lengths.extend(out.map(|(_, length)| mm_from_m(length)));
             }

@@ -1,7 +1,7 @@
 //! What effects need: loads that change, columns, axes that the profile has.
 
 use super::error::IdentifyError;
-use super::measurements::{DIRECTION_COLUMNS, Measurements};
+use super::measurements::{DIRECTION_COLUMNS, Measurements, Observed};
 use super::parameters::{Selection, Subject};
 use super::pick::Pick;
 use super::problem::{Problem, Row};
@@ -128,7 +128,10 @@ pub(super) fn check_needs(
                 Need::Order | Need::NoTime => true,
                 Need::Moves => problem.rows.iter().any(|r| r.conditions.moved != [0.0; 6]),
                 Need::Load => problem.tools.iter().any(|t| t.load.is_some()),
-                Need::Places => problem.rows.iter().all(|r| r.observed.point_m().is_some()),
+                Need::Places => problem
+                    .rows
+                    .iter()
+                    .all(|r| !matches!(r.observed, Observed::Contact(_))),
             };
             if !met {
                 return Err(IdentifyError::Missing {

@@ -340,6 +340,14 @@ impl Cells<'_> {
                 return Err(self.not_allowed("point", "an empty cell".into(), allowed));
             }
         }
+        let observed = match &contact {
+            Some(contact) => contact.observed(),
+            None => self.observed(kinds)?,
+        };
+        if let (Observed::Distance { from_m, .. }, None) = (observed, &contact) {
+            // a distance is read from where it begins
+            conditions.device_m = from_m;
+        }
         let stand = if kinds.external {
             self.stand()?
         } else {
@@ -351,10 +359,7 @@ impl Cells<'_> {
                 .text("id")
                 .map_or_else(|| number.to_string(), str::to_owned),
             q,
-            observed: match &contact {
-                Some(contact) => contact.observed(),
-                None => self.observed(kinds)?,
-            },
+            observed,
             tool: match plate {
                 None => self.name("tool")?,
                 Some(_) => None,

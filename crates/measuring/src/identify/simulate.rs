@@ -160,16 +160,15 @@ pub fn simulate_given(
             .and_then(|g| g.temperature_c)
             .or(conditions.temperature_c);
         conditions.time_s = known.and_then(|g| g.time_s).or(conditions.time_s);
-        let (pose, own) = match command.plate {
+        let pose_of = |conditions: &Conditions| match command.plate {
             None => {
-                let model: Model = profile.real_model_at(tool, &conditions, &stand);
-                (model.forward(&command.q, &conditions), None)
+                let model: Model = profile.real_model_at(tool, conditions, &stand);
+                model.forward(&command.q, conditions)
             }
-            Some(plate) => {
-                let pose = profile.external.plate(plate, stand.at(), &profile.effects);
-                (pose, Some(on_plate(plate)))
-            }
+            Some(plate) => profile.external.plate(plate, stand.at(), &profile.effects),
         };
+        let at_device = pose_of(&conditions);
+        let own = command.plate.map(on_plate);
         let here = own.as_deref().unwrap_or(points);
         for (k, (name, point)) in here.iter().enumerate() {
             let (shift, turn) = (
@@ -184,6 +183,13 @@ pub fn simulate_given(
                 0.0
             };
             let shift = add(shift, direction.map(|x| x * size));
+            let pose = match &session.device {
+                Device::Distance(from) => {
+                    conditions.device_m = from[rows.len() % from.len().max(1)];
+                    pose_of(&conditions)
+                }
+                Device::Position | Device::Pose => at_device,
+            };
             let seen = add(pose.transform(*point), shift);
             let observed = match &session.device {
                 Device::Position => Observed::Position(seen),
@@ -191,8 +197,8 @@ pub fn simulate_given(
                     rotation: Rotation::from_vector(turn) * pose.rotation,
                     translation: seen,
                 }),
-                Device::Distance(from) => {
-                    let from_m = from[rows.len() % from.len().max(1)];
+                Device::Distance(_) => {
+                    let from_m = conditions.device_m;
                     let true_m = norm(sub(pose.transform(*point), from_m));
                     Observed::Distance {
                         distance_m: true_m + shift[0],

@@ -375,7 +375,7 @@ pub enum Need {
     Moves,
     /// The mass of the tool.
     Load,
-    /// Places, not distances or contacts.
+    /// Places or distances, not contacts.
     Places,
     /// Rows in order and no column `time_s`, which says more.
     NoTime,
@@ -396,7 +396,7 @@ impl Need {
                 "columns move1_deg…move6_deg, or rows in the order in which they were measured"
             }
             Self::Load => "the tool's mass_kg in the profile",
-            Self::Places => "places, not distances or contacts",
+            Self::Places => "places or distances, not contacts",
             Self::NoTime => "rows in order and no column time_s",
         }
     }

@@ -6,7 +6,8 @@ use super::words::digits;
 use super::{Deflection, Effect, Equation, Kind, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
-/// The device sees everything farther away from its origin than it is. An effect of the data, not of the robot.
+/// The device sees everything farther away from its origin than it is, and a distance from where it is read. An effect of
+/// the data, not of the robot.
 pub(super) struct MeasurementScale;
 
 impl Equation for MeasurementScale {

@@ -1,62 +1,89 @@
-//! A linear robust fit in which some parameters are free, others held by their calibration, and
-//! what a new column would gain: a projected score test.
+//! Generalised least squares of everything that is fitted, with robust weights.
+//!
+//! With the columns X of the parameters, their prior's precision P and the weights W everything
+//! follows from the weighted Gram matrix:
+//!
+//! ```text
+//! N = XᵀW²X + P          β = N⁻¹ XᵀW²r          deviance = rᵀW²r − rᵀW²X N⁻¹ XᵀW²r
+//! ```
+//!
+//! A parameter that is held by its calibration has Zellner's prior: P is `1/g` times what is left of
+//! `XᵀW²X` when the free ones have taken their part (the Schur complement), so that N is
+//! `(1 + 1/g)` times it there, and its factor that of the Gram matrix with these columns divided by
+//! the root of the share `s = g/(1 + g)`. Columns that are sought come last, without a prior: that
+//! of the others stays the same whatever is sought.
+//!
+//! # Source
+//! A. C. Aitken (1935) for generalised least squares; A. Zellner, "On assessing prior distributions
+//! and Bayesian regression analysis with g-prior distributions" (1986); P. J. Huber (1964) for
+//! weights. G. H. Golub, C. F. Van Loan, "Matrix Computations", for normal equations by Cholesky.
 
+use super::clusters::design;
+use super::factor::Factor;
 use super::table::{Column, Layout, add_scaled, dot};
-use super::weights::Plain;
-use crate::identify::robust::median_of_squares;
+use crate::identify::robust::{limit, median_of_squares};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// A column is redundant where less than this part of its square is left when earlier ones have
-/// explained the rest.
+/// explained the rest: half of the digits of the Gram matrix.
 pub(crate) const REDUNDANT: f64 = 1e-7;
 /// A column shows nothing where its parameter's typical size moves all numbers together by fewer
-/// standard deviations.
-pub(crate) const INVISIBLE: f64 = 0.1;
+/// standard deviations: a hundredth of the least that a candidate has to show.
+const NOTHING: f64 = 1e-3;
 /// Rounds of re-weighting.
-pub(crate) const TURNS: usize = 8;
+const TURNS: usize = 8;
+/// The scale has come to rest where it changes by no more than this part.
+const AT_REST: f64 = 1e-3;
 /// A parameter beyond its typical size by this factor is one standard deviation off.
 const PRIOR_WIDTH: f64 = 5.0;
 
-/// A column of a parameter that is fitted with the candidates, and how freely.
-#[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
-    /// What it does.
-    pub column: &'a [f64],
-    /// 1 for a free parameter; g/(1 + g) for one whose calibration is worth 1/g of these
-    /// measurements (Zellner's prior).
-    pub share: f64,
-    /// A parameter of an effect that is sought: fitted freely, on top of what the others can
-    /// absorb.
-    pub sought: bool,
+/// The inner products of everything that is fitted, all rows in use counting fully.
+#[derive(Clone, Debug)]
+pub struct Normal<'a> {
+    layout: &'a Layout,
+    used: &'a [bool],
+    /// The residual, then the columns of the parameters.
+    columns: Vec<&'a [f64]>,
+    /// How freely each parameter is fitted: 1, or `g/(1 + g)` of one whose calibration is worth
+    /// `1/g` of these measurements.
+    shares: Vec<f64>,
+    /// Indices of those that are not sought, the free ones first.
+    order: Vec<usize>,
+    /// The lower triangle of the Gram matrix.
+    gram: Vec<Vec<f64>>,
+    /// One for the numbers of rows in use, else zero.
+    plain: Column,
+    floor: f64,
 }
 
-/// The fit: a basis of everything fitted, robust weights, residuals.
-///
-/// With the orthonormal basis Q of the columns that are held and their shares S, `M0 = I - Q S Qᵀ`
-/// is the precision of the residuals when those are integrated out. Columns E that are sought lower
-/// it to `M = M0 - U Uᵀ`, `U = M0 E L⁻ᵀ`, `L Lᵀ = Eᵀ M0 E`: generalised least squares. The prior of
-/// what is held stays the same whatever is sought.
+/// A number that counts less.
+#[derive(Clone, Copy, Debug)]
+struct Less {
+    number: usize,
+    /// By how much: one less the weight.
+    by: f64,
+}
+
+/// The fit, at some weights.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// Roots of the weights of all numbers; zero for rows not used.
     pub roots: Column,
-    /// Columns of Q, then of U, weighted.
-    pub(crate) basis: Vec<Arc<Column>>,
-    /// One for each of the basis: those of S, then ones.
+    less: Vec<Less>,
+    /// Of N.
+    factor: Factor,
+    /// The share of each column that is kept.
     pub(crate) shares: Vec<f64>,
-    /// Which of the columns stands behind each of the basis.
-    pub(crate) kept: Vec<usize>,
-    /// How many of the basis belong to Q.
-    base: usize,
-    /// Triangle: `triangle[j]` are the parts of column `kept[j]` along the basis up to j.
-    pub(crate) triangle: Vec<Vec<f64>>,
-    /// Parts of the residual along the basis.
-    pub(crate) parts: Vec<f64>,
-    /// `M r`, weighted.
+    /// `L⁻¹ XᵀW²r`.
+    right: Vec<f64>,
+    /// Values of the columns that are kept.
+    solved: Vec<f64>,
+    /// How many of those are not sought.
+    held: usize,
+    /// `W (r − Xβ)`.
     pub left: Column,
-    /// `rᵀ M r`: the deviance, before division by the scale squared.
+    /// Of the residual given the prior, before division by the scale squared.
     pub deviance: f64,
     /// Residuals are so many standard deviations of the rows.
     pub scale: f64,
@@ -71,19 +98,15 @@ pub struct Fit {
     pub strain: (f64, usize),
 }
 
-fn weighted(column: &[f64], roots: &[f64]) -> Column {
-    column.iter().zip(roots).map(|(c, w)| c * w).collect()
-}
-
 /// Median length of rows, in standard deviations.
-pub(crate) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
+fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom: f64) -> f64 {
     let mut ratios: Vec<f64> = Vec::new();
     let mut numbers = 0;
     for row in (0..layout.rows()).filter(|row| used[*row]) {
         let range = layout.row(row);
         numbers += range.len();
-        let squared: f64 = residual[range.clone()].iter().map(|r| r * r).sum();
-        ratios.push(squared / median_of_squares(range.len()));
+        let own = &residual[range.clone()];
+        ratios.push(dot(own, own) / median_of_squares(range.len()));
     }
     if ratios.is_empty() {
         return 1.0;
@@ -94,266 +117,271 @@ pub(crate) fn scale_of(layout: &Layout, used: &[bool], residual: &[f64], freedom
     (*median * lost).sqrt().max(1e-12)
 }
 
-impl Fit {
-    /// Fits `residual` by `held` columns, those that are sought behind the others, on the rows in
-    /// use: robustly, see [`Plain::fits`].
-    #[must_use]
-    pub fn of(layout: &Layout, used: &[bool], residual: &[f64], held: &[Held], floor: f64) -> Self {
-        let first = held.iter().position(|h| h.sought).unwrap_or(held.len());
-        let sought: Vec<&[f64]> = held[first..].iter().map(|h| h.column).collect();
-        let plain = Plain::of(layout, used, residual, &held[..first], floor);
-        plain.fits(layout, residual, &sought, first).1
-    }
+/// A column times the roots of weights.
+fn weighted(column: &[f64], roots: &[f64]) -> Column {
+    column.iter().zip(roots).map(|(c, w)| c * w).collect()
+}
 
-    /// The same rows, weights and scale with other columns.
+impl<'a> Normal<'a> {
+    /// Of parameters with their shares, on the rows in use.
     #[must_use]
-    pub fn with_held(&self, residual: &[f64], held: &[Held]) -> Self {
-        let mut fit = Self::weighted(residual, held, self.roots.clone());
-        fit.scale = self.scale;
-        fit.freedom = self.freedom;
-        fit.floor = self.floor;
-        fit.design = self.design;
-        fit
-    }
-
-    /// The standard deviation by which evidence counts.
-    #[must_use]
-    pub fn evidence(&self) -> f64 {
-        self.scale * self.design.sqrt()
-    }
-
-    pub(crate) fn weighted(residual: &[f64], held: &[Held], roots: Column) -> Self {
-        let mut fit = Self {
-            left: weighted(residual, &roots),
-            roots,
-            basis: Vec::new(),
-            shares: Vec::new(),
-            kept: Vec::new(),
-            base: 0,
-            triangle: Vec::new(),
-            parts: Vec::new(),
-            deviance: 0.0,
-            scale: 1.0,
-            freedom: 1.0,
-            floor: 0.0,
-            design: 1.0,
-            strain: (0.0, 0),
+    pub fn of(
+        (layout, used): (&'a Layout, &'a [bool]),
+        residual: &'a [f64],
+        (held, shares): (&'a [Column], &'a [f64]),
+        floor: f64,
+    ) -> Self {
+        let mut plain = vec![0.0; layout.numbers()];
+        for row in (0..layout.rows()).filter(|row| used[*row]) {
+            plain[layout.row(row)].fill(1.0);
+        }
+        let mut order: Vec<usize> = (0..held.len()).collect();
+        order.sort_by(|a, b| shares[*b].total_cmp(&shares[*a]));
+        let mut normal = Self {
+            layout,
+            used,
+            columns: vec![residual],
+            shares: shares.to_vec(),
+            order,
+            gram: vec![vec![dot(&weighted(residual, &plain), residual)]],
+            plain,
+            floor,
         };
-        let mut whole = fit.left.clone();
-        // free columns first: what they explain is no strain on the calibration
-        let mut order: Vec<usize> = (0..held.len()).filter(|i| !held[*i].sought).collect();
-        order.sort_by(|a, b| held[*b].share.total_cmp(&held[*a].share));
-        for index in order {
-            let mut column = weighted(held[index].column, &fit.roots);
-            let before = dot(&column, &column);
-            if before < INVISIBLE * INVISIBLE * 1e-4 {
-                continue;
-            }
-            let mut along = vec![0.0; fit.basis.len() + 1];
-            // twice is enough (Kahan)
-            for _ in 0..2 {
-                for (k, q) in fit.basis.iter().enumerate() {
-                    let part = dot(q, &column);
-                    along[k] += part;
-                    add_scaled(&mut column, -part, q);
-                }
-            }
-            let after = dot(&column, &column);
-            if after <= REDUNDANT * before {
-                continue;
-            }
-            let length = after.sqrt();
-            for x in &mut column {
-                *x /= length;
-            }
-            along[fit.basis.len()] = length;
-            let part = dot(&column, &whole);
-            add_scaled(&mut whole, -part, &column);
-            let share = held[index].share;
-            add_scaled(&mut fit.left, -share * part, &column);
-            fit.deviance += (1.0 - share) * part * part;
-            fit.basis.push(Arc::new(column));
-            fit.shares.push(share);
-            fit.kept.push(index);
-            fit.triangle.push(along);
-            fit.parts.push(part);
-        }
-        fit.base = fit.basis.len();
-        fit.deviance += dot(&whole, &whole);
-        for index in (0..held.len()).filter(|i| held[*i].sought) {
-            fit.seek(index, held[index].column);
-        }
-        fit.strained();
-        fit
+        normal.add(held.iter().map(Vec::as_slice));
+        normal
     }
 
-    /// Adds a column that is sought.
-    pub(crate) fn seek(&mut self, index: usize, column: &[f64]) {
-        let column = weighted(column, &self.roots);
-        let before = dot(&column, &column);
-        if before < INVISIBLE * INVISIBLE * 1e-4 {
-            return;
-        }
-        let mut along: Vec<f64> = self.basis.iter().map(|q| dot(q, &column)).collect();
-        let mut turned = column.clone();
-        for ((q, part), share) in self.basis.iter().zip(&along).zip(&self.shares) {
-            add_scaled(&mut turned, -share * part, q);
-        }
-        let after = dot(&column, &turned);
-        if after <= REDUNDANT * before {
-            return;
-        }
-        let length = after.sqrt();
-        for x in &mut turned {
-            *x /= length;
-        }
-        let part = dot(&column, &self.left) / length;
-        add_scaled(&mut self.left, -part, &turned);
-        self.deviance -= part * part;
-        along.push(length);
-        self.basis.push(Arc::new(turned));
-        self.shares.push(1.0);
-        self.kept.push(index);
-        self.triangle.push(along);
-        self.parts.push(part);
-    }
-
-    /// Values of the columns that are sought, one for each of U.
-    fn sought(&self) -> Vec<f64> {
-        let mut solved = self.parts[self.base..].to_vec();
-        for j in (0..solved.len()).rev() {
-            solved[j] /= self.triangle[self.base + j][self.base + j];
-            for k in 0..j {
-                solved[k] -= self.triangle[self.base + j][self.base + k] * solved[j];
-            }
-        }
-        solved
-    }
-
-    /// Parts along Q of the residual less what the columns sought explain.
-    fn remaining(&self, sought: &[f64]) -> Vec<f64> {
-        let mut parts = self.parts[..self.base].to_vec();
-        for (j, value) in sought.iter().enumerate() {
-            for (part, along) in parts.iter_mut().zip(&self.triangle[self.base + j]) {
-                *part -= value * along;
-            }
-        }
-        parts
-    }
-
-    pub(crate) fn strained(&mut self) {
-        let parts = self.remaining(&self.sought());
-        let pulls = parts.iter().zip(&self.shares).filter(|(_, s)| **s < 1.0);
-        self.strain = pulls.fold((0.0, 0), |(sum, count), (p, _)| (sum + p * p, count + 1));
-    }
-
-    /// Values of the columns, in their parameters' scales; redundant ones are zero.
-    #[must_use]
-    pub fn values(&self, count: usize) -> Vec<f64> {
-        let sought = self.sought();
-        let mut solved: Vec<f64> = self
-            .remaining(&sought)
-            .iter()
-            .zip(&self.shares)
-            .map(|(p, s)| p * s)
-            .collect();
-        for j in (0..solved.len()).rev() {
-            solved[j] /= self.triangle[j][j];
-            for k in 0..j {
-                solved[k] -= self.triangle[j][k] * solved[j];
-            }
-        }
-        let mut values = vec![0.0; count];
-        for (index, value) in self.kept.iter().zip(solved.into_iter().chain(sought)) {
-            values[*index] = value;
-        }
-        values
-    }
-
-    /// Values of the columns that are held, of `count`, which follow a part of what is left along
-    /// them as far as their `precision` lets them; those sought stay.
-    pub(crate) fn followed(&self, count: usize, part: f64, precision: &DMatrix<f64>) -> Vec<f64> {
-        let lower = DMatrix::from_fn(self.base, self.base, |j, k| {
-            self.triangle[j].get(k).copied().unwrap_or(0.0)
-        });
-        let parts = part * DVector::from_vec(self.remaining(&self.sought()));
-        let own = |i: usize, j: usize| precision[(self.kept[i], self.kept[j])];
-        let matrix = &lower * lower.transpose() + DMatrix::from_fn(self.base, self.base, own);
-        let mut values = vec![0.0; count];
-        if let Some(factor) = matrix.cholesky() {
-            let solved = factor.solve(&(&lower * parts));
-            for (index, value) in self.kept.iter().zip(solved.iter()) {
-                values[*index] = *value;
-            }
-        }
-        values
-    }
-
-    /// Residuals of all rows, those not used included, without weights.
-    #[must_use]
-    pub fn unweighted_rest(&self, residual: &[f64], held: &[Held]) -> Column {
-        let mut rest = residual.to_vec();
-        for (value, held) in self.values(held.len()).iter().zip(held) {
-            if *value != 0.0 {
-                add_scaled(&mut rest, -value, held.column);
-            }
-        }
-        rest
-    }
-
-    /// How much of each row's own numbers its expectation follows: near 1, its residual says
-    /// nothing of it.
-    #[must_use]
-    pub fn leverage(&self, layout: &Layout) -> Vec<f64> {
-        let of = |row: usize| {
-            let range = layout.row(row);
-            let along = self.basis.iter().zip(&self.shares);
-            let followed = along.map(|(q, s)| s * dot(&q[range.clone()], &q[range.clone()]));
-            followed.sum::<f64>() / range.len().max(1) as f64
+    /// The same with more columns.
+    fn add(&mut self, columns: impl Iterator<Item = &'a [f64]>) {
+        let known = self.columns.len();
+        self.columns.extend(columns);
+        let (all, plain) = (&self.columns, &self.plain);
+        let products = |i: usize| -> Vec<f64> {
+            let own = weighted(all[i], plain);
+            all[..=i].iter().map(|other| dot(&own, other)).collect()
         };
-        (0..layout.rows()).map(of).collect()
+        let rows = (known..all.len()).into_par_iter().map(products);
+        self.gram.par_extend(rows);
     }
 
-    /// The weighted column and its parts along the basis.
-    pub(crate) fn parts_of(&self, column: &[f64]) -> (Column, Vec<f64>) {
-        let column = weighted(column, &self.roots);
-        let parts = self.basis.iter().map(|q| dot(q, &column)).collect();
-        (column, parts)
+    /// With columns that are sought: free, and behind the others.
+    fn with<'b>(&self, sought: &[&'b [f64]]) -> Normal<'b>
+    where
+        'a: 'b,
+    {
+        let (mut normal, first): (Normal<'b>, _) = (self.clone(), self.shares.len());
+        normal.shares.resize(first + sought.len(), 1.0);
+        normal.add(sought.iter().copied());
+        normal
     }
 
-    /// Everything about columns that the gain of any group of them needs.
+    /// The parameters that are not redundant given those before them, the free ones first.
     #[must_use]
-    pub fn projections(&self, columns: &[Column]) -> Vec<Projection> {
-        columns
-            .par_iter()
-            .map(|column| {
-                let (column, parts) = self.parts_of(column);
-                Projection {
-                    slope: dot(&column, &self.left),
-                    square: dot(&column, &column),
-                    column,
-                    parts,
-                }
+    pub fn kept(&self) -> Vec<usize> {
+        self.factor(&self.gram).kept
+    }
+
+    /// The factor of N by the Gram matrix.
+    fn factor(&self, gram: &[Vec<f64>]) -> Factor {
+        let mut factor = Factor::default();
+        let add = |factor: &mut Factor, index: usize| {
+            let product = |other: usize| gram[index.max(other) + 1][index.min(other) + 1];
+            let square = product(index);
+            if square > NOTHING * NOTHING {
+                factor.add(index, product, (REDUNDANT * square, 0.0));
+            }
+        };
+        for index in &self.order {
+            add(&mut factor, *index);
+        }
+        // the priors
+        let roots = factor.kept.iter().map(|index| self.shares[*index].sqrt());
+        let roots: Vec<f64> = roots.collect();
+        for row in &mut factor.rows {
+            for (part, root) in row.iter_mut().zip(&roots) {
+                *part /= root;
+            }
+        }
+        for index in self.order.len()..self.shares.len() {
+            add(&mut factor, index);
+        }
+        factor
+    }
+
+    /// The Gram matrix where some numbers count less.
+    fn gram_at(&self, less: &[Less]) -> Vec<Vec<f64>> {
+        let mut gram = self.gram.clone();
+        let mut across = vec![0.0; self.columns.len()];
+        for Less { number, by } in less {
+            for (x, column) in across.iter_mut().zip(&self.columns) {
+                *x = column[*number];
+            }
+            for (row, x) in gram.iter_mut().zip(&across) {
+                add_scaled(row, -by * x, &across);
+            }
+        }
+        gram
+    }
+
+    fn less(&self, roots: &[f64]) -> Vec<Less> {
+        let both = roots.iter().zip(&self.plain).enumerate();
+        both.filter(|(_, (root, plain))| root != plain)
+            .map(|(number, (root, _))| Less {
+                number,
+                by: 1.0 - root * root,
             })
             .collect()
     }
 
-    /// A weighted column times M.
-    #[must_use]
-    pub(crate) fn turned(&self, seen: &Projection) -> Column {
-        let mut turned = seen.column.clone();
-        for ((q, part), share) in self.basis.iter().zip(&seen.parts).zip(&self.shares) {
-            add_scaled(&mut turned, -share * part, q);
+    /// Residuals of all rows at these values of the columns that are kept, without weights.
+    fn less_fitted(&self, kept: &[usize], values: &[f64]) -> Column {
+        let mut rest = self.columns[0].to_vec();
+        for (index, value) in kept.iter().zip(values) {
+            add_scaled(&mut rest, -value, self.columns[index + 1]);
         }
-        turned
+        rest
     }
 
-    /// Inner product of two columns after projection.
-    pub(crate) fn product(&self, a: &Projection, b: &Projection) -> f64 {
-        let along: f64 = (a.parts.iter().zip(&b.parts).zip(&self.shares))
-            .map(|((x, y), s)| x * y * s)
-            .sum();
-        dot(&a.column, &b.column) - along
+    /// Roots of weights that let a wrong row count as one at the limit of what is normal.
+    fn robust(&self) -> Column {
+        let in_use = || (0..self.layout.rows()).filter(|row| self.used[*row]);
+        let numbers: usize = in_use().map(|row| self.layout.row(row).len()).sum();
+        let mut roots = self.plain.clone();
+        let mut last = f64::INFINITY;
+        for _ in 0..TURNS {
+            let less = self.less(&roots);
+            let gram = self.gram_at(&less);
+            let factor = self.factor(&gram);
+            let values = factor.backward(&factor.forward(|index| gram[index + 1][0]));
+            let rest = self.less_fitted(&factor.kept, &values);
+            let fitted: f64 = factor.kept.iter().map(|index| self.shares[*index]).sum();
+            let scale = scale_of(self.layout, self.used, &rest, numbers as f64 - fitted);
+            let scale = scale.max(self.floor);
+            let mut clipped = 0;
+            let mut next = roots.clone();
+            for row in in_use() {
+                let range = self.layout.row(row);
+                let length = dot(&rest[range.clone()], &rest[range.clone()]).sqrt();
+                let most = limit(range.len()) * scale;
+                let root = if length > most { most / length } else { 1.0 };
+                clipped += usize::from(root < 1.0);
+                next[range].fill(root);
+            }
+            if clipped == 0 && less.is_empty() {
+                break;
+            }
+            roots = next;
+            if (scale / last - 1.0).abs() < AT_REST {
+                break;
+            }
+            last = scale;
+        }
+        roots
+    }
+
+    /// The fit at some weights.
+    fn at(&self, roots: Column) -> Fit {
+        let less = self.less(&roots);
+        let gram = self.gram_at(&less);
+        let factor = self.factor(&gram);
+        let right = factor.forward(|index| gram[index + 1][0]);
+        let solved = factor.backward(&right);
+        let is_held = |index: &&usize| **index < self.order.len();
+        let held = factor.kept.iter().filter(is_held).count();
+        let mut fit = Fit {
+            left: weighted(&self.less_fitted(&factor.kept, &solved), &roots),
+            roots,
+            less,
+            shares: factor.kept.iter().map(|i| self.shares[*i]).collect(),
+            deviance: gram[0][0] - dot(&right, &right),
+            factor,
+            right,
+            solved,
+            held,
+            scale: 1.0,
+            freedom: 1.0,
+            floor: self.floor,
+            design: 1.0,
+            strain: (0.0, 0),
+        };
+        let remaining = fit.remaining();
+        let pulls = remaining.iter().zip(&fit.shares).filter(|(_, s)| **s < 1.0);
+        fit.strain = pulls.fold((0.0, 0), |(sum, n), (p, s)| (sum + p * p / s, n + 1));
+        fit
+    }
+
+    /// The robust fit with columns that are sought, and before it that of the others at its weights
+    /// and scale.
+    ///
+    /// Weights are one up to the length that 99.7 % of normal rows stay below, and fall with the
+    /// square beyond it, so that a gross error counts as one row at the limit, whatever its
+    /// size.
+    #[must_use]
+    pub fn fits(&self, sought: &[&[f64]]) -> (Fit, Fit) {
+        let with = self.with(sought);
+        let mut full = with.at(with.robust());
+        // the spread of what counts, by the mean where weights let it
+        let weight = dot(&full.roots, &full.roots);
+        let free: f64 = full.shares.iter().filter(|s| **s == 1.0).sum();
+        full.freedom = (weight - free).max(1.0);
+        let mean = (full.deviance / full.freedom).max(0.0).sqrt();
+        // normal rows beyond the limit are cut: their part of the mean square is small
+        full.scale = mean.max(self.floor).max(1e-12);
+        full.design = design(self.layout, self.used, &full.left, full.shares.iter().sum());
+        // so many numbers that tell as much as these
+        full.freedom = (weight / full.design - free).max(1.0);
+        let mut base = self.at(full.roots.clone());
+        (base.scale, base.freedom, base.design) = (full.scale, full.freedom, full.design);
+        (base, full)
+    }
+
+    /// The fit without columns that are sought, all rows in use counting fully.
+    #[must_use]
+    pub fn plain(&self) -> Fit {
+        self.at(self.plain.clone())
+    }
+
+    /// The robust fit with columns that are sought.
+    #[must_use]
+    pub fn fit(&self, sought: &[&[f64]]) -> Fit {
+        self.fits(sought).1
+    }
+
+    /// Residuals of all rows, those not in use included, of the robust fit with columns that are
+    /// sought; without weights.
+    #[must_use]
+    pub fn rest(&self, sought: &[&[f64]]) -> Column {
+        let fit = self.fit(sought);
+        self.with(sought).less_fitted(&fit.factor.kept, &fit.solved)
+    }
+
+    /// Products of a column with those of the parameters, all rows in use counting fully.
+    #[must_use]
+    pub(crate) fn products(&self, column: &[f64]) -> Vec<f64> {
+        let own = weighted(column, &self.plain);
+        self.columns[1..].iter().map(|c| dot(&own, c)).collect()
+    }
+
+    /// `L⁻¹ XᵀW²c` at the weights of a fit, of a column with these products: what the fit takes of
+    /// its products with others.
+    #[must_use]
+    pub(crate) fn taken(&self, fit: &Fit, column: &[f64], products: &[f64]) -> Vec<f64> {
+        let mut products = products.to_vec();
+        for Less { number, by } in &fit.less {
+            let by = by * column[*number];
+            for (product, own) in products.iter_mut().zip(&self.columns[1..]) {
+                *product -= by * own[*number];
+            }
+        }
+        fit.factor.forward(|index| products[index])
+    }
+}
+
+impl Fit {
+    /// The standard deviation by which evidence counts.
+    #[must_use]
+    pub fn evidence(&self) -> f64 {
+        self.scale * self.design.sqrt()
     }
 
     /// The square of one over a typical size, in numbers' units: the scale is that of the noise,
@@ -364,142 +392,105 @@ impl Fit {
         noise / (PRIOR_WIDTH * PRIOR_WIDTH)
     }
 
-    /// What a group of columns would gain together.
-    #[must_use]
-    pub fn gain(&self, group: &[&Projection], least: &[Option<f64>]) -> Option<Gain> {
-        let count = group.len();
-        let mut gram = vec![vec![0.0; count]; count];
-        for i in 0..count {
-            for j in 0..=i {
-                let product = self.product(group[i], group[j]);
-                gram[i][j] = product;
-                gram[j][i] = product;
-            }
+    /// `Lᵀβ` of the columns that are not sought: what the others leave of the residual along them.
+    fn remaining(&self) -> Vec<f64> {
+        let mut along = self.right[..self.held].to_vec();
+        let sought = self.factor.rows.iter().zip(&self.solved).skip(self.held);
+        for (row, value) in sought {
+            add_scaled(&mut along, -value, &row[..self.held]);
         }
-        let slopes: Vec<f64> = group.iter().map(|p| p.slope).collect();
-        let squares: Vec<f64> = group.iter().map(|p| p.square).collect();
-        gain_of(
-            &gram,
-            &slopes,
-            &squares,
-            least,
-            self.evidence(),
-            self.ridge(),
-        )
+        along
     }
 
-    /// Standard deviations of a group's parameters when all are fitted, in their typical sizes;
-    /// infinite where redundant.
+    /// Values of the columns, in their parameters' scales; redundant ones are zero.
     #[must_use]
-    pub fn deviations(&self, group: &[&Projection]) -> Vec<f64> {
-        let count = group.len();
-        let gram = DMatrix::from_fn(count, count, |i, j| self.product(group[i], group[j]));
-        match gram.cholesky() {
-            Some(factor) => {
-                let inverse = factor.inverse();
-                (0..count)
-                    .map(|i| self.evidence() * inverse[(i, i)].max(0.0).sqrt())
-                    .collect()
-            }
-            None => vec![f64::INFINITY; count],
-        }
+    pub fn values(&self, count: usize) -> Vec<f64> {
+        self.by_index(count, &self.solved)
     }
-}
 
-/// A column seen from a fit.
-#[derive(Clone, Debug)]
-pub struct Projection {
-    /// Weighted.
-    pub(crate) column: Column,
-    pub(crate) parts: Vec<f64>,
-    /// Inner product with the residual.
-    pub(crate) slope: f64,
-    /// Inner product with itself, before projection.
-    pub(crate) square: f64,
-}
+    fn by_index(&self, count: usize, of_kept: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; count];
+        for (index, value) in self.factor.kept.iter().zip(of_kept) {
+            values[*index] = *value;
+        }
+        values
+    }
 
-/// What a group of columns gains.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Gain {
-    /// Fall of the deviance in units of the variance by which evidence counts: chi-squared where
-    /// the columns do nothing.
-    pub gain: f64,
-    /// Values of the group's parameters in their typical sizes; zero where a column is redundant
-    /// or at its bound.
-    pub values: Vec<f64>,
-    /// How many of them are determined.
-    pub count: usize,
-}
+    /// Values of the columns where those held by their calibration stay at it: the free ones fit
+    /// what those that are sought leave.
+    #[must_use]
+    pub(crate) fn values_as_calibrated(&self, count: usize) -> Vec<f64> {
+        let free = self.shares[..self.held].iter().take_while(|s| **s == 1.0);
+        let mut values = self.factor.backward(&self.remaining()[..free.count()]);
+        values.resize(self.held, 0.0);
+        values.extend(&self.solved[self.held..]);
+        self.by_index(count, &values)
+    }
 
-pub(crate) fn gain_of(
-    gram: &[Vec<f64>],
-    slopes: &[f64],
-    squares: &[f64],
-    least: &[Option<f64>],
-    scale: f64,
-    ridge: f64,
-) -> Option<Gain> {
-    let mut active: Vec<usize> = (0..slopes.len())
-        .filter(|i| squares[*i].sqrt() > INVISIBLE && gram[*i][*i] > REDUNDANT * squares[*i])
-        .collect();
-    let mut at_bound: Vec<usize> = Vec::new();
-    let variance = scale * scale;
-    loop {
-        let count = active.len();
-        if count == 0 {
-            return None;
-        }
-        // Cholesky with the prior's width on the diagonal; a redundant column is left out
-        let mut factor: Vec<Vec<f64>> = Vec::with_capacity(count);
-        let mut good: Vec<usize> = Vec::with_capacity(count);
-        for &i in &active {
-            let mut row: Vec<f64> = Vec::with_capacity(good.len() + 1);
-            for (k, &other) in good.iter().enumerate() {
-                let known: f64 = (0..k).map(|l| row[l] * factor[k][l]).sum();
-                row.push((gram[i][other] - known) / factor[k][k]);
-            }
-            let left = gram[i][i] - row.iter().map(|x| x * x).sum::<f64>();
-            if left > 1e-6 * gram[i][i] {
-                row.push((left + ridge).sqrt());
-                factor.push(row);
-                good.push(i);
-            }
-        }
-        let count = good.len();
-        let mut solved: Vec<f64> = good.iter().map(|i| slopes[*i]).collect();
-        for k in 0..count {
-            for l in 0..k {
-                solved[k] -= factor[k][l] * solved[l];
-            }
-            solved[k] /= factor[k][k];
-        }
-        let gain: f64 = solved.iter().map(|x| x * x).sum::<f64>() / variance;
-        for k in (0..count).rev() {
-            solved[k] /= factor[k][k];
-            for l in 0..k {
-                solved[l] -= factor[k][l] * solved[k];
-            }
-        }
-        let beyond = (0..count)
-            .filter_map(|k| {
-                least[good[k]]
-                    .filter(|bound| solved[k] < *bound)
-                    .map(|bound| (k, bound - solved[k]))
-            })
-            .max_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((k, _)) = beyond {
-            at_bound.push(good[k]);
-            active.retain(|i| *i != good[k]);
-            continue;
-        }
-        let mut values = vec![0.0; slopes.len()];
-        for (i, value) in good.iter().zip(&solved) {
-            values[*i] = *value;
-        }
-        return Some(Gain {
-            gain,
-            values,
-            count,
+    /// Values of the columns that are held, of `count`, which follow a part of what is left along
+    /// them as far as their `precision` lets them; those sought stay.
+    pub(crate) fn followed(&self, count: usize, part: f64, precision: &DMatrix<f64>) -> Vec<f64> {
+        let lower = DMatrix::from_fn(self.held, self.held, |j, k| {
+            self.factor.rows[j].get(k).copied().unwrap_or(0.0)
         });
+        let shares = DMatrix::from_diagonal(&DVector::from_column_slice(&self.shares[..self.held]));
+        let own = |i: usize, j: usize| precision[(self.factor.kept[i], self.factor.kept[j])];
+        let gram = &lower * shares * lower.transpose();
+        let matrix = gram + DMatrix::from_fn(self.held, self.held, own);
+        let pulled = part * lower * DVector::from_vec(self.remaining());
+        let solved = matrix.cholesky().map(|factor| factor.solve(&pulled));
+        let solved = solved.map_or_else(Vec::new, |x| x.as_slice().to_vec());
+        self.by_index(count, &solved)
+    }
+
+    /// Standard deviation of a parameter with everything fitted, in its scale; infinite where it is
+    /// redundant.
+    #[must_use]
+    pub fn deviation(&self, index: usize) -> f64 {
+        self.evidence() * self.factor.deviation(index)
+    }
+
+    /// How much of each row's own numbers its expectation follows, by the parameters' columns: near
+    /// 1, its residual says nothing of it.
+    #[must_use]
+    pub fn leverage(&self, layout: &Layout, columns: &[Column]) -> Vec<f64> {
+        let of_number = |number: usize| {
+            let along = self.factor.forward(|index| columns[index][number]);
+            self.roots[number].powi(2) * dot(&along, &along)
+        };
+        let of_row = |row: usize| {
+            let range = layout.row(row);
+            range.clone().map(of_number).sum::<f64>() / range.len().max(1) as f64
+        };
+        (0..layout.rows()).map(of_row).collect()
+    }
+
+    /// A column, weighted, less what the fit takes of it (R. Frisch, F. V. Waugh (1933)): products
+    /// with it are those of the Schur complement.
+    #[must_use]
+    pub(crate) fn partial(&self, columns: &[Column], column: &[f64]) -> Column {
+        let squared = weighted(column, &weighted(&self.roots, &self.roots));
+        let taken = self.factor.forward(|index| dot(&squared, &columns[index]));
+        let mut rest = column.to_vec();
+        let values = self.factor.backward(&taken);
+        for (index, value) in self.factor.kept.iter().zip(values) {
+            add_scaled(&mut rest, -value, &columns[*index]);
+        }
+        weighted(&rest, &self.roots)
+    }
+
+    /// A column with the weights.
+    #[must_use]
+    pub(crate) fn weighted(&self, column: &[f64]) -> Column {
+        weighted(column, &self.roots)
+    }
+
+    /// `L⁻¹ x` for weighted products of a column with those of the parameters.
+    #[must_use]
+    pub(crate) fn forward(&self, products: &[f64]) -> Vec<f64> {
+        self.factor.forward(|index| products[index])
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,11 +1,11 @@
 //! The effects' values with everything fitted together, without linearisation, and the improved
 //! profile.
 
-use super::fit::{Fit, Held};
-use super::table::{Layout, add_scaled, table};
+use super::fit::{Fit, Normal};
+use super::table::{Column, Layout, table};
 use crate::diagnose::as_calibrated::known_of;
 use crate::diagnose::search::Chosen;
-use crate::diagnose::search::candidates::least;
+use crate::diagnose::search::candidates::{least, parameter};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
@@ -94,16 +94,23 @@ pub(crate) struct Start<'a> {
     pub layout: &'a Layout,
     /// Values without the effects that are found.
     pub estimate: &'a Estimate,
-    /// How freely each of the problem's parameters is fitted: see [`Held`].
+    /// How freely each of the problem's parameters is fitted: see [`Normal`].
     pub shares: &'a [f64],
     /// The scale is at least this.
     pub floor: f64,
 }
 
-/// Fits everything together on the rows in use; the last fit is that of the residuals at the
-/// estimate.
+/// The fit of the residuals at the values found.
+pub(crate) struct Last {
+    /// The fit.
+    pub fit: Fit,
+    /// Columns of everything that was fitted.
+    pub columns: Vec<Column>,
+}
+
+/// Fits everything together on the rows in use.
 #[must_use]
-pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, Fit) {
+pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, Last) {
     let Start {
         problem,
         layout,
@@ -114,116 +121,72 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, F
     let mut estimate = start.estimate.clone();
     let places = put(&mut estimate, chosen);
     let mut parameters: Vec<Parameter> = problem.parameters.clone();
-    let mut owners = Vec::new();
     for (found, at) in chosen.iter().zip(&places) {
-        for number in &found.candidate.sought {
-            let definition = &found.candidate.effect.definition().parameters[*number];
-            owners.push(parameters.len());
-            parameters.push(Parameter {
-                key: String::new(),
-                subject: Subject::Effect(Slot {
-                    effect: *at,
-                    parameter: *number,
-                }),
-                unit: definition.unit,
-                scale: definition.prior_sigma * definition.unit.in_si(),
-                rank: 0,
-                prior: None,
-                asked: false,
-            });
-        }
+        let effect = &found.candidate.effect;
+        let own = found.candidate.sought.iter();
+        parameters.extend(own.map(|number| parameter(*at, effect, *number)));
     }
-    let shares: Vec<f64> = (shares.iter())
-        .copied()
-        .chain(owners.iter().map(|_| 1.0))
-        .collect();
+    let first = problem.parameters.len();
     let mut turn = 0;
-    loop {
+    let last = loop {
         let (residual, columns) = table(problem, &estimate, &parameters);
-        let held: Vec<Held> = (columns.iter().zip(&shares).enumerate())
-            .map(|(i, (column, share))| Held {
-                column,
-                share: *share,
-                sought: i >= problem.parameters.len(),
-            })
-            .collect();
-        let fit = Fit::of(layout, used, &residual, &held, floor);
+        let (held, sought) = columns.split_at(first);
+        let sought: Vec<&[f64]> = sought.iter().map(Vec::as_slice).collect();
+        let normal = Normal::of((layout, used), &residual, (held, shares), floor);
+        let fit = normal.fit(&sought);
         if turn == TURNS {
-            let others: Vec<Held> = held[..problem.parameters.len()].to_vec();
-            let without = fit.with_held(&residual, &others);
-            let projections = without.projections(&columns[problem.parameters.len()..]);
-            let own = without.deviations(&projections.iter().collect::<Vec<_>>());
-            let mut own = own
-                .into_iter()
-                .zip(&owners)
-                .map(|(s, i)| s * parameters[*i].scale);
-            let sigmas = chosen
-                .iter()
-                .map(|c| own.by_ref().take(c.candidate.sought.len()).collect())
-                .collect();
-            let impossible = beyond(&estimate, (problem, &parameters), &fit, &residual, &held);
-            let refit = Refit {
-                estimate,
-                places,
-                sigmas,
-                impossible,
-                deviance: fit.deviance,
-                scale: fit.scale,
-                design: fit.design,
-                freedom: fit.freedom,
-                strain: fit.strain,
-                residual,
-            };
-            return (refit, fit);
+            break (residual, Last { fit, columns });
         }
         // what is held by its calibration stays: its prior stands at the profile's value. The
         // effects are estimated with it integrated out, what is free then fits the rest
-        let values = fit.values(held.len());
-        let (mut rest, mut free) = (residual.clone(), Vec::new());
-        for (i, one) in held.iter().enumerate() {
-            if one.sought {
-                add_scaled(&mut rest, -values[i], one.column);
-                *estimate.value_mut(parameters[i].subject) += values[i] * parameters[i].scale;
-            } else if one.share == 1.0 {
-                free.push(i);
-            }
-        }
-        let own: Vec<Held> = free.iter().map(|i| held[*i]).collect();
-        let values = fit.with_held(&rest, &own).values(own.len());
-        for (i, value) in free.into_iter().zip(values) {
-            *estimate.value_mut(parameters[i].subject) += value * parameters[i].scale;
+        let values = fit.values_as_calibrated(parameters.len());
+        for (parameter, value) in parameters.iter().zip(values) {
+            *estimate.value_mut(parameter.subject) += value * parameter.scale;
         }
         turn += 1;
-    }
+    };
+    let (residual, last) = last;
+    let fit = &last.fit;
+    let sigma = |index: usize| fit.deviation(index) * parameters[index].scale;
+    let mut own = (first..parameters.len()).map(sigma);
+    let sigmas = chosen
+        .iter()
+        .map(|c| own.by_ref().take(c.candidate.sought.len()).collect())
+        .collect();
+    let refit = Refit {
+        impossible: beyond(&estimate, (problem, &parameters), fit, shares),
+        estimate,
+        places,
+        sigmas,
+        deviance: fit.deviance,
+        scale: fit.scale,
+        design: fit.design,
+        freedom: fit.freedom,
+        strain: fit.strain,
+        residual,
+    };
+    (refit, last)
 }
 
-/// Values of what was fitted, of these parameters, that lie below what is physical.
+/// Values of what was fitted freely, of these parameters, that lie below what is physical.
 fn beyond(
     estimate: &Estimate,
     (problem, parameters): (&Problem, &[Parameter]),
     fit: &Fit,
-    residual: &[f64],
-    held: &[Held],
+    shares: &[f64],
 ) -> Vec<Beyond> {
-    let free = parameters.iter().zip(held).enumerate();
-    let below = free.filter_map(|(i, (parameter, own))| {
+    let free = parameters.iter().enumerate();
+    let free = free.filter(|(i, _)| shares.get(*i).is_none_or(|share| *share == 1.0));
+    let below = free.filter_map(|(i, parameter)| {
         let Subject::Effect(slot) = parameter.subject else {
             return None;
         };
         let effect = &estimate.effects[slot.effect];
         let least = least(problem, effect, slot.parameter)?;
         let by = least - effect.parameters[slot.parameter];
-        if by <= 0.0 || own.share < 1.0 {
-            return None;
-        }
-        let mut others = held.to_vec();
-        others.remove(i);
-        let without = fit.with_held(residual, &others);
-        let projections = without.projections(&[own.column.to_vec()]);
-        let sigma = without.deviations(&[&projections[0]])[0] * parameter.scale;
-        Some(Beyond {
+        (by > 0.0).then(|| Beyond {
             slot,
-            sigmas: by / sigma,
+            sigmas: by / (fit.deviation(i) * parameter.scale),
         })
     });
     below.collect()

@@ -1,33 +1,16 @@
 //! Effects that begin at a row: sums from the end give the products of every first row in one pass.
 
 use super::fit::Fit;
-use super::given::{Given, Group};
-use super::table::{Column, Layout, add_scaled};
+use super::gain::{Given, Group};
+use super::table::{Column, Layout, add_scaled, dot};
 
 /// Columns that begin at a row, for each first row that is tried: the later first.
 #[derive(Clone, Debug)]
 pub(crate) struct Steps {
-    /// How many columns.
-    count: usize,
     /// First rows.
     pub rows: Vec<usize>,
-    /// Products of the columns from each of those on, one after the other: the Gram matrix, the
-    /// slopes, the squares.
-    products: Vec<f64>,
-}
-
-/// Products of each column with those of the effects, from each first row on.
-#[derive(Debug)]
-pub(crate) struct Cross {
-    effects: usize,
-    products: Vec<f64>,
-}
-
-/// Numbers times the roots of their weights.
-fn weighted(column: &mut Column, fit: &Fit) {
-    for (c, w) in column.iter_mut().zip(&fit.roots) {
-        *c *= w;
-    }
+    /// Products of the columns from each of those on.
+    pub groups: Vec<Group>,
 }
 
 /// Rows in use that leave `margin` rows in use on both sides, the last first.
@@ -41,26 +24,28 @@ fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
 }
 
 impl Steps {
-    /// Of columns, seen from a fit without effects.
+    /// Of columns that are tried, seen from a fit of those that are held.
     #[must_use]
-    pub(crate) fn of(fit: &Fit, layout: &Layout, mut columns: Vec<Column>, margin: usize) -> Self {
+    pub(crate) fn of(
+        (fit, held): (&Fit, &[Column]),
+        layout: &Layout,
+        columns: &[Column],
+        margin: usize,
+    ) -> Self {
         let count = columns.len();
-        for column in &mut columns {
-            weighted(column, fit);
-        }
+        let columns: Vec<Column> = columns.iter().map(|c| fit.weighted(c)).collect();
         let rows = firsts(fit, layout, margin);
         let mut slopes = vec![0.0; count];
         let mut gram = vec![vec![0.0; count]; count];
-        let mut along = vec![vec![0.0; fit.basis.len()]; count];
-        // the basis, number by number
-        let mut across = vec![0.0; fit.basis.len()];
-        let mut products = Vec::with_capacity(rows.len() * count * (count + 2));
+        let mut with_held = vec![vec![0.0; held.len()]; count];
+        // what is held, number by number
+        let mut across = vec![0.0; held.len()];
         let mut end = layout.numbers();
-        for row in &rows {
+        let mut group = |row: &usize| -> Group {
             let start = layout.row(*row).start;
             for n in start..end {
-                for (q, column) in across.iter_mut().zip(&fit.basis) {
-                    *q = column[n];
+                for (x, column) in across.iter_mut().zip(held) {
+                    *x = fit.roots[n] * column[n];
                 }
                 for i in 0..count {
                     let c = columns[i][n];
@@ -71,77 +56,39 @@ impl Steps {
                     for j in 0..count {
                         gram[i][j] += c * columns[j][n];
                     }
-                    add_scaled(&mut along[i], c, &across);
+                    add_scaled(&mut with_held[i], c, &across);
                 }
             }
             end = start;
-            for i in 0..count {
-                for j in 0..count {
-                    let (a, b) = (i.max(j), i.min(j));
-                    let parts = along[a].iter().zip(&along[b]).zip(&fit.shares);
-                    let held: f64 = parts.map(|((x, y), s)| x * y * s).sum();
-                    products.push(gram[a][b] - held);
-                }
-            }
-            products.extend(&slopes);
-            products.extend((0..count).map(|i| gram[i][i]));
-        }
-        Self {
-            count,
-            rows,
-            products,
-        }
+            let taken: Vec<Vec<f64>> = with_held.iter().map(|x| fit.forward(x)).collect();
+            Group::of(gram.clone(), slopes.clone(), &taken)
+        };
+        let groups = rows.iter().map(&mut group).collect();
+        Self { rows, groups }
     }
 
-    /// Products of the columns from the k-th first row on.
-    #[must_use]
-    pub(crate) fn group(&self, k: usize) -> Group {
-        let each = self.count * (self.count + 2);
-        let own = &self.products[k * each..][..each];
-        let (gram, rest) = own.split_at(self.count * self.count);
-        let (slopes, squares) = rest.split_at(self.count);
-        let gram = gram.chunks(self.count).map(<[f64]>::to_vec).collect();
-        Group::known(gram, slopes.to_vec(), squares.to_vec())
-    }
-
-    /// Products of each of its columns with those of the effects, for each first row.
+    /// Products of each of the columns from each first row on with those of the effects.
     #[must_use]
     pub(crate) fn cross(
         &self,
         fit: &Fit,
         layout: &Layout,
-        mut columns: Vec<Column>,
+        columns: &[Column],
         given: &Given,
-    ) -> Cross {
-        for column in &mut columns {
-            weighted(column, fit);
-        }
-        let turned = given.turned();
-        let effects = turned.len();
-        let mut sums = vec![0.0; effects * columns.len()];
-        let mut products = Vec::with_capacity(sums.len() * self.rows.len());
+    ) -> Vec<Vec<Vec<f64>>> {
+        let columns: Vec<Column> = columns.iter().map(|c| fit.weighted(c)).collect();
+        let mut sums = vec![vec![0.0; given.partial().len()]; columns.len()];
         let mut end = layout.numbers();
-        for row in &self.rows {
-            let start = layout.row(*row).start;
-            let pairs = columns
-                .iter()
-                .flat_map(|c| turned.iter().map(move |t| (c, t)));
-            for (sum, (column, turned)) in sums.iter_mut().zip(pairs) {
-                let own = column[start..end].iter().zip(&turned[start..end]);
-                *sum += own.map(|(c, t)| c * t).sum::<f64>();
+        let mut of_row = |row: &usize| {
+            let range = layout.row(*row).start..end;
+            for (sums, column) in sums.iter_mut().zip(&columns) {
+                for (sum, partial) in sums.iter_mut().zip(given.partial()) {
+                    *sum += dot(&column[range.clone()], &partial[range.clone()]);
+                }
             }
-            end = start;
-            products.extend(&sums);
-        }
-        Cross { effects, products }
-    }
-}
-
-impl Cross {
-    /// Those of a number of columns from the k-th first row on.
-    #[must_use]
-    pub(crate) fn of_row(&self, k: usize, columns: usize) -> Vec<&[f64]> {
-        let column = |i: usize| &self.products[(k * columns + i) * self.effects..][..self.effects];
-        (0..columns).map(column).collect()
+            end = range.start;
+            sums.clone()
+        };
+        self.rows.iter().map(&mut of_row).collect()
     }
 }

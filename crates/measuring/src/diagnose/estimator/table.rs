@@ -11,6 +11,8 @@ use std::sync::LazyLock;
 
 /// Sums of an inner product that run side by side.
 const LANES: usize = 16;
+/// The same of few numbers.
+const FEW_LANES: usize = 4;
 /// Fewer numbers are not worth choosing instructions for.
 const SHORT: usize = 48;
 
@@ -217,7 +219,16 @@ impl pulp::NullaryFnOnce for Add<'_> {
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     if a.len() < SHORT {
-        return a.iter().zip(b).map(|(x, y)| x * y).sum();
+        let (x, y) = (a.chunks_exact(FEW_LANES), b.chunks_exact(FEW_LANES));
+        let rest = x.remainder().iter().zip(y.remainder());
+        let tail: f64 = rest.map(|(p, q)| p * q).sum();
+        let mut sums = [0.0; FEW_LANES];
+        for (p, q) in x.zip(y) {
+            for k in 0..FEW_LANES {
+                sums[k] += p[k] * q[k];
+            }
+        }
+        return sums.iter().sum::<f64>() + tail;
     }
     ARCH.dispatch(Dot(a, b))
 }

@@ -5,12 +5,12 @@ use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
 use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail};
 use crate::diagnose::estimator::fit::Fit;
-use crate::diagnose::estimator::given::{Given, Kept};
-use crate::diagnose::estimator::refit::{Refit, moved, refit};
+use crate::diagnose::estimator::gain::{Given, Kept};
+use crate::diagnose::estimator::refit::{Last, Refit, moved, refit};
 use crate::diagnose::estimator::table::{Column, dot};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
-use crate::diagnose::question::{Session, Trust, for_choice, held_of, session};
+use crate::diagnose::question::{Session, Trust, for_choice, session};
 use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
@@ -93,8 +93,8 @@ impl Attempt {
         profile: &Profile,
         chosen: &[Chosen],
     ) -> (Refit, Option<Estimate>) {
-        let (own, fit) = refit(self.session.start(), chosen, &self.used);
-        let moved = by_trust(self.trust, &self.session, profile, (&own, &fit));
+        let (own, last) = refit(self.session.start(), chosen, &self.used);
+        let moved = by_trust(self.trust, &self.session, profile, (&own, &last.fit));
         (own, moved)
     }
 
@@ -112,21 +112,17 @@ impl Attempt {
 
 /// Effects found that a function outside the registry would explain better, by their index.
 fn outdone(
-    session: &Session,
+    (session, used): (&Session, &[bool]),
     library: &Library,
     chosen: &[Chosen],
-    fit: &Fit,
     refit: &Refit,
 ) -> Vec<(usize, Unknown)> {
-    let base = fit.with_held(
-        &session.residual,
-        &held_of(&session.columns, &session.shares),
-    );
+    let (base, fit) = session.world(used, &[]).fits(chosen);
     let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-    let given = Given::of(&base, fit, &effects);
+    let given = Given::of((&base, &session.columns), &fit, &effects);
     let without = |i: usize| -> Vec<bool> { (0..chosen.len()).map(|k| k != i).collect() };
     let kept: Vec<Kept> = (0..chosen.len()).map(|i| given.kept(&without(i))).collect();
-    let best = library.scan(&session.layout, &base, &given, &kept);
+    let best = library.scan(&session.layout, (&base, &session.columns), &given, &kept);
     let mut outdone = Vec::new();
     for ((i, own), best) in chosen.iter().enumerate().zip(best) {
         let left = refit.deviance.min(fit.deviance);
@@ -282,18 +278,17 @@ pub(crate) fn attempt(
     let (refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");
     let library = Library::of(&session.problem, &session.estimate);
-    let given = Given::of(&last, &last, &[]);
-    let left = library.scan(&session.layout, &last, &given, &[given.kept(&[])]);
+    let Last { fit, columns } = last;
+    let given = Given::of((&fit, &columns), &fit, &[]);
+    let kept = [given.kept(&[])];
+    let left = library.scan(&session.layout, (&fit, &columns), &given, &kept);
     let mut unknown = left.into_iter().next().unwrap_or_default();
     unknown.retain(|u| u.gain > library.cost(u.count));
-    let likeness = likeness(&session.problem, &session.layout, &used, &last);
-    let leverage = last.leverage(&session.layout);
-    let moved = by_trust(trust, &session, profile, (&refit, &last));
-    let loudness = without_outliers(&session, (&refit, &last), &used);
-    // each fit holds a basis as large as all columns: no more of them at once than needed
-    drop(last);
-    let fit = session.world(&used, &options.accept).fit(&chosen);
-    let outdone = outdone(&session, &library, &chosen, &fit, &refit);
+    let likeness = likeness(&session.problem, &session.layout, &used, &fit);
+    let leverage = fit.leverage(&session.layout, &columns);
+    let moved = by_trust(trust, &session, profile, (&refit, &fit));
+    let loudness = without_outliers(&session, (&refit, &fit), &used);
+    let outdone = outdone((&session, &used), &library, &chosen, &refit);
     let strained = strain(trust, &refit);
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)

@@ -173,6 +173,7 @@ pub(crate) fn stand(
         } else if against.is_empty()
             && is_again
             && !(is_shadow || unresolved[i] || one.accepted)
+            && unusual(one).is_none()
             && untested.is_empty()
             && twin.is_none()
             && one.p_value < EVIDENT
@@ -382,6 +383,7 @@ fn objections(
         ));
     }
     reasons.extend(pushing(&attempt.refit));
+    reasons.extend(found.iter().filter(|f| !f.accepted).filter_map(unusual));
     if found.is_empty() && nobody_knows(attempt) {
         reasons.push(format!(
             "nothing states the noise, and {:.0} numbers beyond what is fitted are too few to tell \
@@ -431,6 +433,22 @@ fn pushing(refit: &Refit) -> Vec<String> {
         )
     };
     beyond(refit).map(sentence).collect()
+}
+
+/// Why an effect found is no error of an arm, where its value is beyond what any has: others were
+/// refused for that.
+fn unusual(found: &Found) -> Option<String> {
+    // where a base or a tool stands is none
+    if matches!(found.effect.kind, Kind::BaseFrame | Kind::ToolFrame) {
+        return None;
+    }
+    let (parameter, value, limit) = found.effect.beyond_usual()?;
+    Some(format!(
+        "{} fits the measurements with {} = {value:.2e}, and no arm has more than {limit:.0e}: \
+         something else is missing",
+        found.effect.label(),
+        parameter.key
+    ))
 }
 
 /// Effects that functions outside the registry explain more than, one sentence for each function.

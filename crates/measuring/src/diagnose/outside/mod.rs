@@ -6,8 +6,8 @@ mod functions;
 
 use self::functions::{Facts, Function, Registered, facts, functions};
 use crate::diagnose::estimator::chances::{chi_squared_tail, normal_tail};
-use crate::diagnose::estimator::fit::{Fit, Gain};
-use crate::diagnose::estimator::given::{Given, Group, Kept};
+use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::gain::{Gain, Given, Group, Kept};
 use crate::diagnose::estimator::table::{Column, Layout, dot};
 use crate::diagnose::search::candidates::columns_of;
 use crate::identify::problem::{Estimate, Problem};
@@ -84,8 +84,8 @@ impl Unknown {
 /// A motion's columns multiplied with everything that they may be multiplied with, summed over the
 /// numbers of each row of a block: a function of the rows is then a factor of each sum.
 struct Summed {
-    /// For each column, products with the basis.
-    along: Vec<Vec<Column>>,
+    /// For each column, products with those that are fitted.
+    fitted: Vec<Vec<Column>>,
     /// With the residual.
     left: Vec<Column>,
     /// With the effects.
@@ -102,7 +102,7 @@ impl Summed {
     fn of(
         columns: &[Column],
         (layout, rows): (&Layout, &Range<usize>),
-        fit: &Fit,
+        (fit, fitted): (&Fit, &[Column]),
         given: &Given,
     ) -> Self {
         let numbers = layout.row(rows.start).start..layout.row(rows.end - 1).end;
@@ -124,11 +124,12 @@ impl Summed {
             let each = |c: &Column| others.iter().map(|o| with(c, o, first)).collect();
             columns.iter().map(each).collect()
         };
-        let basis: Vec<&[f64]> = fit.basis.iter().map(|q| q.as_slice()).collect();
+        let own = fitted.iter().map(weighted);
+        let own: Vec<Column> = own.collect();
         Self {
-            along: all(&basis, 0),
+            fitted: all(&slices(&own), numbers.start),
             left: columns.iter().map(|c| with(c, &fit.left, 0)).collect(),
-            effects: all(&slices(given.turned()), 0),
+            effects: all(&slices(given.partial()), 0),
             own: all(&slices(&columns), numbers.start),
         }
     }
@@ -136,7 +137,7 @@ impl Summed {
 
 /// Products of a motion's columns times a function of the rows.
 struct Products {
-    along: Vec<Vec<f64>>,
+    fitted: Vec<Vec<f64>>,
     left: Vec<f64>,
     effects: Vec<Vec<f64>>,
     own: Vec<Vec<f64>>,
@@ -144,12 +145,12 @@ struct Products {
 
 impl Products {
     /// None yet, of so many columns.
-    fn none(columns: usize, fit: &Fit, given: &Given) -> Self {
+    fn none(columns: usize, fitted: usize, given: &Given) -> Self {
         let zeros = |count: usize| vec![vec![0.0; count]; columns];
         Self {
-            along: zeros(fit.basis.len()),
+            fitted: zeros(fitted),
             left: vec![0.0; columns],
-            effects: zeros(given.turned().len()),
+            effects: zeros(given.partial().len()),
             own: zeros(columns),
         }
     }
@@ -167,24 +168,16 @@ impl Products {
             }
         };
         let squared: Column = values.iter().map(|v| v * v).collect();
-        add_all(&mut self.along, &summed.along, values);
+        add_all(&mut self.fitted, &summed.fitted, values);
         add(&mut self.left, &summed.left, values);
         add_all(&mut self.effects, &summed.effects, values);
         add_all(&mut self.own, &summed.own, &squared);
     }
 
     /// The columns as a group given a fit.
-    fn group(&self, shares: &[f64]) -> Group {
-        let projected = |i: usize, j: usize| {
-            let parts = self.along[i].iter().zip(&self.along[j]).zip(shares);
-            self.own[i][j] - parts.map(|((x, y), s)| x * y * s).sum::<f64>()
-        };
-        let columns = 0..self.own.len();
-        let gram = columns
-            .clone()
-            .map(|i| columns.clone().map(|j| projected(i, j)).collect());
-        let squares = columns.clone().map(|i| self.own[i][i]);
-        Group::known(gram.collect(), self.left.clone(), squares.collect())
+    fn group(&self, fit: &Fit) -> Group {
+        let taken: Vec<Vec<f64>> = self.fitted.iter().map(|x| fit.forward(x)).collect();
+        Group::of(self.own.clone(), self.left.clone(), &taken)
     }
 }
 
@@ -248,24 +241,25 @@ impl Library {
     }
 
     /// The functions that gain most, best first, at most eight, for each choice of effects given a
-    /// fit.
+    /// fit of these columns.
     #[must_use]
     pub fn scan(
         &self,
         layout: &Layout,
-        fit: &Fit,
+        (fit, fitted): (&Fit, &[Column]),
         given: &Given,
         kept: &[Kept],
     ) -> Vec<Vec<Unknown>> {
         let pairs = self.pairs();
         let count = |motion: usize| self.motions[motion].1.len();
         let mut products: Vec<Products> = (pairs.iter())
-            .map(|(m, _)| Products::none(count(*m), fit, given))
+            .map(|(m, _)| Products::none(count(*m), fitted.len(), given))
             .collect();
         for start in (0..layout.rows()).step_by(BLOCK) {
             let rows = start..layout.rows().min(start + BLOCK);
             let summed = self.motions.par_iter();
-            let summed = summed.map(|(_, own)| Summed::of(own, (layout, &rows), fit, given));
+            let summed =
+                summed.map(|(_, own)| Summed::of(own, (layout, &rows), (fit, fitted), given));
             let summed: Vec<Summed> = summed.collect();
             let values = self.features.par_iter();
             let values = values.map(|feature| feature.values(&self.rows[rows.clone()]));
@@ -275,7 +269,7 @@ impl Library {
         }
         let each: Vec<Vec<Option<Gain>>> = (products.par_iter())
             .map(|products| {
-                let group = products.group(&fit.shares);
+                let group = products.group(fit);
                 let cross: Vec<&[f64]> = products.effects.iter().map(Vec::as_slice).collect();
                 let free = vec![None; cross.len()];
                 let gain = |kept: &Kept| given.gain(&group, &cross, kept, &free);

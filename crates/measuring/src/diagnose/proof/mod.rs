@@ -257,9 +257,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         let own = choose(&world);
         let mut lengths = vec![test.iter().map(|r| present[*r]).collect()];
         let predicted = |world: &World, kept: &[Chosen]| -> Vec<f64> {
-            let fit = world.fit(kept);
-            let rest = fit.unweighted_rest(&session.residual, &world.held(kept));
-            let all = lengths_m(&session.problem, &session.layout, &rest);
+            let all = lengths_m(&session.problem, &session.layout, &world.rest(kept));
             test.iter().map(|r| all[*r]).collect()
         };
         // those of the effects found that this choice finds, too: no others are judged

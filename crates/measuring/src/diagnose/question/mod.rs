@@ -3,10 +3,9 @@
 pub mod noise;
 
 use self::noise::{Repeats, of_repeats};
-use crate::diagnose::estimator::fit::Held;
+use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
-use crate::diagnose::estimator::weights::Plain;
 use crate::diagnose::search::candidates::{Candidate, Candidates, Tried, columns_of};
 use crate::diagnose::search::waves;
 use crate::diagnose::search::{Chosen, World};
@@ -135,26 +134,6 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
-/// Which columns do not do what those before them do. The others are left out for good: given an
-/// effect found later, a last link that bends, they would be distinguished by almost nothing and
-/// run away together.
-fn distinct(layout: &Layout, residual: &[f64], held: &[Held], used: &[bool]) -> Vec<usize> {
-    let mut kept = Plain::of(layout, used, residual, held, LEAST).kept();
-    kept.sort_unstable();
-    kept
-}
-
-/// Columns that are held, and how freely.
-pub(crate) fn held_of<'a>(columns: &'a [Column], shares: &[f64]) -> Vec<Held<'a>> {
-    let both = columns.iter().zip(shares);
-    both.map(|(column, share)| Held {
-        column,
-        share: *share,
-        sought: false,
-    })
-    .collect()
-}
-
 /// Prepares a session.
 ///
 /// # Errors
@@ -269,7 +248,11 @@ pub fn session(
         .collect();
     let (residual, columns) = table(&problem, &estimate, &problem.parameters);
     let used = for_choice(measurements);
-    let kept = distinct(&layout, &residual, &held_of(&columns, &shares), &used);
+    // columns that do what those before them do are left out for good: given an effect found later,
+    // a last link that bends, they would be distinguished by almost nothing and run away together
+    let own = (&columns[..], &shares[..]);
+    let mut kept = Normal::of((&layout, &used), &residual, own, LEAST).kept();
+    kept.sort_unstable();
     let columns = columns.into_iter().enumerate();
     let columns: Vec<Column> = columns
         .filter(|(i, _)| kept.contains(i))
@@ -282,7 +265,10 @@ pub fn session(
         .collect();
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
-    let candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let mut candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let own = (&columns[..], &shares[..]);
+    let normal = Normal::of((&layout, &used), &residual, own, LEAST);
+    candidates.say_absorbed(&normal, &estimate.effects);
     let repeats = if problem.sigma_assumed {
         of_repeats(&problem, &layout, &residual, &used)
     } else {
@@ -336,16 +322,14 @@ impl Session {
         shares: &'a [f64],
     ) -> World<'a> {
         let layout = &self.layout;
-        let held = held_of(&self.columns, shares);
+        let own = (&self.columns[..], shares);
         let in_use = (0..layout.rows()).filter(|row| used[*row]);
         let numbers: usize = in_use.map(|row| layout.row(row).len()).sum();
         World {
             layout,
-            residual: &self.residual,
             held: &self.columns,
-            shares,
             candidates: &self.candidates,
-            plain: Plain::of(layout, used, &self.residual, &held, self.floor()),
+            normal: Normal::of((layout, used), &self.residual, own, self.floor()),
             ln_numbers: (numbers as f64).ln(),
             used,
             accepted,

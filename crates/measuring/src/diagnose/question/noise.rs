@@ -6,7 +6,7 @@
 //! "Applied Regression Analysis", on pure error and lack of fit.
 
 use crate::diagnose::estimator::chances::{chi_squared_quantile, f_tail};
-use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::table::{Column, Layout};
 use crate::identify::measurements::Observed;
 use crate::identify::problem::{PointRef, Problem, Row};
@@ -145,7 +145,8 @@ pub fn of_repeats(
         }
         let all = vec![true; counts.len()];
         let part = independent / counts.len().max(1) as f64;
-        let fit = Fit::of(&Layout::of_counts(counts), &all, &differences, &[], 0.0);
+        let layout = Layout::of_counts(counts);
+        let fit = Normal::of((&layout, &all), &differences, (&[], &[]), 0.0).fit(&[]);
         let repeats = Repeats {
             scale: fit.scale,
             freedom: part * fit.freedom,

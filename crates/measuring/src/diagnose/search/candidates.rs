@@ -1,9 +1,11 @@
 //! Every effect that the columns allow, at every joint, order and time constant it may have.
 
 use super::waves;
-use crate::diagnose::estimator::table::{Numbers, Stored, table_into};
+use crate::diagnose::estimator::fit::Normal;
+use crate::diagnose::estimator::gain::shows;
+use crate::diagnose::estimator::table::{Numbers, Stored, dot, table_into};
 use crate::identify::external::places;
-use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements};
+use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements, Observed};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
@@ -11,6 +13,7 @@ use crate::model::effects::{
 };
 use crate::model::profile::Mounted;
 use crate::model::{JOINTS, Slot};
+use rayon::prelude::*;
 
 /// Harmonics are sought up to this many periods a revolution.
 pub const MOST_ORDERS: u32 = 12;
@@ -325,7 +328,9 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 none.then(|| need.describe().to_owned())
             }
             Need::Places => {
-                let others = rows.iter().any(|r| r.observed.point_m().is_none());
+                let others = rows
+                    .iter()
+                    .any(|r| matches!(r.observed, Observed::Contact(_)));
                 others.then(|| need.describe().to_owned())
             }
         };
@@ -336,7 +341,8 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
     None
 }
 
-fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
+/// The parameter of an effect that stands at this place of an estimate.
+pub(crate) fn parameter(effect: usize, at: &Effect, number: usize) -> Parameter {
     let definition = &at.definition().parameters[number];
     Parameter {
         key: String::new(),
@@ -487,6 +493,37 @@ impl Candidates {
             });
         }
         all
+    }
+
+    /// Says of effects that they cannot be tested where `fitted` ones do all that they do.
+    pub(crate) fn say_absorbed(&mut self, normal: &Normal, fitted: &[Effect]) {
+        let fit = normal.plain();
+        let columns = self.columns.par_iter().map(|column| {
+            let column = column.column();
+            let taken = normal.taken(&fit, &column, &normal.products(&column));
+            let all = fit.weighted(&column);
+            let square = dot(&all, &all);
+            (
+                shows(square, square),
+                shows(square - dot(&taken, &taken), square),
+            )
+        });
+        let columns: Vec<(bool, bool)> = columns.collect();
+        let any = |kind: Kind, is: &dyn Fn(&(bool, bool)) -> bool| {
+            let own = self.list.iter().filter(|c| c.row.is_none());
+            let mut own = own.filter(|c| c.effect.kind == kind);
+            own.any(|c| c.columns.iter().any(|i| is(&columns[*i])))
+        };
+        let is_absorbed = |kind: &Kind| any(*kind, &|c| c.0) && !any(*kind, &|c| c.1);
+        let is_fitted = |kind: &Kind| fitted.iter().any(|effect| effect.kind == *kind);
+        let absorbed = shown_by_tool().filter(|kind| !is_fitted(kind) && is_absorbed(kind));
+        let absorbed: Vec<CannotTest> = absorbed
+            .map(|kind| CannotTest {
+                kind,
+                missing: "a calibrated profile: what is fitted along does the same".to_owned(),
+            })
+            .collect();
+        self.cannot_test.extend(absorbed);
     }
 
     /// Whether no candidate is this effect at this place.

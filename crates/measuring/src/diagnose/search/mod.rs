@@ -7,9 +7,9 @@ pub(crate) mod waves;
 
 use self::candidates::{Candidate, Candidates};
 use self::scan::View;
-use crate::diagnose::estimator::fit::{Fit, Gain, Held};
+use crate::diagnose::estimator::fit::{Fit, Normal};
+use crate::diagnose::estimator::gain::Gain;
 use crate::diagnose::estimator::table::{Column, Layout};
-use crate::diagnose::estimator::weights::{Plain, Weighted};
 use crate::identify::pick::Pick;
 use crate::model::effects::{Effect, of_arm};
 
@@ -34,18 +34,14 @@ const ODDS: f64 = 5.0;
 pub struct World<'a> {
     /// Where the numbers of rows stand.
     pub layout: &'a Layout,
-    /// Residuals without any effect that is sought.
-    pub residual: &'a [f64],
     /// Columns of the parameters that are fitted with them.
     pub held: &'a [Column],
-    /// How freely: see [`Held`].
-    pub shares: &'a [f64],
     /// What is tried.
     pub candidates: &'a Candidates,
     /// Rows in use.
     pub used: &'a [bool],
-    /// Those held, fitted while every row in use counts fully.
-    pub plain: Plain,
+    /// Their normal equations.
+    pub normal: Normal<'a>,
     /// The logarithm of how many numbers are in use.
     pub ln_numbers: f64,
     /// Effects that a person wants, whatever the evidence.
@@ -152,40 +148,27 @@ impl World<'_> {
         columns
     }
 
-    /// The columns of the model: those held, then those of the effects.
-    #[must_use]
-    pub fn held<'b>(&'b self, chosen: &'b [Chosen]) -> Vec<Held<'b>> {
-        let held = self
-            .held
-            .iter()
-            .zip(self.shares)
-            .map(|(column, share)| Held {
-                column,
-                share: *share,
-                sought: false,
-            });
-        let own = chosen.iter().flat_map(|c| &c.columns).map(|column| Held {
-            column,
-            share: 1.0,
-            sought: true,
-        });
-        held.chain(own).collect()
-    }
-
     /// The robust fit with these effects, and before it that of the columns held at its weights and
     /// scale.
     #[must_use]
-    pub fn fits(&self, chosen: &[Chosen]) -> (Weighted, Fit) {
+    pub fn fits(&self, chosen: &[Chosen]) -> (Fit, Fit) {
         let own = chosen.iter().flat_map(|c| &c.columns);
         let own: Vec<&[f64]> = own.map(Vec::as_slice).collect();
-        let first = self.held.len();
-        (self.plain).fits(self.layout, self.residual, &own, first)
+        self.normal.fits(&own)
     }
 
     /// The robust fit with these effects.
     #[must_use]
     pub fn fit(&self, chosen: &[Chosen]) -> Fit {
         self.fits(chosen).1
+    }
+
+    /// Residuals of all rows with these effects fitted to those in use, without weights.
+    #[must_use]
+    pub fn rest(&self, chosen: &[Chosen]) -> Column {
+        let own = chosen.iter().flat_map(|c| &c.columns);
+        let own: Vec<&[f64]> = own.map(Vec::as_slice).collect();
+        self.normal.rest(&own)
     }
 
     /// An effect of a scan, ready to be in the model.

@@ -2,11 +2,10 @@
 
 use super::candidates::Candidate;
 use super::{Chosen, Scored, World, overlaps};
-use crate::diagnose::estimator::fit::{Fit, Gain, Projection};
-use crate::diagnose::estimator::given::{Given, Group};
-use crate::diagnose::estimator::steps::{Cross, Steps};
-use crate::diagnose::estimator::table::Column;
-use crate::diagnose::estimator::weights::{Products, Weighted};
+use crate::diagnose::estimator::fit::Fit;
+use crate::diagnose::estimator::gain::{Gain, Given, Group};
+use crate::diagnose::estimator::steps::Steps;
+use crate::diagnose::estimator::table::{Column, Stored, dot};
 use crate::model::effects::Kind;
 use rayon::prelude::*;
 
@@ -16,7 +15,7 @@ const ROWS_GIVEN: usize = 5;
 /// Every candidate seen from a fit without effects: good as long as its weights are.
 #[derive(Debug)]
 struct Seen {
-    base: Weighted,
+    base: Fit,
     groups: Vec<Group>,
     /// Of candidates that begin at a row.
     steps: Vec<Option<Steps>>,
@@ -25,8 +24,8 @@ struct Seen {
 /// A model with effects, and every candidate given it.
 #[derive(Debug)]
 pub(crate) struct View {
-    /// Products of the candidates' columns while every row counts fully.
-    products: Vec<Products>,
+    /// Products of the candidates' columns with those that are held, while every row counts fully.
+    products: Vec<Vec<f64>>,
     seen: Seen,
     full: Fit,
     side: Side,
@@ -41,26 +40,22 @@ struct Side {
     /// Products of each candidate's columns with those of the effects.
     cross: Vec<Vec<f64>>,
     /// The same from each first row on, of candidates that begin at a row.
-    steps: Vec<Option<Cross>>,
+    steps: Vec<Option<Vec<Vec<Vec<f64>>>>>,
 }
 
 impl Side {
-    fn of(
-        world: &World,
-        (seen, products): (&Seen, &[Products]),
-        full: &Fit,
-        chosen: &[Chosen],
-    ) -> Self {
+    fn of(world: &World, seen: &Seen, full: &Fit, chosen: &[Chosen]) -> Self {
         let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
-        let given = Given::of(&seen.base.fit, full, &effects);
-        let columns = (0..products.len()).into_par_iter();
-        let cross = columns.map(|i| given.cross(&projection(world, &seen.base, products, i)));
-        let cross = cross.collect();
+        let base = &seen.base;
+        let given = Given::of((base, world.held), full, &effects);
+        let cross = |column: &Stored| {
+            let own = base.weighted(&column.column());
+            given.partial().iter().map(|p| dot(p, &own)).collect()
+        };
+        let cross = world.candidates.columns.par_iter().map(cross).collect();
         let from = |(steps, candidate): (&Option<Steps>, &Candidate)| {
-            let own = |steps: &Steps| {
-                let columns = from_row_1(world, candidate);
-                steps.cross(&seen.base.fit, world.layout, columns, &given)
-            };
+            let columns = || from_row_1(world, candidate);
+            let own = |steps: &Steps| steps.cross(base, world.layout, &columns(), &given);
             steps.as_ref().map(own)
         };
         let all = seen.steps.iter().zip(&world.candidates.list);
@@ -73,36 +68,37 @@ impl Side {
     }
 }
 
-/// A candidate's column seen from a fit. It holds a number for each measured one: where there are
-/// many, it is cheaper to make again than to keep.
-fn projection(world: &World, base: &Weighted, products: &[Products], column: usize) -> Projection {
-    let own = world.candidates.columns[column].column();
-    (world.plain).projection(base, &own, &products[column])
-}
-
 /// Columns of a candidate that begins at a row, as if it began with the first.
 fn from_row_1(world: &World, candidate: &Candidate) -> Vec<Column> {
     let own = candidate.columns.iter();
     own.map(|i| world.candidates.columns[*i].column()).collect()
 }
 
+/// Products of candidates' columns, by their indices, seen from a fit of what is held.
+fn group_of(world: &World, products: &[Vec<f64>], base: &Fit, columns: &[usize]) -> Group {
+    let own = |i: &usize| world.candidates.columns[*i].column();
+    let own: Vec<Column> = columns.iter().map(own).collect();
+    let both = columns.iter().zip(&own);
+    let taken = both.map(|(i, column)| world.normal.taken(base, column, &products[*i]));
+    let taken: Vec<Vec<f64>> = taken.collect();
+    let own: Vec<Column> = own.iter().map(|column| base.weighted(column)).collect();
+    let with = |column: &Column| own.iter().map(|other| dot(column, other)).collect();
+    let slopes = own.iter().map(|column| dot(column, &base.left));
+    Group::of(own.iter().map(with).collect(), slopes.collect(), &taken)
+}
+
 impl Seen {
-    fn of(world: &World, products: &[Products], base: Weighted) -> Self {
-        let group = |candidate: &Candidate| {
-            let own = candidate.columns.iter();
-            let own: Vec<Projection> = own
-                .map(|i| projection(world, &base, products, *i))
-                .collect();
-            Group::of(&base.fit, &own.iter().collect::<Vec<_>>())
-        };
-        let groups = world.candidates.list.par_iter().map(group).collect();
+    fn of(world: &World, products: &[Vec<f64>], base: Fit) -> Self {
+        let list = world.candidates.list.par_iter();
+        let group = |candidate: &Candidate| group_of(world, products, &base, &candidate.columns);
+        let groups = list.clone().map(group).collect();
         let begins = |candidate: &Candidate| {
             candidate.row.map(|_| {
                 let columns = from_row_1(world, candidate);
-                Steps::of(&base.fit, world.layout, columns, ROWS_GIVEN)
+                Steps::of((&base, world.held), world.layout, &columns, ROWS_GIVEN)
             })
         };
-        let steps = world.candidates.list.par_iter().map(begins).collect();
+        let steps = list.map(begins).collect();
         Self {
             base,
             groups,
@@ -116,12 +112,12 @@ impl View {
     #[must_use]
     pub(crate) fn of(world: &World) -> Self {
         let columns = world.candidates.columns.par_iter();
-        let products = columns.map(|c| world.plain.products(&c.column()));
-        let products: Vec<Products> = products.collect();
+        let products = columns.map(|c| world.normal.products(&c.column()));
+        let products: Vec<Vec<f64>> = products.collect();
         let (base, full) = world.fits(&[]);
         let seen = Seen::of(world, &products, base);
         Self {
-            side: Side::of(world, (&seen, &products), &full, &[]),
+            side: Side::of(world, &seen, &full, &[]),
             products,
             seen,
             full,
@@ -137,10 +133,10 @@ impl View {
         }
         let (base, full) = world.fits(chosen);
         self.full = full;
-        if self.seen.base.fit.roots != self.full.roots {
+        if self.seen.base.roots != self.full.roots {
             self.seen = Seen::of(world, &self.products, base);
         }
-        self.side = Side::of(world, (&self.seen, &self.products), &self.full, chosen);
+        self.side = Side::of(world, &self.seen, &self.full, chosen);
         self.shown = chosen.iter().map(|c| c.columns.clone()).collect();
     }
 
@@ -168,7 +164,7 @@ impl View {
     /// those shown.
     #[must_use]
     pub(crate) fn scan_others(&self, world: &World, others: &[Chosen]) -> Vec<Scored> {
-        let side = Side::of(world, (&self.seen, &self.products), &self.full, others);
+        let side = Side::of(world, &self.seen, &self.full, others);
         self.scan_side(world, &side, others, &vec![true; others.len()])
     }
 
@@ -195,12 +191,7 @@ impl View {
         let columns: Vec<usize> = own.iter().map(|i| list[*i].columns[0]).collect();
         let bound = |i: &usize| list[*i].least[0].filter(|_| bounded);
         let least: Vec<Option<f64>> = own.iter().map(bound).collect();
-        let base = &self.seen.base;
-        let seen = columns
-            .iter()
-            .map(|c| projection(world, base, &self.products, *c));
-        let seen: Vec<Projection> = seen.collect();
-        let group = Group::of(&base.fit, &seen.iter().collect::<Vec<_>>());
+        let group = group_of(world, &self.products, &self.seen.base, &columns);
         let cross = columns.iter().map(|c| self.side.cross[*c].as_slice());
         let cross: Vec<&[f64]> = cross.collect();
         let kept = self.side.given.kept(keep);
@@ -255,17 +246,16 @@ impl View {
                 gain,
             };
             if let (Some(steps), Some(cross)) = (&self.seen.steps[index], &side.steps[index]) {
-                let count = candidate.columns.len();
-                let free = vec![None; count];
-                let each = steps.rows.iter().enumerate();
+                let free = vec![None; candidate.columns.len()];
+                let each = steps.rows.iter().zip(&steps.groups).zip(cross);
                 return each
-                    .filter_map(|(k, row)| {
+                    .filter_map(|((row, group), cross)| {
                         let row = u32::try_from(row + 1).ok();
                         if taken(candidate, row) {
                             return None;
                         }
-                        let (group, cross) = (steps.group(k), cross.of_row(k, count));
-                        let gain = side.given.gain(&group, &cross, &kept, &free)?;
+                        let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
+                        let gain = side.given.gain(group, &cross, &kept, &free)?;
                         Some(of(row, gain))
                     })
                     .collect();
