@@ -212,7 +212,7 @@ fn rows_of_one_configuration_that_miss_alike_are_said_to_count_once() {
     );
     let factor = |file: &str| {
         let report = run(&(calibrate(file) + " --json"));
-        let report: serde_json::Value = serde_json::from_str(&report).expect("a report");
+        let report: Value = serde_json::from_str(&report).expect("a report");
         report["shared_factor"].as_f64().expect("a number")
     };
     // three reflectors that miss alike count as one: the root of three at most
