@@ -215,9 +215,9 @@ fn rows_of_one_configuration_that_miss_alike_are_said_to_count_once() {
         let report: Value = serde_json::from_str(&report).expect("a report");
         report["shared_factor"].as_f64().expect("a number")
     };
-    // three reflectors that miss alike count as one: the root of three at most
+    // three reflectors that miss alike count as one: the root of three, of 40 configurations
     let shared = factor("s.csv");
-    assert!((1.2..1.8).contains(&shared), "{shared}");
+    assert!((1.3..2.0).contains(&shared), "{shared}");
     assert_eq!(factor("m.csv"), 1.0);
     assert!(!run(&calibrate("m.csv")).contains("miss alike"));
 }
