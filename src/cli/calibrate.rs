@@ -121,9 +121,10 @@ impl Calibrate {
         let options = self.options()?;
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
+        let progress = Progress::new(output, "reading");
         let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, self.output.as_deref())?;
-        let progress = Progress::new(output, "identifying");
+        progress.say("identifying");
         let mut found = calibrate(&profile, measurements, &options, &mut || ())?;
         drop(progress);
         let (mut written, mut also) = (Vec::new(), String::new());

@@ -117,6 +117,7 @@ impl Check {
             .iter()
             .map(|text| acceptance(text))
             .collect::<Result<_, _>>()?;
+        let progress = Progress::new(output, "reading");
         let gathered = gather(&files, &self.programs, asked, &self.ignored)?;
         let left_out = gathered.left_out.clone();
         let paths = gathered.paths();
@@ -149,7 +150,7 @@ impl Check {
             accepted: &accepted,
             force: self.force,
         };
-        let progress = Progress::new(output, "checking");
+        progress.say("checking");
         let found = check(&request, &mut |done, of| progress.tell(done, of))?;
         drop(progress);
         let header = found.header(&left_out);

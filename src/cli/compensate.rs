@@ -153,6 +153,7 @@ impl Compensate {
         let each = output.json || self.max_path_error.is_some() || self.report.is_wanted();
         let options = self.options(&files, &file.profile, each)?;
         let language = self.language.as_deref().map(language_by_id).transpose()?;
+        let progress = Progress::new(output, "reading");
         let Gathered { programs, left_out } =
             gather(&files, &self.programs, language, &self.ignored)?;
         let paths: Vec<PathBuf> = programs
@@ -182,7 +183,7 @@ impl Compensate {
                 _ => DespiteErrors::Nothing,
             },
         };
-        let progress = Progress::new(output, "compensating");
+        progress.say("compensating");
         let prepared = prepare(&request)?;
         let refused = prepared.is_refused();
         let will_write = prepared.will_write();

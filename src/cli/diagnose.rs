@@ -56,10 +56,11 @@ impl Diagnose {
         };
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
+        let progress = Progress::new(output, "reading");
         let measurements = self.measurements.read(&files, &profile)?;
         let outputs = self.output.iter().chain(&self.poses).map(PathBuf::as_path);
         self.report.refuse_over(&files, outputs)?;
-        let progress = Progress::new(output, "diagnosing");
+        progress.say("diagnosing");
         let hear = &mut |what: &str| progress.say(what);
         let mut found = if self.runs {
             diagnose_runs(&profile, measurements, &options, hear)?

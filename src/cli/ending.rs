@@ -339,7 +339,8 @@ fn deliver_with_page(
     deliver(files, &written, said, ending.answer)
 }
 
-fn findings(found: &impl Report, shown: Shown, output: Output) -> String {
+/// What should be looked at, as standard error gets it.
+pub(super) fn findings(found: &impl Report, shown: Shown, output: Output) -> String {
     if output.quiet {
         let mut errors = found.findings().to_vec();
         errors.retain(|finding| finding.severity == Severity::Error);
@@ -366,10 +367,13 @@ pub(super) fn print_table(
     let said = if output.json {
         Said::json(found)?
     } else {
-        Said::data(found.text(Style {
-            width: usize::MAX,
-            every: true,
-        }))
+        Said {
+            errors: findings(found, Shown::Main, output),
+            ..Said::data(found.text(Style {
+                width: usize::MAX,
+                every: true,
+            }))
+        }
     };
     deliver(&Files::default(), &[], said, answer)
 }

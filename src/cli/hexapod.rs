@@ -1,7 +1,7 @@
 //! `hexapod`: ballbar lengths to poses with uncertainty, the base frame, and the poses that a robot
 //! can measure.
 
-use super::ending::{Ending, ReportFile, Said, deliver, finish};
+use super::ending::{Ending, ReportFile, Said, Shown, deliver, findings, finish};
 use super::files::{Files, is_standard_output};
 use super::progress::Progress;
 use super::{Answer, Output, values};
@@ -133,11 +133,18 @@ impl Hexapod {
         let written: Vec<_> = written.collect();
         let to_stream = self.output.as_deref().is_some_and(is_standard_output);
         // the frame file is what is printed: it stays one that can be read
+        let errors = findings(&found, Shown::All, output);
         let said = match (output.quiet, to_stream) {
-            (true, _) => Said::default(),
-            (false, true) => Said::text(self.report.written()),
+            (true, _) => Said {
+                errors,
+                ..Said::default()
+            },
+            (false, true) => Said {
+                errors,
+                ..Said::text(self.report.written())
+            },
             (false, false) => Said {
-                errors: self.report.written(),
+                errors: errors + &self.report.written(),
                 ..Said::data(text)
             },
         };

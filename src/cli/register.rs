@@ -141,13 +141,22 @@ impl IcpOptions {
     }
 }
 
+/// The balls of touch probes and of reflectors.
+const SMALLEST_BALL_MM: f64 = 0.05;
+const LARGEST_BALL_MM: f64 = 100.0;
+
 impl Register {
     fn options(&self) -> Result<Options, Failure> {
         let radius = self.probe_radius_mm;
-        if !radius.is_finite() || radius < 0.0 {
-            return Err(Failure::new(format!(
-                "--probe-radius-mm {radius}: it must be 0 or more"
-            )));
+        let is_ball = (SMALLEST_BALL_MM..=LARGEST_BALL_MM).contains(&radius);
+        if radius != 0.0 && !is_ball {
+            return Err(Failure::with_hint(
+                format!(
+                    "--probe-radius-mm {radius}: balls have a radius from {SMALLEST_BALL_MM} to \
+                     {LARGEST_BALL_MM} mm"
+                ),
+                "it is in mm, and half of the diameter; 0 where the points themselves are touched",
+            ));
         }
         if let Some(sigma) = self.sigma_mm.filter(|s| !s.is_finite() || *s <= 0.0) {
             return Err(Failure::new(format!(

@@ -1,10 +1,20 @@
 //! Standard output and standard error: the one place that writes there, and that keeps control
 //! characters of files from them.
 
+use super::files::Identity;
 use crate::printable::printable_lines;
 use crate::report::layout::coloured;
 use crate::task::Failure;
 use std::io::{ErrorKind, IsTerminal, Read, Result, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether standard error leads onto a file that is read.
+static IS_MUTE: AtomicBool = AtomicBool::new(false);
+
+/// Says nothing on standard error from now on: it would damage a file that is read.
+pub(super) fn mute_errors() {
+    IS_MUTE.store(true, Ordering::Relaxed);
+}
 
 /// Why a text did not arrive.
 pub(super) enum Stop {
@@ -72,6 +82,9 @@ pub(super) fn print_data(data: &mut dyn Read) -> std::result::Result<(), Stop> {
 
 /// Prints a text for people to standard error.
 pub(super) fn print_errors(text: &str) -> std::result::Result<(), Stop> {
+    if IS_MUTE.load(Ordering::Relaxed) {
+        return Ok(());
+    }
     let mut out = anstream::stderr().lock();
     arrived("standard error", out.write_all(for_people(text).as_bytes()))
 }
@@ -84,9 +97,14 @@ pub(super) fn warn(line: &str) {
 
 /// Says on standard error why the program ends.
 pub(super) fn complain(failure: &Failure) {
-    let mut out = anstream::stderr().lock();
+    let text = super::failure::render(failure);
     // where nobody can hear it, the exit status says it
-    let _ = writeln!(out, "{}", super::failure::render(failure));
+    let _ = if IS_MUTE.load(Ordering::Relaxed) {
+        let is_apart = Identity::of_standard_output() != Identity::of_standard_error();
+        is_apart.then(|| writeln!(anstream::stdout().lock(), "{text}"))
+    } else {
+        Some(writeln!(anstream::stderr().lock(), "{text}"))
+    };
 }
 
 /// Prints what the parser of the command line says; the exit status.

@@ -58,9 +58,10 @@ impl Validate {
             all_sets: self.all_sets,
             as_calibrated: self.as_calibrated,
         };
+        let progress = Progress::new(output, "reading");
         let measurements = self.measurements.read(&files, &profile)?;
         self.report.refuse_over(&files, [])?;
-        let progress = Progress::new(output, "validating");
+        progress.say("validating");
         let found = validate(&profile, measurements, &options, &mut |done, of| {
             progress.tell(done, of);
         })?;

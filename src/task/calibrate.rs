@@ -127,6 +127,9 @@ pub struct Calibration {
     pub sigma_factor: f64,
     /// The factor that the sigmas of the parameters have been multiplied by.
     pub applied_factor: f64,
+    /// How many times larger they are, about, because rows of one configuration miss alike; 1 where
+    /// they do not.
+    pub shared_factor: f64,
     /// Whether the standard deviations of the rows are assumed.
     pub sigma_assumed: bool,
     /// Root mean square error that these sigmas let expect over the joint limits.
@@ -274,6 +277,7 @@ fn of_found(
         degrees_of_freedom: u.degrees_of_freedom,
         sigma_factor: u.sigma_factor,
         applied_factor: u.applied_factor,
+        shared_factor: u.shared_factor,
         sigma_assumed: found.problem.sigma_assumed,
         expected_error_mm: found.expected_m.map(mm_from_m),
         base: (&found.world_from_base).into(),

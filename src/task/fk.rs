@@ -6,7 +6,9 @@ use super::failure::Failure;
 use super::parts::Pose;
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, POSE, Table, cell, text_cell};
-use crate::model::Conditions;
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::DEG;
+use crate::model::{Conditions, Mechanism};
 use crate::program::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -45,10 +47,58 @@ pub struct ToolPose {
 pub struct Poses {
     /// One a row.
     pub poses: Vec<ToolPose>,
+    /// What should be looked at.
+    pub findings: Vec<Finding>,
 }
 
 impl Document for Poses {
     const KIND: &'static str = "poses/1";
+}
+
+/// A joint so far beyond its limits stands there in no file of this robot: angles of another robot,
+/// another unit or another order of columns.
+const BEYOND_RAD: f64 = 5.0 * DEG;
+
+/// Rows of joint angles that the robot cannot have.
+#[derive(Default)]
+pub(super) struct BeyondLimits {
+    rows: usize,
+    /// Line, joint, angle.
+    first: Option<(usize, usize, f64)>,
+}
+
+impl BeyondLimits {
+    /// Looks at one more row.
+    pub(super) fn look(&mut self, mechanism: &Mechanism, line: usize, q: &[f64; 6]) {
+        if let Some(joint) = mechanism.beyond_limit(q, BEYOND_RAD) {
+            self.rows += 1;
+            self.first.get_or_insert((line, joint, q[joint]));
+        }
+    }
+
+    /// What is said of them.
+    pub(super) fn findings(&self, mechanism: &Mechanism, name: &str) -> Vec<Finding> {
+        let Some((line, joint, q)) = self.first else {
+            return Vec::new();
+        };
+        let limits = &mechanism.joints[joint];
+        let message = format!(
+            "joint {} stands at {:.3} deg, its limits are {:.3} and {:.3} deg; rows beyond limits: {}",
+            joint + 1,
+            q / DEG,
+            limits.min_rad / DEG,
+            limits.max_rad / DEG,
+            self.rows
+        );
+        let finding = Finding::of_file("beyond-limit", Severity::Warning, name, message);
+        vec![Finding {
+            line,
+            column: 1,
+            ..finding.hint(
+                "check the order and the unit of the joint columns, and the limits in the profile",
+            )
+        }]
+    }
 }
 
 /// The tool's pose for each row of joint angles; directions, moves, forces, temperature, time and the
@@ -86,8 +136,10 @@ pub fn fk_telling(
     let circumstances = is_real
         .then(|| Circumstances::of(&table, profile))
         .transpose()?;
+    let mut beyond = BeyondLimits::default();
     let pose = |(number, row): (usize, super::table::Row)| {
         let q = row.joints()?;
+        beyond.look(&profile.mechanism, row.line, &q);
         let stand = track.stand(&row)?;
         let pose = if let Some(circumstances) = &circumstances {
             let conditions = circumstances.conditions(&row)?;
@@ -110,8 +162,10 @@ pub fn fk_telling(
         })
     };
     let poses = table.rows_telling(tell).enumerate().map(pose);
+    let poses = poses.collect::<Result<_, Failure>>()?;
     Ok(Poses {
-        poses: poses.collect::<Result<_, Failure>>()?,
+        poses,
+        findings: beyond.findings(&profile.mechanism, &joints.name),
     })
 }
 

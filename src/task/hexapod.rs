@@ -7,6 +7,7 @@ use super::parts::{Ellipsoid, Pose, Sigma};
 use super::profile_file::ProfileFile;
 use super::register::points::Points;
 use super::table::{JOINTS, POSE, Row, Table, cell, text_cell};
+use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose as Motion, Quaternion, Vector, norm};
 use crate::model::profile::{Mounted, Profile};
@@ -53,6 +54,8 @@ pub struct Poses {
     pub sigma_mm: f64,
     /// Rows with more than one mode.
     pub undecided: usize,
+    /// What should be looked at.
+    pub findings: Vec<Finding>,
     /// How the file is named.
     #[serde(skip)]
     pub name: String,
@@ -78,22 +81,24 @@ pub fn poses(lengths: &Source, sigma_m: f64) -> Result<Poses, Failure> {
     let columns = NAMES.map(|name| format!("{name}_mm"));
     table.require(&columns.each_ref().map(String::as_str))?;
     table.require(&["design"])?;
+    table.group(&["mode"])?;
+    table.group(&POSE)?;
+    let has_joints = table.group(&JOINTS)?;
     let mut found = Poses {
         poses: Vec::new(),
         sigma_mm: mm_from_m(sigma_m),
         undecided: 0,
+        findings: Vec::new(),
         name: lengths.name.clone(),
         rows: 0,
         settings: Vec::new(),
     };
+    let mut fixed = Vec::new();
     for (number, row) in table.rows().enumerate() {
         let id = row.id(number + 1);
-        let (design, solved) = setting(&table, &row)?;
-        let joints = if JOINTS.iter().all(|c| table.has(c)) {
-            Some(row.numbers(JOINTS)?)
-        } else {
-            None
-        };
+        let (all, design, solved) = setting(&table, &row)?;
+        fixed.push((row.line, [0, 1, 2, 3, 4, 5].map(|i| all[i])));
+        let joints = has_joints.then(|| row.numbers(JOINTS)).transpose()?;
         found.rows += 1;
         found.undecided += usize::from(solved.len() > 1);
         let modes = solved.len();
@@ -103,33 +108,76 @@ pub fn poses(lengths: &Source, sigma_m: f64) -> Result<Poses, Failure> {
             found.settings.push((modes, joints));
         }
     }
+    found.findings = unlike_others(&fixed, &lengths.name);
     Ok(found)
+}
+
+/// Distances between the balls of the base, and of the tool, stay what they are: a ballbar finds them
+/// within hundredths of a millimetre again, metres.
+const STEADY_M: f64 = 0.1e-3;
+
+/// Rows whose first six lengths, those between balls of the base and of the tool, are not those of
+/// the file's middle row.
+fn unlike_others(fixed: &[(usize, [f64; 6])], name: &str) -> Vec<Finding> {
+    let usual: [f64; 6] = std::array::from_fn(|i| {
+        let mut all: Vec<f64> = fixed.iter().map(|(_, lengths)| lengths[i]).collect();
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2]
+    });
+    let mut findings = Vec::new();
+    for (line, lengths) in fixed {
+        let off = (0..6).find(|i| (lengths[*i] - usual[*i]).abs() > STEADY_M);
+        let Some(i) = off else { continue };
+        let message = format!(
+            "{} is {:.4} mm, and {:.4} mm in most rows (limit {} mm)",
+            NAMES[i],
+            mm_from_m(lengths[i]),
+            mm_from_m(usual[i]),
+            mm_from_m(STEADY_M)
+        );
+        let finding = Finding::of_file("balls-moved", Severity::Warning, name, message);
+        findings.push(Finding {
+            line: *line,
+            column: 1,
+            ..finding.hint("measure it again, or give a file to each setting of the balls")
+        });
+    }
+    findings
 }
 
 /// A device whose longest length is shorter is in another unit: balls and bars are longer, metres.
 const SHORTEST_M: f64 = 0.05;
+/// And no bar is as long as this, metres.
+const LONGEST_M: f64 = 20.0;
 
-/// Refuses lengths in metres or inches.
-fn refuse_short(what: &str, lengths_m: &[f64]) -> Result<(), String> {
+/// Refuses lengths in metres, inches or micrometres.
+fn refuse_unit(what: &str, lengths_m: &[f64]) -> Result<(), String> {
     let longest = lengths_m.iter().copied().fold(0.0, f64::max);
-    if longest >= SHORTEST_M {
+    let (limit, units) = if longest < SHORTEST_M {
+        (SHORTEST_M, "metres or inches")
+    } else if longest > LONGEST_M {
+        (LONGEST_M, "micrometres")
+    } else {
         return Ok(());
-    }
+    };
     Err(format!(
-        "{what} are {:.4} mm at most (limit {:.0} mm): are they in metres or inches? they are mm",
+        "{what} are {:.4} mm at most (limit {:.0} mm): are they in {units}? they are mm",
         mm_from_m(longest),
-        mm_from_m(SHORTEST_M)
+        mm_from_m(limit)
     ))
 }
 
+/// A row's lengths, metres, and what they give.
+type Setting = ([f64; 12], Design, Vec<(Solved, Spread)>);
+
 /// Solves a row.
-fn setting(table: &Table, row: &Row) -> Result<(Design, Vec<(Solved, Spread)>), Failure> {
+fn setting(table: &Table, row: &Row) -> Result<Setting, Failure> {
     let fail = |error: HexapodError| row.failure(error.to_string());
     let mut all = [0.0; 12];
     for (slot, name) in all.iter_mut().zip(NAMES) {
         *slot = m_from_mm(row.number(&format!("{name}_mm"))?);
     }
-    refuse_short("the lengths", &all).map_err(|message| row.failure(message))?;
+    refuse_unit("the lengths", &all).map_err(|message| row.failure(message))?;
     let lengths = Lengths::from_all(all);
     let design = Design::parse(row.text("design").unwrap_or_default()).map_err(fail)?;
     let solved = if table.has("mode") {
@@ -137,7 +185,7 @@ fn setting(table: &Table, row: &Row) -> Result<(Design, Vec<(Solved, Spread)>), 
         let whole = (1..=4_u8).find(|m| f64::from(*m) == mode);
         let whole = whole.ok_or_else(|| fail(HexapodError::Mode { found: mode }))?;
         vec![solve(&lengths, &design, usize::from(whole)).map_err(fail)?]
-    } else if POSE.iter().all(|c| table.has(c)) {
+    } else if table.has(POSE[0]) {
         let [x, y, z, w, i, j, k] = row.numbers(POSE)?;
         // a rough pose need not be a unit quaternion
         let rotation = Quaternion([w, i, j, k]).normalized();
@@ -147,7 +195,7 @@ fn setting(table: &Table, row: &Row) -> Result<(Design, Vec<(Solved, Spread)>), 
         modes(&lengths, &design).map_err(fail)?
     };
     let with_spread = |s: Solved| (s, spread(&lengths, &design, s.mode));
-    Ok((design, solved.into_iter().map(with_spread).collect()))
+    Ok((all, design, solved.into_iter().map(with_spread).collect()))
 }
 
 fn tool_pose(
@@ -234,6 +282,8 @@ pub struct Base {
     pub max_residual_mm: f64,
     /// B1, B2, B3 as the robot was taught them.
     pub taught_mm: [[f64; 3]; 3],
+    /// What should be looked at.
+    pub findings: Vec<Finding>,
     /// How the file is named.
     #[serde(skip)]
     pub name: String,
@@ -245,6 +295,9 @@ pub struct Base {
 impl Document for Base {
     const KIND: &'static str = "hexapod/1";
 }
+
+/// Over the size of the device even an arm that was never calibrated errs by less, metres.
+const WELL_TAUGHT_M: f64 = 1e-3;
 
 /// Finds the frame of the base balls from their taught places and their exact distances B1B2, B2B3,
 /// B3B1, metres.
@@ -260,7 +313,7 @@ pub fn base(taught: &Source, base_m: [f64; 3]) -> Result<Base, Failure> {
             "{name}: {count} points; the base has three: B1, B2, B3"
         ))
     })?;
-    refuse_short("the distances of the base balls", &base_m).map_err(Failure::new)?;
+    refuse_unit("the distances of the base balls", &base_m).map_err(Failure::new)?;
     let found =
         set_base_frame(taught, base_m).map_err(|error| Failure::new(format!("{name}: {error}")))?;
     let frame = Frame {
@@ -274,11 +327,25 @@ pub fn base(taught: &Source, base_m: [f64; 3]) -> Result<Base, Failure> {
         ]),
     };
     let residuals_mm = found.residual_m.map(|v| v.map(mm_from_m));
+    let max_residual_mm = residuals_mm.iter().map(|r| norm(*r)).fold(0.0, f64::max);
+    let mut findings = Vec::new();
+    if max_residual_mm > mm_from_m(WELL_TAUGHT_M) {
+        let message = format!(
+            "a taught point is {max_residual_mm:.3} mm from where the exact distances have it \
+             (limit {} mm)",
+            mm_from_m(WELL_TAUGHT_M)
+        );
+        findings.push(
+            Finding::of_file("taught-off", Severity::Warning, name, message)
+                .hint("teach the balls again in the order B1, B2, B3, with the tool's own frame"),
+        );
+    }
     Ok(Base {
         base: (&found.robot_from_base).into(),
         rmsd_mm: mm_from_m(found.rms_m),
         residuals_mm,
-        max_residual_mm: residuals_mm.iter().map(|r| norm(*r)).fold(0.0, f64::max),
+        max_residual_mm,
+        findings,
         taught_mm: taught.map(|v| v.map(mm_from_m)),
         name: name.clone(),
         frame_text: frame.to_yaml(),

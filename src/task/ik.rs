@@ -90,8 +90,8 @@ pub fn ik_telling(
     let tool = file.tool(options.tool.as_deref())?;
     let table = Table::read(poses)?;
     table.require(&POSE)?;
-    let has_near = NEAR.iter().all(|c| table.has(c));
-    if !all && !has_near && !table.has("branch") {
+    let has_near = table.group(&NEAR)?;
+    if !all && !has_near && !table.group(&["branch"])? {
         let hint = "branch is a number from 0 to 7: 4 behind axis 1, 2 behind the lower arm, 1 \
             joint 5 negative";
         return Err(Failure::with_hint(

@@ -3,8 +3,10 @@
 use super::Document;
 use super::circumstances::{directions as direction_of, temperature_c, time_s};
 use super::failure::Failure;
+use super::fk::BeyondLimits;
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, Row, Table, cell, text_cell};
+use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::external::{agree, column_of, from_files, in_files};
 use crate::identify::measurements::{
@@ -29,6 +31,8 @@ pub struct Simulation {
     /// The measurements (CSV), where no file is written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub csv: Option<String>,
+    /// What should be looked at.
+    pub findings: Vec<Finding>,
 }
 
 impl Document for Simulation {
@@ -54,6 +58,7 @@ pub fn simulate(
     }
     let directions = table.group(&DIRECTION_COLUMNS)?;
     let forces = table.group(&FORCE_COLUMNS)?;
+    let mut beyond = BeyondLimits::default();
     let command = |row: Row| {
         let plate = plate(&file.profile, &row)?;
         if plate.is_some() {
@@ -74,8 +79,10 @@ pub fn simulate(
         if forces {
             force_n = row.numbers(FORCE_COLUMNS)?;
         }
+        let q = row.joints()?;
+        beyond.look(&file.profile.mechanism, row.line, &q);
         Ok(Command {
-            q: row.joints()?,
+            q,
             stand: stand(&file.profile, &row)?,
             plate,
             direction,
@@ -84,7 +91,11 @@ pub fn simulate(
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
     let given = given(&table, session)?;
-    simulated(file, &commands, &given, forces, &tool, session)
+    let found = simulated(file, &commands, &given, forces, &tool, session)?;
+    Ok(Simulation {
+        findings: beyond.findings(&file.profile.mechanism, &joints.name),
+        ..found
+    })
 }
 
 /// What each row says of itself: its id, temperature and time.
@@ -212,6 +223,7 @@ fn simulated(
         rows: rows.len(),
         output: None,
         csv: Some(csv),
+        findings: Vec::new(),
     })
 }
 

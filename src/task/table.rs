@@ -27,7 +27,7 @@ impl<'a> Table<'a> {
     /// Reads a table; lines that start with `#` are comments.
     ///
     /// # Errors
-    /// Text that is no table, with line and column.
+    /// Text that is no table, with line and column; a table without rows.
     pub(super) fn read(source: &'a Source) -> Result<Self, Failure> {
         if let Some(fault) = not_csv(&source.bytes) {
             let (line, column) = (fault.line, fault.column);
@@ -66,6 +66,12 @@ impl<'a> Table<'a> {
             let record = record.map_err(|error| failure(&error))?;
             rows.push((line_of_row(&source.bytes, record.position()), record));
         }
+        if rows.is_empty() {
+            return Err(Failure::with_hint(
+                format!("{}: no rows", source.name),
+                "the first line names the columns, and the rows stand below it",
+            ));
+        }
         Ok(Self {
             source,
             header,
@@ -97,7 +103,12 @@ impl<'a> Table<'a> {
                 Some(format!("is `{near}` meant as `{column}`?"))
             });
             let mut hint: Vec<String> = meant.collect();
-            hint.push(format!("the header has: {}", self.header.join(", ")));
+            let numbers = self.header.iter().filter(|n| n.parse::<f64>().is_ok());
+            hint.push(if numbers.count() * 2 > self.header.len() {
+                "the first line holds numbers: it must name the columns".into()
+            } else {
+                format!("the header has: {}", self.header.join(", "))
+            });
             let hint = hint.join(" ");
             return Err(Failure::with_hint(
                 format!(

@@ -29,6 +29,23 @@ impl Identity {
     pub(in crate::cli) fn of_file(file: &File) -> Option<Self> {
         file.metadata().ok().map(|found| Self::new(&found))
     }
+
+    /// Of the plain file that a stream goes to; none of a terminal, a pipe or a device.
+    fn of_stream(stream: impl std::os::fd::AsFd) -> Option<Self> {
+        let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
+        let found = file.metadata().ok()?;
+        found.is_file().then(|| Self::new(&found))
+    }
+
+    /// Of the plain file that standard output goes to.
+    pub(in crate::cli) fn of_standard_output() -> Option<Self> {
+        Self::of_stream(std::io::stdout())
+    }
+
+    /// Of the plain file that standard error goes to.
+    pub(in crate::cli) fn of_standard_error() -> Option<Self> {
+        Self::of_stream(std::io::stderr())
+    }
 }
 
 #[cfg(not(unix))]
@@ -43,6 +60,16 @@ impl Identity {
         same_file::Handle::from_file(file.try_clone().ok()?)
             .ok()
             .map(Self)
+    }
+
+    /// Of what standard output goes to.
+    pub(in crate::cli) fn of_standard_output() -> Option<Self> {
+        same_file::Handle::stdout().ok().map(Self)
+    }
+
+    /// Of what standard error goes to.
+    pub(in crate::cli) fn of_standard_error() -> Option<Self> {
+        same_file::Handle::stderr().ok().map(Self)
     }
 }
 

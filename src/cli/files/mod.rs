@@ -82,6 +82,21 @@ fn refuse_device(found: &std::fs::Metadata) -> io::Result<()> {
     Ok(())
 }
 
+/// That what is printed does not go into a file that is read: `… >> INPUT`.
+fn refuse_onto_itself(identity: Option<&Identity>) -> io::Result<()> {
+    if identity.is_none() {
+        return Ok(());
+    }
+    if identity == Identity::of_standard_error().as_ref() {
+        screen::mute_errors();
+        return Err(io::Error::other("standard error would be written onto it"));
+    }
+    if identity == Identity::of_standard_output().as_ref() {
+        return Err(io::Error::other("standard output would be written onto it"));
+    }
+    Ok(())
+}
+
 impl Files {
     /// A file's bytes.
     pub(super) fn read(&self, path: &Path) -> Result<Vec<u8>, Failure> {
@@ -99,6 +114,8 @@ impl Files {
     /// All that an open file gives.
     fn taken(&self, path: &Path, mut file: File) -> io::Result<Vec<u8>> {
         let before = file.metadata()?;
+        let identity = Identity::of_file(&file).filter(|_| before.is_file());
+        refuse_onto_itself(identity.as_ref())?;
         let mut bytes = Vec::with_capacity(usize::try_from(before.len()).unwrap_or(0));
         file.read_to_end(&mut bytes)?;
         if !before.is_file() {
@@ -114,7 +131,7 @@ impl Files {
             .map(|time| SystemTime::now().duration_since(time));
         self.inputs.borrow_mut().push(Input {
             path: path.to_owned(),
-            identity: Identity::of_file(&file),
+            identity,
             stamp,
             hash: self.hasher.hash_one(&bytes),
             is_racy: !matches!(age, Ok(Ok(age)) if age > RACY),
@@ -252,6 +269,10 @@ impl Files {
             .collect();
         let mut taken: BTreeMap<&Path, &Path> = BTreeMap::new();
         let mut same: HashMap<Identity, &Path> = HashMap::new();
+        let streams = [
+            (Identity::of_standard_output(), "standard output"),
+            (Identity::of_standard_error(), "standard error"),
+        ];
         for (place, output) in &places {
             let identity = Identity::of(place);
             if let Some(input) = identity.as_ref().and_then(|identity| read.get(identity)) {
@@ -267,6 +288,16 @@ impl Files {
                     ),
                     "name another file for what is written, or say by --in-place that it is meant \
                      where the command has that option",
+                ));
+            }
+            let onto = streams.iter().find(|(s, _)| s.is_some() && *s == identity);
+            if let Some((_, stream)) = onto {
+                return Err(Failure::with_hint(
+                    format!(
+                        "{} takes the place of what {stream} goes to",
+                        name_of(output)
+                    ),
+                    "name another file for one of them; `-` is standard output",
                 ));
             }
             let other = taken.insert(place, output);

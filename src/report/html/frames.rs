@@ -302,7 +302,7 @@ pub(crate) fn hexapod_page(found: &hexapod::Poses) -> Page {
         )],
         points: points.collect(),
         ellipsoids,
-        findings: Vec::new(),
+        findings: found.findings.clone(),
     })
 }
 
@@ -336,6 +336,7 @@ pub(crate) fn base_page(found: &hexapod::Base) -> Page {
         ),
         facts,
         points,
+        findings: found.findings.clone(),
         ..Frame::default()
     })
 }

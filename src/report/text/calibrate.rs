@@ -61,6 +61,13 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
          {:.2}\n",
         found.sigma_factor, found.applied_factor
     );
+    if found.shared_factor > 1.0 {
+        out += &format!(
+            "rows of one configuration miss alike: sigmas count each configuration once, which \
+             makes them about {:.2} times larger\n",
+            found.shared_factor
+        );
+    }
     if let Some(expected_mm) = found.expected_error_mm {
         out += &format!(
             "expected error over the joint limits, by these sigmas: {expected_mm:.4} mm rms\n"

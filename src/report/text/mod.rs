@@ -95,11 +95,9 @@ reports! {
     task::register::Registration: register::text, frame_pages::registration_page, findings, register::poses;
     task::handeye::HandEye: handeye::text, frame_pages::hand_eye_page, findings, handeye::poses;
     task::axes::Axes: axes::text, axes_page::page, findings, axes::poses;
-    task::hexapod::Poses: hexapod::poses, frame_pages::hexapod_page;
-    task::hexapod::Base: hexapod::base, frame_pages::base_page;
+    task::hexapod::Poses: hexapod::poses, frame_pages::hexapod_page, findings;
+    task::hexapod::Base: hexapod::base, frame_pages::base_page, findings;
     task::hexapod::Reach: hexapod::reach, reach::page;
-    task::simulate::Simulation: tables::simulation;
-    task::fk::Poses: tables::poses;
     task::ik::Solutions: tables::solutions;
     task::profile::NewProfile: profile::new;
     task::profile::FromUrdf: profile::from_urdf;

@@ -1,19 +1,32 @@
 //! The texts of `simulate`, `fk` and `ik`: tables.
 
-use crate::report::Style;
+use crate::finding::Finding;
+use crate::report::{Report, Style};
 use crate::task::fk::Poses;
 use crate::task::ik::Solutions;
 use crate::task::simulate::Simulation;
 
-pub(super) fn simulation(found: &Simulation, _: Style) -> String {
-    match (&found.output, &found.csv) {
-        (Some(path), _) => format!("{} rows written to {path}\n", found.rows),
-        (None, csv) => csv.clone().unwrap_or_default(),
+impl Report for Simulation {
+    fn text(&self, _: Style) -> String {
+        match (&self.output, &self.csv) {
+            (Some(path), _) => format!("{} rows written to {path}\n", self.rows),
+            (None, csv) => csv.clone().unwrap_or_default(),
+        }
+    }
+
+    fn findings(&self) -> &[Finding] {
+        &self.findings
     }
 }
 
-pub(super) fn poses(found: &Poses, _: Style) -> String {
-    found.csv()
+impl Report for Poses {
+    fn text(&self, _: Style) -> String {
+        self.csv()
+    }
+
+    fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
 }
 
 pub(super) fn solutions(found: &Solutions, _: Style) -> String {

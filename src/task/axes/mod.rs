@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::measurements::identify_failure;
 use super::parts::{Pose, Sigma, findings as remarks};
 use super::profile_file::ProfileFile;
-use super::table::{JOINTS, POSE, Table, unit};
+use super::table::{JOINTS, Table, unit};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{self, Quaternion};
@@ -288,7 +288,7 @@ fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps
     let table = Table::read(source)?;
     table.require(&POSITION_COLUMNS)?;
     table.require(&["sweep"])?;
-    let has_poses = POSE.iter().all(|c| table.has(c));
+    let has_poses = table.group(&QUATERNION_COLUMNS)?;
     let mut points = BTreeSet::new();
     let mut sweeps: Vec<(Sweep, Vec<usize>)> = Vec::new();
     let mut on_plates: Vec<OnPlate> = Vec::new();

@@ -46,13 +46,18 @@ impl Points {
     pub(crate) fn read(source: &Source) -> Result<Self, Failure> {
         let table = Table::read(source)?;
         table.require(&POINT)?;
-        let optional = |column: &'static str| table.has(column).then_some(column);
+        let optional = |column: &'static str| -> Result<_, Failure> {
+            Ok(table.group(&[column])?.then_some(column))
+        };
         let (radius, sigma, weight) = (
-            optional("radius_mm"),
-            optional("sigma_mm"),
-            optional("weight"),
+            optional("radius_mm")?,
+            optional("sigma_mm")?,
+            optional("weight")?,
         );
-        let has_normals = NORMAL.iter().all(|c| table.has(c));
+        for column in ["id", "feature", "datum"] {
+            optional(column)?;
+        }
+        let has_normals = table.group(&NORMAL)?;
         let mut rows = Vec::new();
         for (number, row) in table.rows().enumerate() {
             let feature = match row.text("feature").unwrap_or("point") {

@@ -3,6 +3,7 @@
 mod as_they_come;
 mod compensate;
 mod control;
+mod doubted;
 mod external;
 mod folders;
 mod fuzzed;

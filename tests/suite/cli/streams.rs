@@ -253,3 +253,63 @@ fn every_result_of_a_command_may_go_to_standard_output() {
     }
     assert!(!folder.path().join("-").exists());
 }
+
+#[test]
+fn what_is_printed_goes_neither_onto_what_is_read_nor_into_the_place_of_an_output() {
+    let folder = world();
+    let at = folder.path();
+    std::fs::hard_link(at.join("in.mod"), at.join("hard.mod")).expect("scratch");
+    std::fs::write(at.join("out.mod"), "").expect("scratch");
+    std::fs::write(
+        at.join("q.csv"),
+        "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n0,0,0,0,30,0\n",
+    )
+    .expect("scratch");
+    let content = || {
+        let files = files_below(at).into_iter();
+        let files = files.map(|name| (std::fs::read(at.join(&name)).expect("a file"), name));
+        files.collect::<Vec<_>>()
+    };
+    let before = content();
+    for line in [
+        "p compensate - --profile p.yaml -o - < in.mod >> in.mod",
+        "p compensate - --profile p.yaml -o - < in.mod >> hard.mod",
+        "p compensate in.mod --profile p.yaml -o - >> in.mod",
+        "p compensate in.mod --profile p.yaml -o - 1<> in.mod",
+        "p compensate in.mod --profile p.yaml --in-place >> in.mod",
+        "p compensate in.mod --profile p.yaml -o new.mod >> p.yaml",
+        "p check in.mod --profile p.yaml --json >> p.yaml",
+        "p check . --profile p.yaml --ignore out.mod >> hard.mod",
+        "p profile show p.yaml >> p.yaml",
+        "p fk --profile p.yaml --joints q.csv >> q.csv",
+        // its errors
+        "p check in.mod --profile p.yaml 2>> in.mod",
+        "p check in.mod --profile p.yaml >> in.mod 2>&1",
+        "p compensate in.mod --profile p.yaml -o new.mod --max-shift 0.001mm,0.001deg 2>> in.mod",
+        // lost with the file that is replaced
+        "p compensate in.mod --profile p.yaml -o out.mod > out.mod",
+        "p compensate in.mod --profile p.yaml -o out.mod --json 2> out.mod",
+        "p check in.mod --profile p.yaml --report out.mod > out.mod",
+    ] {
+        let output = shell(at, line);
+        let said = reported(&output) + &String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(2), "{line}: {said}");
+        let now = content();
+        let names = |all: &[(Vec<u8>, std::path::PathBuf)]| {
+            all.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&now), names(&before), "{line}");
+        for ((was, name), (is, _)) in before.iter().zip(&now) {
+            let is_told = name == Path::new("out.mod") && line.contains("2> out.mod");
+            assert!(is == was || is_told, "{line}: {}", name.display());
+        }
+        // where it can be heard it is said
+        if !line.ends_with("2>&1") && !line.contains("2> out.mod") {
+            assert!(said.contains("standard "), "{line}: {said}");
+        }
+        std::fs::write(at.join("out.mod"), "").expect("scratch");
+    }
+    // a file that nobody reads takes it
+    let output = shell(at, "p check in.mod --profile p.yaml >> log.txt 2>> log.txt");
+    assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
+}
