@@ -62,7 +62,7 @@ use limit::Limits;
 use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use rewrite::{Portion, Split};
-pub use written::{Differs, Draft, Written};
+pub use written::{Check, Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::units::{DEG, MM, mm_from_m};
