@@ -6,7 +6,7 @@ use super::layout;
 use super::programs::{Gathered, Ignored, ProgramFile, gather, meant, read_context};
 use super::progress::Progress;
 use super::{Answer, Output, values};
-use crate::compensate::{AtSingularity, Compensation, Draft, Methods, Options};
+use crate::compensate::{AtSingularity, Compensation, Methods, Options};
 use crate::geometry::units::m_from_mm;
 use crate::model::profile::Profile;
 use crate::printable::name_of;
@@ -215,8 +215,9 @@ impl Compensate {
         });
         let language = prepared.language;
         let draft = header.written.contains(&true).then(|| prepared.draft());
+        let (written, check) = draft.unzip();
         let mut outputs = Vec::new();
-        if let Some(Draft { written, .. }) = &draft {
+        if let Some(written) = &written {
             if let Some(drawing) = &mut drawing {
                 drawing.say_inserted(inserted);
                 let after = &written.sources;
@@ -241,9 +242,10 @@ impl Compensate {
         }
         let answer = if refused { Answer::No } else { Answer::Yes };
         let read_again = || {
-            let verified = draft
-                .iter()
-                .try_for_each(|draft| read_again(draft, language));
+            let draft = check.zip(written.as_ref());
+            let verified = draft.map_or(Ok(()), |(check, written)| {
+                read_again(check, written, language)
+            });
             drop(progress);
             verified
         };

@@ -6,7 +6,7 @@ use super::programs::{LeftOut, common_language, explain, refuse_marked, refuse_u
 use super::{Document, Failure, ProfileFile};
 use crate::check::CheckError;
 use crate::check::refine::refine;
-use crate::compensate::{Compensation, Differs, Draft, Options, Written, compensate, meaning};
+use crate::compensate::{Check, Compensation, Differs, Options, Written, compensate, meaning};
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Method, Status};
@@ -160,14 +160,14 @@ impl Prepared<'_> {
     /// They would not say what was meant: a fault of this program.
     pub fn written(self) -> Result<Written, Failure> {
         let language = self.language;
-        let draft = self.draft();
-        read_again(&draft, language)?;
-        Ok(draft.written)
+        let (written, check) = self.draft();
+        read_again(check, &written, language)?;
+        Ok(written)
     }
 
     /// The new files, still to be read again ([`read_again`]): nothing may be put in place before.
     #[must_use]
-    pub fn draft(self) -> Draft {
+    pub fn draft(self) -> (Written, Check) {
         let only_good = self.request.despite_errors == DespiteErrors::Good;
         self.compensation.draft(
             self.language,
@@ -182,9 +182,9 @@ impl Prepared<'_> {
 ///
 /// # Errors
 /// They would not say what was meant: a fault of this program.
-pub fn read_again(draft: &Draft, language: &dyn Language) -> Result<(), Failure> {
+pub fn read_again(check: Check, written: &Written, language: &dyn Language) -> Result<(), Failure> {
     let fault = |differs: Differs| Failure::internal(differs.to_string());
-    draft.read_again(language).map_err(fault)
+    check.read_again(written, language).map_err(fault)
 }
 
 /// What the report says besides the compensation itself.

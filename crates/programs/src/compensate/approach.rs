@@ -78,11 +78,8 @@ impl Approach {
     pub(super) fn numbers_in_frame(&self, job: &Job) -> Pose {
         let ground = &job.ground;
         let target = self.target as usize;
-        let decoded =
-            crate::program::meaning(ground.language, ground.program, ground.settings, target);
-        let value = decoded
-            .expect("the target of an approach has numbers")
-            .value;
+        let value = crate::program::value(ground.language, ground.program, ground.settings, target)
+            .expect("the target of an approach has numbers");
         ground.in_frame(&value, self.tool as usize)
     }
 
@@ -215,10 +212,12 @@ fn sort(approaches: &mut [Approach]) {
 
 /// Leaves each of the approaches of one target once.
 fn drop_same(job: &Job, approaches: &mut Vec<Approach>) {
-    let mut kept = 0;
+    let (mut kept, mut first) = (0, 0);
     for at in 0..approaches.len() {
         let approach = approaches[at];
-        let first = approaches[..kept].partition_point(|other| other.target < approach.target);
+        if kept > 0 && approaches[kept - 1].target != approach.target {
+            first = kept;
+        }
         let known = approaches[first..kept]
             .iter()
             .any(|other| is_same(job, other, &approach));

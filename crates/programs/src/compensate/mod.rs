@@ -62,7 +62,7 @@ use limit::Limits;
 use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use rewrite::{Portion, Split};
-pub use written::{Differs, Draft, Written};
+pub use written::{Check, Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -84,7 +84,7 @@ const LIMIT_DERIVED_M: f64 = 0.05 * MM;
 /// Angles of a positioner that differ by less are the same.
 const SAME_ANGLE_RAD: f64 = 1e-9;
 /// Targets rewritten by one thread at a time.
-const CHUNK: usize = 512;
+const CHUNK: usize = 128;
 
 /// What the user decides.
 #[derive(Clone, Debug, Default)]
@@ -547,7 +547,7 @@ fn rewrite_all(
     }
     let bases = displaced::bases(job);
     let rewrite = |groups: &[std::ops::Range<usize>]| {
-        let mut portion = Portion::new(&bases);
+        let mut portion = Portion::new(&bases, groups.len());
         let mut group = Vec::with_capacity(1);
         for range in groups {
             group.clear();
@@ -573,7 +573,7 @@ fn rewrite_all(
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long
     // program
-    let mut some = chunks.chunks(2 * rayon::current_num_threads());
+    let mut some = chunks.chunks(8 * rayon::current_num_threads());
     let of = |some: &[&[std::ops::Range<usize>]]| -> Vec<Portion> {
         some.par_iter().map(|groups| rewrite(groups)).collect()
     };

@@ -27,6 +27,9 @@ const ROUNDING_LIMIT: Separation = Separation {
     angle_rad: 0.01 * DEG,
 };
 
+/// Bytes of a number that is written, mostly at most.
+const LONG: usize = 16;
+
 /// What became of some of the targets.
 pub(super) struct Portion<'a> {
     /// Targets that points are derived from.
@@ -71,11 +74,11 @@ pub(super) fn fractions(job: &Job) -> Vec<Fraction> {
 }
 
 impl<'a> Portion<'a> {
-    /// Nothing yet.
-    pub(super) fn new(bases: &'a BTreeSet<usize>) -> Self {
+    /// Nothing yet, with room for what becomes of so many targets.
+    pub(super) fn new(bases: &'a BTreeSet<usize>, targets: usize) -> Self {
         Self {
             bases,
-            reports: Vec::new(),
+            reports: Vec::with_capacity(targets),
             edits: BTreeMap::new(),
             findings: Vec::new(),
             splits: Vec::new(),
@@ -235,7 +238,11 @@ impl<'a> Portion<'a> {
             .extend(remarks::singularity(job, approach, outcome));
         self.findings
             .extend(remarks::other_posture(job, approach, outcome));
-        let moved = group[0].programmed(job).separation(&given);
+        let moved = if job.ground.part_moved {
+            group[0].programmed(job).separation(&given)
+        } else {
+            shift
+        };
         if moved.distance_m < NO_SHIFT.distance_m && moved.angle_rad < NO_SHIFT.angle_rad {
             return;
         }
@@ -293,8 +300,7 @@ impl<'a> Portion<'a> {
             Shape::Pose => Value::Pose(fake.frame_from_tool),
             Shape::Joints => Value::Joints(fake.q),
         };
-        let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
-        let mut new = old.clone();
+        let mut new: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let programmed = as_programmed(job, approach);
         let (before, after) = (posture_of(arm, &programmed), posture_of(arm, &fake.q));
         ground.language.encode(
@@ -309,7 +315,7 @@ impl<'a> Portion<'a> {
             // the configuration data are of the orientation that is written
             for (i, role) in roles.iter().enumerate() {
                 if *role == Role::Configuration {
-                    new[i] = old[i];
+                    new[i] = numbers[i].value;
                 }
             }
         }
@@ -325,58 +331,60 @@ impl<'a> Portion<'a> {
         }
         let styles = styles(job, target, numbers, roles, fractions[target.file as usize]);
         let mut written = Written {
+            digits: Vec::with_capacity(LONG * new.len()),
+            texts: Vec::with_capacity(new.len()),
             numbers: new,
             ..Written::default()
         };
-        let new = &mut written.numbers;
-        if (0..new.len()).any(|i| roles[i] == Role::Configuration && new[i] != old[i]) {
+        let (new, digits) = (&mut written.numbers, &mut written.digits);
+        let is_other = |new: &[f64], index: usize| new[index] != numbers[index].value;
+        if (0..new.len()).any(|i| roles[i] == Role::Configuration && is_other(new, i)) {
+            let old: Vec<f64> = numbers.iter().map(|n| n.value).collect();
             let finding = remarks::changed_configuration(job, approach, roles, &old, new);
             written.findings.push(finding);
         }
         let mut inserted = Vec::new();
-        let mut digits = Vec::with_capacity(32);
         for (index, number) in numbers.iter().enumerate() {
-            if new[index] == old[index] {
+            if !is_other(new, index) {
                 continue;
             }
             let old_text = text(job, target, number);
-            digits.clear();
+            let from = digits.len();
             if roles[index] == Role::Configuration {
                 ground.language.write_configuration(
                     target.layout,
                     index,
                     new[index],
                     old_text,
-                    &mut digits,
+                    digits,
                 );
             } else {
-                styles[roles[index] as usize].write(old_text, new[index], &mut digits);
-                new[index] =
-                    number::parse(digits.trim_ascii_start()).expect("a written number is a number");
+                styles[roles[index] as usize].write(old_text, new[index], digits);
+                new[index] = number::parse(digits[from..].trim_ascii_start())
+                    .expect("a written number is a number");
             }
-            if new[index] != old[index] {
-                written.changed = true;
-                let start = number.start as usize;
-                let from = written.digits.len();
-                let is_missing = number.length == 0;
-                if is_missing {
-                    let (before, behind) = ground.language.around_missing(target.layout, index);
-                    let text = [before.as_bytes(), &digits, behind.as_bytes()].concat();
-                    inserted.extend_from_slice(&text);
-                    written.digits.extend(text);
-                } else {
-                    written.digits.extend_from_slice(&digits);
-                }
-                if is_missing || roles[index] == Role::Configuration {
-                    let number = target.numbers.start + small(index);
-                    written.meant.push((number, new[index]));
-                }
-                written.texts.push((
-                    index,
-                    start..start + usize::from(number.length),
-                    from..written.digits.len(),
-                ));
+            if !is_other(new, index) {
+                digits.truncate(from);
+                continue;
             }
+            written.changed = true;
+            let start = number.start as usize;
+            let is_missing = number.length == 0;
+            if is_missing {
+                let (before, behind) = ground.language.around_missing(target.layout, index);
+                digits.splice(from..from, before.bytes());
+                digits.extend_from_slice(behind.as_bytes());
+                inserted.extend_from_slice(&digits[from..]);
+            }
+            if is_missing || roles[index] == Role::Configuration {
+                let number = target.numbers.start + small(index);
+                written.meant.push((number, new[index]));
+            }
+            written.texts.push((
+                index,
+                start..start + usize::from(number.length),
+                from..digits.len(),
+            ));
         }
         if !inserted.is_empty() {
             let finding = remarks::inserted_numbers(job, approach, &inserted);
@@ -451,6 +459,11 @@ fn styles(
     roles: &[Role],
     fraction: Fraction,
 ) -> [Style; 4] {
+    let mut most = [None; 4];
+    for (number, role) in numbers.iter().zip(roles) {
+        let most = &mut most[*role as usize];
+        *most = number::fixed_decimals(text(job, target, number)).max(*most);
+    }
     [
         Role::Position,
         Role::Orientation,
@@ -463,12 +476,7 @@ fn styles(
             Some(decimals) => language.decimals(role, decimals),
             None => language.least_decimals(role),
         };
-        let texts = numbers
-            .iter()
-            .zip(roles)
-            .filter(|(_, r)| **r == role)
-            .map(|(n, _)| text(job, target, n));
-        Style::of_group(texts, at_least, fraction)
+        Style::of_most(most[role as usize], at_least, fraction)
     })
 }
 
@@ -504,13 +512,10 @@ fn kept_configuration(
     {
         return None;
     }
-    let decoded = job
-        .ground
-        .language
-        .decode(target.layout, new, job.ground.settings);
+    let configuration = job.ground.language.configuration(target.layout, new);
     let is_inside = |q: f64, (low, high): (f64, f64)| (low..=high).contains(&q);
     (0..6).find(|&i| {
-        decoded.configuration.joints[i]
+        configuration.joints[i]
             .is_some_and(|range| is_inside(before[i], range) && !is_inside(q[i], range))
     })
 }

@@ -51,11 +51,7 @@ impl Fake {
     pub(super) fn meant(job: &Job, approach: &Approach, numbers: &[f64]) -> Self {
         let ground = &job.ground;
         let layout = ground.program.targets[approach.target as usize].layout;
-        match ground
-            .language
-            .decode(layout, numbers, ground.settings)
-            .value
-        {
+        match ground.language.value(layout, numbers, ground.settings) {
             Value::Pose(frame_from_tool) => Self {
                 frame_from_tool,
                 q: approach.nominal_q,
@@ -73,11 +69,10 @@ impl Fake {
 /// # Errors
 /// Where no numbers serve all: what each approach would miss with the mean, and the mean.
 pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake)> {
-    let fakes: Vec<Fake> = group.iter().map(|solved| Fake::of(job, solved)).collect();
-    let first = fakes[0];
-    if fakes.len() == 1 {
-        return Ok(first);
+    if let [only] = group {
+        return Ok(Fake::of(job, only));
     }
+    let fakes: Vec<Fake> = group.iter().map(|solved| Fake::of(job, solved)).collect();
     let is_joints = job.ground.is_joints(group[0].approach.target as usize);
     let alike = |a: &Fake, b: &Fake| {
         if is_joints {
@@ -124,14 +119,14 @@ pub(super) fn landings(job: &Job, group: &[Solved], given: &Fake) -> [Separation
 
 /// What arcs miss at a target that serves others too; `None` where that is nothing.
 pub(super) fn passed(job: &Job, approach: &Approach, off: &Separation) -> Option<Finding> {
-    let message = format!(
-        "{} is passed in the middle of arcs in other rotations than it is written for: an arc \
-         passes it up to {:.3} mm off its wanted path (the limit is {:.3} mm)",
-        job.ground.name_of(approach.target as usize),
-        mm_from_m(off.distance_m),
-        mm_from_m(displaced::limit_m(job))
-    );
     (off.distance_m > SAME.distance_m).then(|| {
+        let message = format!(
+            "{} is passed in the middle of arcs in other rotations than it is written for: an arc \
+             passes it up to {:.3} mm off its wanted path (the limit is {:.3} mm)",
+            job.ground.name_of(approach.target as usize),
+            mm_from_m(off.distance_m),
+            mm_from_m(displaced::limit_m(job))
+        );
         job.ground.at_target(
             "arc-shared",
             Severity::Note,

@@ -26,16 +26,21 @@ pub struct Written {
     pub is_written: Vec<bool>,
 }
 
-/// Files with their changes and markers, and what they must say when they are read again. Nothing
-/// may be put in place before that.
+/// What files with their changes and markers must say when they are read again. Nothing may be put
+/// in place before that.
 #[derive(Debug)]
-pub struct Draft {
-    /// The files.
-    pub written: Written,
-    meant: Vec<Meant>,
+pub struct Check {
+    /// The targets as they were, and the numbers of all of them.
+    targets: Vec<Target>,
+    numbers: Vec<Number>,
+    /// The changes to each file.
+    edits: Vec<Edits>,
+    /// See [`Compensation::meant`].
+    computed: Vec<(u32, f64)>,
+    added: Added,
     settings: Settings,
-    /// How many moves there were, and what is added; `None` where not all files are written.
-    added: Option<(usize, Added)>,
+    /// How many moves there were; `None` where not all files are written.
+    moves: Option<usize>,
 }
 
 impl Compensation {
@@ -54,9 +59,9 @@ impl Compensation {
         profile_sha256: &str,
         only_good: bool,
     ) -> Result<Written, Differs> {
-        let draft = self.draft(language, sources, profile_sha256, only_good);
-        draft.read_again(language)?;
-        Ok(draft.written)
+        let (written, check) = self.draft(language, sources, profile_sha256, only_good);
+        check.read_again(&written, language)?;
+        Ok(written)
     }
 
     /// As [`Compensation::written`], still to be read again.
@@ -67,16 +72,13 @@ impl Compensation {
         sources: &[Source],
         profile_sha256: &str,
         only_good: bool,
-    ) -> Draft {
+    ) -> (Written, Check) {
         let is_written: Vec<bool> = sources
             .iter()
             .zip(&self.refused)
             .map(|(source, refused)| !(source.is_context || only_good && *refused))
             .collect();
-        let mut meant = Vec::with_capacity(sources.len());
-        let program = &self.program;
-        let mut numbers = numbers_by_file(&program.targets, &program.numbers, sources.len());
-        let mut written = Vec::with_capacity(sources.len());
+        let mut all_edits = Vec::with_capacity(sources.len());
         for (file, source) in sources.iter().enumerate() {
             let mut edits = std::mem::take(&mut self.edits[file]);
             if !is_written[file] {
@@ -92,56 +94,63 @@ impl Compensation {
                 let (at, text) = language.mark(source, &marker);
                 edits.replace(at..at, |out| out.extend_from_slice(&text));
             }
-            let own = std::mem::take(&mut numbers[file]);
-            let (own, bytes) = rayon::join(
-                || Meant::of(&self, own, &edits),
-                || edits.apply(&source.bytes),
-            );
-            meant.push(own);
-            written.push(if source.is_context {
+            all_edits.push(edits);
+        }
+        let all = sources.iter().zip(&all_edits);
+        let written = all.map(|(source, edits)| {
+            let bytes = edits.apply(&source.bytes);
+            if source.is_context {
                 Source::context(source.name.clone(), bytes)
             } else {
                 Source::new(source.name.clone(), bytes)
-            });
-        }
+            }
+        });
+        let written = written.collect();
         let all_written = is_written
             .iter()
             .zip(sources)
             .all(|(is, s)| *is || s.is_context);
-        Draft {
-            written: Written {
-                sources: written,
-                is_written,
-            },
-            meant,
+        let check = Check {
+            moves: all_written.then_some(self.program.instructions.len()),
+            targets: self.program.targets,
+            numbers: self.program.numbers,
+            edits: all_edits,
+            computed: self.meant,
+            added: self.added,
             settings: self.settings,
-            added: all_written.then_some((self.program.instructions.len(), self.added)),
-        }
+        };
+        let written = Written {
+            sources: written,
+            is_written,
+        };
+        (written, check)
     }
 }
 
-impl Draft {
+impl Check {
     /// Reads the files again and compares every number with what was meant.
     ///
     /// # Errors
     /// One differs: a fault of this program.
-    pub fn read_again(&self, language: &dyn Language) -> Result<(), Differs> {
-        let sources = &self.written.sources;
+    pub fn read_again(self, written: &Written, language: &dyn Language) -> Result<(), Differs> {
+        let sources = &written.sources;
         let differs = |file: usize, what: String| Differs {
             file: sources[file].name.clone(),
             what,
         };
-        let after = language
-            .script(sources, &self.settings)
-            .map_err(|error| differs(0, error.to_string()))?;
+        let (settings, moves) = (self.settings.clone(), self.moves);
+        // what was meant is gathered while the files are read
+        let (after, (all_meant, added)) =
+            rayon::join(|| language.script(sources, &settings), || self.meant());
+        let after = after.map_err(|error| differs(0, error.to_string()))?;
         let mut new: Vec<Vec<f64>> = Vec::new();
         let found = numbers_by_file(&after.targets, &after.numbers, sources.len());
-        for (file, (meant, found)) in self.meant.iter().zip(found).enumerate() {
+        for (file, (meant, found)) in all_meant.iter().zip(found).enumerate() {
             meant
                 .compare(&after, (file, found), language, &mut new)
                 .map_err(|what| differs(file, what))?;
         }
-        if let Some((moves, added)) = &self.added {
+        if let Some(moves) = moves {
             if after.instructions.len() != moves + added.moves {
                 let what = format!(
                     "{} moves where {} are meant",
@@ -159,6 +168,15 @@ impl Draft {
             }
         }
         Ok(())
+    }
+
+    /// What each file is to hold, and what is added to them. Takes what was computed, so that a
+    /// long program is not in memory twice.
+    fn meant(self) -> (Vec<Meant>, Added) {
+        let numbers = numbers_by_file(&self.targets, &self.numbers, self.edits.len());
+        let all = numbers.into_iter().zip(&self.edits);
+        let meant = all.map(|(own, edits)| Meant::of(&self, own, edits));
+        (meant.collect(), self.added)
     }
 }
 
@@ -181,26 +199,25 @@ struct Meant {
 
 impl Meant {
     /// `numbers`: those of the file's targets, in its order.
-    fn of(compensation: &Compensation, numbers: Vec<u32>, edits: &Edits) -> Self {
-        let program = &compensation.program;
+    fn of(check: &Check, numbers: Vec<u32>, edits: &Edits) -> Self {
         let mut next = numbers.into_iter().peekable();
         let mut meant = Self {
-            numbers: Vec::new(),
+            numbers: Vec::with_capacity(next.len()),
             freed: BTreeSet::new(),
             new: Vec::new(),
         };
-        let freed = &compensation.added.freed;
-        let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
+        let freed = &check.added.freed;
+        let freed: Vec<&Range<u32>> = freed.iter().map(|t| &check.targets[*t].numbers).collect();
         let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
         let computed = |index: u32| {
-            let at = compensation
-                .meant
+            let at = check
+                .computed
                 .binary_search_by_key(&index, |(index, _)| *index);
-            at.ok().map(|at| compensation.meant[at].1)
+            at.ok().map(|at| check.computed[at].1)
         };
         // what is reported of a number counts where the file is written
         let kept = |index: u32| {
-            let number = &program.numbers[index as usize];
+            let number = &check.numbers[index as usize];
             let put_in = computed(index).filter(|_| number.length == 0 && !edits.is_empty());
             put_in.unwrap_or(number.value)
         };
@@ -210,11 +227,11 @@ impl Meant {
         for (span, text) in edits.changes() {
             let start = crate::program::script::short(span.start);
             while let Some(index) = next.next_if(|i| {
-                let number = &program.numbers[*i as usize];
+                let number = &check.numbers[*i as usize];
                 number.start < start || number.start == start && number.length == 0
             }) {
-                if program.numbers[index as usize].length == 0 {
-                    missing = Some(program.numbers[index as usize].start);
+                if check.numbers[index as usize].length == 0 {
+                    missing = Some(check.numbers[index as usize].start);
                 }
                 meant.keep(kept(index), is_freed(index));
             }
@@ -223,7 +240,7 @@ impl Meant {
                 continue;
             }
             let here = next.peek().copied().filter(|index| {
-                let number = &program.numbers[*index as usize];
+                let number = &check.numbers[*index as usize];
                 number.start == start && usize::from(number.length) == span.len()
             });
             let at = span.start + behind - before;
@@ -234,7 +251,7 @@ impl Meant {
                 meant.numbers.push(value.unwrap_or(f64::NAN));
             } else {
                 while next
-                    .next_if(|i| (program.numbers[*i as usize].start as usize) < span.end)
+                    .next_if(|i| (check.numbers[*i as usize].start as usize) < span.end)
                     .is_some()
                 {}
                 if !text.is_empty() {
@@ -334,7 +351,9 @@ fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<
         let first = of_file.len();
         of_file.extend(target.numbers.clone());
         // configuration data may stand before what comes first in a pose
-        of_file[first..].sort_by_key(start);
+        if !of_file[first..].is_sorted_by_key(start) {
+            of_file[first..].sort_by_key(start);
+        }
     }
     for found in &mut all {
         if !found.is_sorted_by_key(start) {

@@ -86,12 +86,15 @@ impl Edits {
 
     /// The replaced ranges and their new text, in the order of the file.
     pub fn changes(&self) -> impl Iterator<Item = (Range<usize>, &[u8])> {
-        let mut order: Vec<u32> = (0..short(self.spans.len())).collect();
-        order.sort_by_key(|i| {
-            let span = self.spans[*i as usize];
-            (span.start, span.end)
-        });
-        order.into_iter().map(|i| self.change(i as usize))
+        let place = |span: &Span| (span.start, span.end);
+        let mut order = Vec::new();
+        // mostly they come in the order of the file
+        if !self.spans.is_sorted_by_key(place) {
+            order.extend(0..short(self.spans.len()));
+            order.sort_by_key(|i| place(&self.spans[*i as usize]));
+        }
+        let change = move |i: usize| self.change(order.get(i).map_or(i, |i| *i as usize));
+        (0..self.spans.len()).map(change)
     }
 
     /// The file with the replacements made.

@@ -145,17 +145,22 @@ pub trait Language: Sync {
 
     /// The meaning of a target's numbers, as many as it has roles.
     fn decode(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Decoded {
-        match layout.shape {
-            Shape::Pose => Decoded {
-                value: Value::Pose(self.pose_of(layout, numbers)),
-                configuration: self.configuration(layout, numbers),
+        Decoded {
+            value: self.value(layout, numbers, settings),
+            configuration: match layout.shape {
+                Shape::Pose => self.configuration(layout, numbers),
+                Shape::Joints => Configuration::default(),
             },
+        }
+    }
+
+    /// The pose or the joints alone that a target's numbers mean.
+    fn value(&self, layout: Layout, numbers: &[f64], settings: &Settings) -> Value {
+        match layout.shape {
+            Shape::Pose => Value::Pose(self.pose_of(layout, numbers)),
             Shape::Joints => {
                 let unit = self.joint_units(layout, settings);
-                Decoded {
-                    value: Value::Joints(std::array::from_fn(|i| numbers[i] * unit[i])),
-                    configuration: Configuration::default(),
-                }
+                Value::Joints(std::array::from_fn(|i| numbers[i] * unit[i]))
             }
         }
     }

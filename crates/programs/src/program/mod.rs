@@ -568,8 +568,28 @@ pub fn meaning(
     settings: &Settings,
     target: TargetId,
 ) -> Option<Decoded> {
-    let target = &program.targets[target];
-    let numbers = program.numbers_of(target);
+    let layout = program.targets[target].layout;
+    with_values(program, target, |values| {
+        language.decode(layout, values, settings)
+    })
+}
+
+/// The pose or the joints alone that the numbers of a target mean, likewise.
+pub(crate) fn value(
+    language: &dyn Language,
+    program: &Program,
+    settings: &Settings,
+    target: TargetId,
+) -> Option<Value> {
+    let layout = program.targets[target].layout;
+    with_values(program, target, |values| {
+        language.value(layout, values, settings)
+    })
+}
+
+/// What is made of the numbers of a target, where it has any.
+fn with_values<T>(program: &Program, target: TargetId, of: impl FnOnce(&[f64]) -> T) -> Option<T> {
+    let numbers = program.numbers_of(&program.targets[target]);
     // a target has few, and this is asked often
     let mut few = [0.0; FEW_NUMBERS];
     let many: Vec<f64>;
@@ -582,7 +602,7 @@ pub fn meaning(
         many = numbers.iter().map(|number| number.value).collect();
         &many
     };
-    (!values.is_empty()).then(|| language.decode(target.layout, values, settings))
+    (!values.is_empty()).then(|| of(values))
 }
 
 /// As many numbers as a target mostly has.

@@ -11,7 +11,7 @@ use foldhash::fast::RandomState;
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry as Found;
 use std::collections::hash_map::Entry;
-use std::hash::BuildHasher;
+use std::hash::{BuildHasher, Hasher};
 
 /// A name without its case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -56,20 +56,18 @@ impl Spellings {
     }
 }
 
-/// Names up to this length are folded without allocation; RAPID allows 32 letters.
-const SHORT: usize = 64;
+/// The bit that tells small letters from capital ones, in eight bytes.
+const CASE: u64 = 0x2020_2020_2020_2020;
 
 /// The hash of a name, whatever its case.
 fn hash_of(hasher: &RandomState, name: &str) -> u32 {
-    let mut short = [0; SHORT];
-    let hash = if let Some(copy) = short.get_mut(..name.len()) {
-        copy.copy_from_slice(name.as_bytes());
-        copy.make_ascii_lowercase();
-        hasher.hash_one(&*copy)
-    } else {
-        hasher.hash_one(name.to_ascii_lowercase().as_bytes())
-    };
-    (hash >> 32) as u32
+    let mut hash = hasher.build_hasher();
+    for part in name.as_bytes().chunks(8) {
+        let mut eight = [0; 8];
+        eight[..part.len()].copy_from_slice(part);
+        hash.write_u64(u64::from_le_bytes(eight) | CASE);
+    }
+    (hash.finish() >> 32) as u32
 }
 
 impl Symbols {

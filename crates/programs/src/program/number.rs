@@ -198,16 +198,21 @@ impl Style {
         at_least: usize,
         fraction: Fraction,
     ) -> Self {
-        let fixed = texts
-            .map(trimmed)
-            .filter(|text| exponent_at(text).is_none())
-            .map(decimals);
-        let decimals = fixed
-            .max()
-            .unwrap_or(CONTROLLER_DECIMALS)
-            .max(at_least)
-            .min(MOST_DECIMALS);
-        Self { decimals, fraction }
+        Self::of_most(
+            texts.map(fixed_decimals).max().flatten(),
+            at_least,
+            fraction,
+        )
+    }
+
+    /// The style of a group whose most precise number has so many decimals, if any is in fixed
+    /// notation.
+    pub(crate) fn of_most(most: Option<usize>, at_least: usize, fraction: Fraction) -> Self {
+        let decimals = most.unwrap_or(CONTROLLER_DECIMALS).max(at_least);
+        Self {
+            decimals: decimals.min(MOST_DECIMALS),
+            fraction,
+        }
     }
 
     /// Appends `value` in this style, with the sign habit, exponent letter and column width of the
@@ -254,6 +259,19 @@ fn unsigned(text: &[u8]) -> &[u8] {
 
 fn exponent_at(text: &[u8]) -> Option<usize> {
     text.iter().position(|b| matches!(b, b'e' | b'E'))
+}
+
+/// The decimals of a number in fixed notation; `None` where it has an exponent.
+pub(crate) fn fixed_decimals(text: &[u8]) -> Option<usize> {
+    let mut decimals = None;
+    for byte in trimmed(text) {
+        match byte {
+            b'e' | b'E' => return None,
+            b'.' if decimals.is_none() => decimals = Some(0),
+            _ => decimals = decimals.map(|count| count + 1),
+        }
+    }
+    Some(decimals.unwrap_or(0))
 }
 
 fn decimals(text: &[u8]) -> usize {

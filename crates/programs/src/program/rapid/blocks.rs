@@ -5,34 +5,37 @@ use super::syntax::{Expression, StatementKind};
 use super::tokens::{Fault, Kind};
 use crate::program::names::Symbol;
 
-/// Words that begin, part or end a block, or leave one.
-pub(super) const BLOCK_WORDS: [&[u8]; 22] = [
-    b"if",
-    b"elseif",
-    b"else",
-    b"endif",
-    b"while",
-    b"endwhile",
-    b"for",
-    b"endfor",
-    b"test",
-    b"case",
-    b"default",
-    b"endtest",
-    b"error",
-    b"undo",
-    b"backward",
-    b"goto",
-    b"return",
-    b"raise",
-    b"retry",
-    b"trynext",
-    b"exit",
-    b"exitcycle",
-];
+/// Whether a word begins, parts or ends a block, or leaves one.
+pub(super) fn is_block_word(word: &[u8]) -> bool {
+    matches!(
+        word,
+        b"if"
+            | b"elseif"
+            | b"else"
+            | b"endif"
+            | b"while"
+            | b"endwhile"
+            | b"for"
+            | b"endfor"
+            | b"test"
+            | b"case"
+            | b"default"
+            | b"endtest"
+            | b"error"
+            | b"undo"
+            | b"backward"
+            | b"goto"
+            | b"return"
+            | b"raise"
+            | b"retry"
+            | b"trynext"
+            | b"exit"
+            | b"exitcycle"
+    )
+}
 
 impl Reader<'_> {
-    /// A statement that starts with one of [`BLOCK_WORDS`], the present token.
+    /// A statement that starts with a word of blocks, the present token.
     pub(super) fn block(&mut self, start: u32, word: &[u8]) -> Result<(), Fault> {
         self.advance()?;
         match word {

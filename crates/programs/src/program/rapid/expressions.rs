@@ -1,6 +1,6 @@
 //! Expressions that are passed over, and the arguments of an instruction one after another.
 
-use super::blocks::BLOCK_WORDS;
+use super::blocks::is_block_word;
 use super::builtins::Known;
 use super::reader::{KEYWORD, Reader, keyword};
 use super::syntax::{Argument, Base, Expression, Function, Index, Part, StatementKind, Verb};
@@ -148,8 +148,7 @@ impl Reader<'_> {
         }
         let mut buffer = [0; KEYWORD];
         let word = keyword(self.text(self.token), &mut buffer);
-        matches!(word, b"endproc" | b"endfunc" | b"endtrap" | b"endmodule")
-            || BLOCK_WORDS.contains(&word)
+        matches!(word, b"endproc" | b"endfunc" | b"endtrap" | b"endmodule") || is_block_word(word)
     }
 
     /// Passes over an expression, to what ends it or to a name that follows an operand; parsed the

@@ -4,7 +4,7 @@
 //! semicolons, and a short IF has its statement behind its condition. Nothing here recurses on the
 //! text's brackets.
 
-use super::blocks::BLOCK_WORDS;
+use super::blocks::is_block_word;
 use super::expressions::OpenCall;
 use super::syntax::{
     Argument, Callee, Component, Lengths, Parsed, Routine, Statement, StatementKind, Storage, Type,
@@ -234,7 +234,7 @@ impl<'a> Reader<'a> {
             }
             // `CONNECT i1 WITH trap;` calls nothing: traps run at any time as it is
             b"alias" | b"connect" => self.skip_statement(),
-            word if BLOCK_WORDS.contains(&word) => self.block(first.start, word),
+            word if is_block_word(word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }
     }

@@ -272,15 +272,16 @@ impl<'a> Reader<'a> {
     /// A value of a project: where it stands among those of its name, if it does, and its key.
     fn declared(&mut self, datum: u32, at: Option<usize>, key: &[u8]) -> Variable {
         let of = &self.world.data[datum as usize];
-        let name = match at {
-            Some(at) => of.name_of(at),
-            None => format!("{}[{}]", Source::text(of.name), Source::text(key)),
-        };
+        let target = at.and_then(|at| self.variables.values[datum as usize][at].target);
+        let known = target.and_then(|target| self.builder.script.targets[target].name.clone());
+        let name = known.unwrap_or_else(|| match at {
+            Some(at) => of.name_of(at).into(),
+            None => format!("{}[{}]", Source::text(of.name), Source::text(key)).into(),
+        });
         let place = Place {
             file: of.file,
             offset: of.at,
         };
-        let target = at.and_then(|at| self.variables.values[datum as usize][at].target);
         let declared = match (of.kind, at) {
             (Kind::Tool, Some(at)) => self.tool_value(datum, at, &name),
             (Kind::Tool, None) => self.frame_value(&name, None),
