@@ -3,7 +3,8 @@
 use super::meshes::{Loader, Reader};
 use super::parts::{Names, finite};
 use super::programs::{
-    LeftOut, common_language, compared_with_itself, explain, refuse_other_origin, refuse_swapped,
+    LeftOut, common_language, compared_with_itself, explain, paired, refuse_other_origin,
+    refuse_swapped,
 };
 use super::{Document, Failure, ProfileFile};
 use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
@@ -19,6 +20,7 @@ use crate::nearest;
 use crate::program::{Language, Motion, Source};
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 
 /// What is to be checked.
 pub struct Request<'a> {
@@ -65,6 +67,8 @@ pub struct Checking<'a> {
     inputs: Vec<String>,
     /// The names of the originals.
     nominal: Vec<String>,
+    /// The originals in the order of the programs.
+    originals: Option<Cow<'a, [Source]>>,
 }
 
 /// Why bodies are none.
@@ -102,27 +106,32 @@ pub fn check<'a>(
         .map_err(|error| unplaced(&error, request.cell))?;
     let asked = request.language;
     let language = asked.map_or_else(|| common_language(sources, Some(&profile)), Ok)?;
-    if let Some(originals) = request.nominal.filter(|_| !request.force) {
-        refuse_other_origin(sources, originals, file)?;
-        refuse_swapped(sources, originals)?;
-    }
+    let nominal = match request.nominal {
+        Some(originals) if !request.force => {
+            let originals = paired(sources, originals)?;
+            refuse_other_origin(sources, &originals, file)?;
+            refuse_swapped(sources, &originals)?;
+            Some(originals)
+        }
+        originals => originals.map(Cow::Borrowed),
+    };
     let subject = Subject {
         language,
         sources,
-        nominal: request.nominal,
+        nominal: nominal.as_deref(),
         profile: &profile,
         scene: &scene,
     };
     let found = engine::check_telling(&subject, &request.options, hear);
     let mut check = found.map_err(|error| match error {
         CheckError::Program(error) => explain(&error, sources),
-        CheckError::Nominal(error) => explain(&error, request.nominal.unwrap_or(&[])),
+        CheckError::Nominal(error) => explain(&error, nominal.as_deref().unwrap_or(&[])),
         CheckError::NoCounterpart { .. } => Failure::with_hint(
             error.to_string(),
             "is it the program that this one was made from?",
         ),
     })?;
-    if request.nominal.is_none() {
+    if nominal.is_none() {
         check.findings.extend(compared_with_itself(sources));
     }
     accept_errors(&mut check.findings, request.accepted, &sources[0].name);
@@ -132,7 +141,8 @@ pub fn check<'a>(
     };
     Ok(Checking {
         inputs: names(sources),
-        nominal: request.nominal.map(names).unwrap_or_default(),
+        nominal: nominal.as_deref().map(names).unwrap_or_default(),
+        originals: nominal,
         request,
         language,
         profile,
@@ -164,7 +174,7 @@ impl Checking<'_> {
         Subject {
             language: self.language,
             sources: self.request.sources,
-            nominal: self.request.nominal,
+            nominal: self.originals.as_deref(),
             profile: &self.profile,
             scene: &self.scene,
         }

@@ -10,6 +10,8 @@ use crate::nearest;
 use crate::program::{Found, LANGUAGES, Language, Marker, Source, language_of, sha256};
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -219,6 +221,77 @@ pub fn refuse_other_origin(
         }
     }
     Ok(())
+}
+
+/// Originals in the order of the programs that are compared with them: of each the one that its
+/// marker names, else the one whose path ends most alike. Other numbers of files stay as they are.
+///
+/// # Errors
+/// Nothing tells which original is that of a program, or two programs have the same.
+pub fn paired<'a>(
+    sources: &[Source],
+    originals: &'a [Source],
+) -> Result<Cow<'a, [Source]>, Failure> {
+    let own = |all: &[Source]| -> Vec<usize> {
+        (0..all.len()).filter(|at| !all[*at].is_context).collect()
+    };
+    let (ours, theirs) = (own(sources), own(originals));
+    if ours.len() < 2 || ours.len() != theirs.len() {
+        return Ok(Cow::Borrowed(originals));
+    }
+    let hashes: Vec<String> = originals.iter().map(|of| sha256(&of.bytes)).collect();
+    let mut order: Vec<usize> = Vec::with_capacity(originals.len());
+    let mut taken: BTreeMap<usize, usize> = BTreeMap::new();
+    for &at in &ours {
+        let source = &sources[at];
+        let found = Found::of(&source.bytes);
+        let is_named = |of: &usize| {
+            let mut named = found.sources.iter();
+            named.any(|digits| hashes[*of].starts_with(digits.as_str()))
+        };
+        let named: Vec<usize> = theirs.iter().copied().filter(is_named).collect();
+        let among = if named.is_empty() { &theirs } else { &named };
+        let likeness = |of: &&usize| alike_at_the_end(&originals[**of].name, &source.name);
+        let most = among.iter().map(|of| likeness(&of)).max().unwrap_or(0);
+        let is_called = |of: &&usize| most > 0 && likeness(of) == most;
+        let mut fitting: Vec<usize> = among.iter().filter(is_called).copied().collect();
+        if let [only] = named[..] {
+            fitting = vec![only];
+        }
+        let hint = "give each original the file name of its program, or check one program at a time; \
+            --force compares them in their order";
+        let [original] = fitting[..] else {
+            let named = if fitting.is_empty() {
+                &theirs
+            } else {
+                &fitting
+            };
+            let named = named.iter().take(3).map(|of| originals[*of].name.as_str());
+            let message = format!(
+                "{}: nothing tells which program of --nominal is its original: {}",
+                source.name,
+                named.collect::<Vec<_>>().join(", ")
+            );
+            return Err(Failure::with_hint(message, hint));
+        };
+        if let Some(other) = taken.insert(original, at) {
+            let message = format!(
+                "{} and {} have the same original, {}",
+                sources[other].name, source.name, originals[original].name
+            );
+            return Err(Failure::with_hint(message, hint));
+        }
+        order.push(original);
+    }
+    order.extend((0..originals.len()).filter(|at| !taken.contains_key(at)));
+    Ok(order.into_iter().map(|at| originals[at].clone()).collect())
+}
+
+/// How many of the last parts of two paths are the same.
+fn alike_at_the_end(a: &str, b: &str) -> usize {
+    let parts = |path| Path::new(path).components().rev();
+    let both = parts(a).zip(parts(b));
+    both.take_while(|(a, b)| a == b).count()
 }
 
 /// That originals are not compensated programs, and what is compared with them the originals.

@@ -97,6 +97,10 @@ impl Element<'_> {
 ///
 /// # Errors
 /// What is no XML, is cut off, or is beyond the limits.
+#[allow(
+    clippy::missing_panics_doc,
+    reason = "the document itself is never closed"
+)]
 pub fn read(text: &str) -> Result<Element<'_>, XmlError> {
     let text = text.trim_start_matches('\u{feff}');
     let mut lines = Lines::of(text);

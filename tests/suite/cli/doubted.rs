@@ -99,7 +99,7 @@ fn a_table_without_rows_is_no_result_without_rows() {
     write(
         at,
         "l.csv",
-        &columns(&lengths, &|_| true)[..lengths.find('\n').expect("a line") + 1],
+        &columns(&lengths, &|_| true)[..=lengths.find('\n').expect("a line")],
     );
     for command in [
         "fk --profile p.yaml --joints q.csv",

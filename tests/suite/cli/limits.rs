@@ -362,13 +362,13 @@ fn a_check_compares_with_the_files_of_the_marker() {
 }
 
 #[test]
-fn programs_in_the_places_of_others_are_refused() {
+fn programs_are_compared_with_the_originals_that_their_markers_or_paths_name() {
     let folder = scratch();
     let at = folder.path();
     let copy = |from: &str, to: &str| {
         std::fs::copy(at.join(from), at.join(to)).expect("scratch");
     };
-    for name in ["in", "swapped"] {
+    for name in ["in", "swapped", "other", "same"] {
         std::fs::create_dir(at.join(name)).expect("scratch");
     }
     let poses = "programs/csv/poses/in/inspection.csv";
@@ -388,11 +388,45 @@ fn programs_in_the_places_of_others_are_refused() {
     assert_eq!(status, 0, "{said}");
     copy("out/a.csv", "swapped/b.csv");
     copy("out/b.csv", "swapped/a.csv");
+    let error = |said: &str| {
+        let line = said.lines().find(|line| line.contains("target error"));
+        line.map(ToOwned::to_owned)
+    };
+    let named = error(&said);
     let (status, said) = run(&["check", "swapped", "--nominal", "in"]);
+    assert_eq!(status, 0, "{said}");
+    assert_eq!(error(&said), named, "each with the original of its marker");
+    // in the order in which they are given
+    let order = [
+        "check",
+        "out/b.csv",
+        "out/a.csv",
+        "--nominal",
+        "in/a.csv",
+        "--nominal",
+        "in/b.csv",
+    ];
+    let (status, said) = run(&order);
+    assert_eq!(status, 0, "{said}");
+    // not marked, and called otherwise
+    copy("in/a.csv", "other/x.csv");
+    copy("in/b.csv", "other/y.csv");
+    let (status, said) = run(&["check", "other", "--nominal", "in"]);
     assert_eq!(status, 2, "{said}");
-    for word in ["swapped/a.csv:", "in/a.csv has", "--force"] {
+    for word in [
+        "other/x.csv: nothing tells",
+        "in/a.csv, in/b.csv",
+        "--force",
+    ] {
         assert!(said.contains(word), "{word}: {said}");
     }
+    // two made from one
+    copy("out/a.csv", "same/a.csv");
+    copy("out/a.csv", "same/b.csv");
+    let (status, said) = run(&["check", "same", "--nominal", "in"]);
+    assert_eq!(status, 2, "{said}");
+    let both = "same/a.csv and same/b.csv have the same original, in/a.csv";
+    assert!(said.contains(both), "{said}");
 }
 
 #[test]

@@ -116,6 +116,43 @@ fn a_middle_that_is_a_target_too_is_judged_for_both() {
 }
 
 #[test]
+fn an_arc_on_which_the_tool_may_turn_the_longer_way_is_reported() {
+    // three quarters of a circle about (370, 0): as seen from the path a tool that turns with it
+    // turns by 270 degrees, the shorter way by 90
+    let arc = |end: &str| {
+        rapid(
+            &format!("CONST robtarget m := [[340,0,400],[0,0,1,0],{EXTERNAL};"),
+            &format!(
+                "{HOME}\nMoveL [[400,0,400],[0,0,1,0],{EXTERNAL},v100,fine,tool0;\nMoveC \
+                 m,[[370,-30,400],{end},{EXTERNAL},v100,fine,tool0;"
+            ),
+        )
+    };
+    let said = |program: &str| {
+        let done = done(&[PLAIN], &[("t.mod", program)]);
+        let found = done.findings.iter().find(|f| f.id == "arc-rotation");
+        found.map(|f| f.message.clone())
+    };
+    let turned = said(&arc("[0,0.70710678,0.70710678,0]")).expect("the longer way");
+    assert!(turned.contains("the other way"), "{turned}");
+    // a quarter of a circle, and a tool that turns with it
+    let quarter = rapid(
+        "",
+        &format!(
+            "{HOME}\nMoveL [[400,0,400],[0,0,1,0],{EXTERNAL},v100,fine,tool0;\nMoveC \
+             [[391.213,21.213,400],[0,0,1,0],{EXTERNAL},[[370,30,400],[0,-0.70710678,0.70710678,0],\
+             {EXTERNAL},v100,fine,tool0;"
+        ),
+    );
+    assert_eq!(said(&quarter), None);
+    assert_eq!(
+        said(&rapid_arc("[0,0,1,0]")),
+        None,
+        "a tool that does not turn"
+    );
+}
+
+#[test]
 fn a_middle_whose_orientation_the_controller_takes_up_is_reported_where_it_differs() {
     let arc = |w: &str| {
         let point = |number: usize, xyz: [&str; 3], w: &str| {

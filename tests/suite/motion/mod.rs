@@ -3,6 +3,7 @@
 
 mod arcs;
 mod decided;
+mod displaced;
 mod krl;
 mod rows;
 mod straight;

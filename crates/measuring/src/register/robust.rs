@@ -63,6 +63,9 @@ pub fn robust(
 }
 
 /// The same of at least `fewest` points: of five, what it names is a suspicion.
+///
+/// # Errors
+/// As [`robust`].
 pub fn agreeing(
     from: &[Vector],
     to: &[Vector],

@@ -21,7 +21,7 @@ use crate::motion::ride::Ride;
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::program::script::short;
-use crate::program::{Displacement, Motion, Move, Program, Shape, Source, Value};
+use crate::program::{Motion, Move, Program, Shape, Source};
 use std::sync::Arc;
 
 /// Models of one tool, for plain numbers and for bounds.
@@ -409,12 +409,7 @@ fn stop_pose(ground: &Ground, arrival: &Arrival) -> Option<Pose> {
     let target = motion
         .target
         .filter(|_| arrival.known && !arrival.displaced)?;
-    let value =
-        crate::program::meaning(ground.language, ground.program, ground.settings, target)?.value;
-    let value = match (value, &motion.displacement) {
-        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
-        (value, _) => value,
-    };
+    let value = ground.goal(motion)?.value;
     ground.equipped(motion.tool)?;
     let frame = ground.frame_of(motion);
     let is_pose = ground.program.targets[target].layout.shape == Shape::Pose;

@@ -3,10 +3,10 @@
 //! frame and where external axes stand at the move to them.
 
 use super::approach::Approach;
-use super::{Job, LIMIT_DERIVED_M};
+use super::{Job, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{MM, mm_from_m};
-use crate::geometry::{Pose, Separation};
+use crate::geometry::{Pose, Separation, norm};
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shift};
@@ -65,55 +65,72 @@ pub(super) fn check(
         let name = ground.name_of(target);
         let hint = "give the point a target of its own if it must be exact; --max-derived-error \
             raises the limit";
-        let finding = match &motion.displacement {
+        let limit_mm = mm_from_m(limit_m);
+        let severity_of = |miss_m: f64| {
+            if miss_m > limit_m {
+                Severity::Error
+            } else {
+                Severity::Warning
+            }
+        };
+        // the largest miss at these places from the target; from which side joints come there
+        // nobody knows, and that is a finding of its own
+        let most_m = |shifts: &mut dyn Iterator<Item = Shift>| {
+            let uses = uses.iter().map(|of| Approach {
+                direction: approach.direction,
+                ..*of
+            });
+            let uses: Vec<Approach> = uses.collect();
+            let gaps = shifts.flat_map(|shift| {
+                let gaps = uses.iter().map(move |of| landing(job, of, fake, &shift));
+                gaps.collect::<Vec<_>>()
+            });
+            gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
+        };
+        let (id, severity, message) = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
-                // from which side nobody knows: that is a finding of its own
-                let uses = uses.iter().map(|of| Approach {
-                    direction: approach.direction,
-                    ..*of
-                });
-                let uses: Vec<Approach> = uses.collect();
-                let near = uses
-                    .iter()
-                    .flat_map(|of| somehow().filter_map(|shift| landing(job, of, fake, &shift)));
-                let most = near.map(|gap| gap.distance_m).fold(0.0, f64::max);
+                let most = most_m(&mut strides::along_each_axis(SOMEHOW_M));
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along: up to \
-                     {:.0} mm from it that is {:.3} mm off \
-                     (the limit is {:.3} mm)",
+                     {:.0} mm from it that is {:.3} mm off (the limit is {limit_mm:.3} mm)",
                     mm_from_m(SOMEHOW_M),
                     mm_from_m(most),
-                    mm_from_m(limit_m)
                 );
-                let severity = if most > limit_m {
-                    Severity::Error
-                } else {
-                    Severity::Warning
-                };
-                ground.at_move("displacement-unknown", severity, motion, message, hint)
+                ("displacement-unknown", severity_of(most), message)
+            }
+            Displacement::Within(steps) => {
+                let reach_m = reach_m(job, approach);
+                let most = most_m(&mut strides::places(steps, reach_m).into_iter());
+                let message = format!(
+                    "a point derived from {name} takes its correction along {}: within reach that \
+                     is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
+                    strides::told(steps),
+                    mm_from_m(most),
+                );
+                ("displacement-unknown", severity_of(most), message)
+            }
+            Displacement::Accumulated => {
+                let message = format!(
+                    "a copy of {name} is displaced again and again, by what only the running program \
+                     knows or by many steps: nothing bounds how far from it the copy comes, and \
+                     what its correction is worth there"
+                );
+                ("displacement-unknown", Severity::Error, message)
             }
             Displacement::Overwritten => {
                 // of numbers that are all written over nothing is left, of others some
                 let lost = uses.iter().flat_map(|of| {
                     let given = [of.numbers_in_frame(job), *fake];
-                    let none = Shift::along([0.0; 3]);
-                    given.map(|given| landing(job, of, &given, &none))
+                    given.map(|given| landing(job, of, &given, &Shift::none()))
                 });
                 let lost_m = lost.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max);
                 let message = format!(
                     "the running program writes numbers over some of a copy of {name}: these lose \
-                     a correction of {:.3} mm (the limit \
-                     is {:.3} mm)",
+                     a correction of {:.3} mm (the limit is {limit_mm:.3} mm)",
                     mm_from_m(lost_m),
-                    mm_from_m(limit_m)
                 );
-                let severity = if lost_m > limit_m {
-                    Severity::Error
-                } else {
-                    Severity::Warning
-                };
-                ground.at_move("target-overwritten", severity, motion, message, hint)
+                ("target-overwritten", severity_of(lost_m), message)
             }
             Displacement::By(shift) => {
                 let landings = uses.iter().map(|of| landing(job, of, fake, shift));
@@ -121,33 +138,38 @@ pub(super) fn check(
                     let (a, b) = (a?, b?);
                     Some(if b.distance_m > a.distance_m { b } else { a })
                 });
-                let Some(gap) = farthest.flatten() else {
-                    let message = format!("a point derived from {name} is out of reach");
-                    let severity = Severity::Warning;
-                    findings.push(ground.at_move(
-                        "displaced-target",
-                        severity,
-                        motion,
-                        message,
-                        hint,
-                    ));
-                    continue;
+                let (severity, message) = match farthest.flatten() {
+                    None => (
+                        Severity::Warning,
+                        format!("a point derived from {name} is out of reach"),
+                    ),
+                    Some(gap) => (
+                        if gap.distance_m > limit_m {
+                            Severity::Warning
+                        } else {
+                            Severity::Note
+                        },
+                        format!(
+                            "a point derived from {name} takes its correction along and lands \
+                             {:.3} mm off its own wanted pose",
+                            mm_from_m(gap.distance_m)
+                        ),
+                    ),
                 };
-                let severity = if gap.distance_m > limit_m {
-                    Severity::Warning
-                } else {
-                    Severity::Note
-                };
-                let message = format!(
-                    "a point derived from {name} takes its correction along and lands {:.3} mm off \
-                     its own wanted pose",
-                    mm_from_m(gap.distance_m)
-                );
-                ground.at_move("displaced-target", severity, motion, message, hint)
+                ("displaced-target", severity, message)
             }
         };
-        findings.push(finding);
+        findings.push(ground.at_move(id, severity, motion, message, hint));
     }
+}
+
+/// Between two points that the tool reaches is no more than this, metres.
+fn reach_m(job: &Job, approach: &Approach) -> f64 {
+    let tool = approach.tool as usize;
+    let equipped = job.ground.arm_with(tool);
+    let links: f64 = equipped.inverse.real.reaches().iter().sum();
+    let mounted = job.ground.setting.tools[tool].as_ref();
+    2.0 * (links + mounted.map_or(0.0, |mounted| norm(mounted.flange_from_tool.translation)))
 }
 
 /// How the robot comes to a point that is derived from the target of an approach: with the posture
@@ -175,16 +197,6 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
 
 /// How far a sensor or a register usually displaces a point, metres.
 const SOMEHOW_M: f64 = 5.0 * MM;
-
-/// Displacements that stand for one that only the running program knows: along each axis of the
-/// work frame.
-fn somehow() -> impl Iterator<Item = Shift> {
-    (0..6).map(|side| {
-        let mut by = [0.0; 3];
-        by[side / 2] = if side % 2 == 0 { SOMEHOW_M } else { -SOMEHOW_M };
-        Shift::along(by)
-    })
-}
 
 /// How far from its wanted pose a displaced use of a target lands whose numbers in the work frame
 /// are given; `None` where the controller does not reach it.

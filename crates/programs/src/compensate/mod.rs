@@ -55,6 +55,7 @@ mod shared;
 mod singular;
 mod solve;
 mod strange;
+mod strides;
 mod written;
 
 use approach::{Approach, Solved};

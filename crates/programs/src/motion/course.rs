@@ -15,6 +15,8 @@ use std::sync::Arc;
 /// Angles below this, radians, are no rotation; circles whose three points are as near to a line
 /// are a line.
 const SMALL: f64 = 1e-9;
+/// Rotations as near to half a revolution are as long one way as the other.
+const EITHER_WAY_RAD: f64 = 0.02;
 /// An interval shorter than this whose bounds are not finite is not halved again.
 const SHORTEST: f64 = 1.0 / 512.0;
 /// Pieces in which a joint with backlash may turn back are not shorter.
@@ -201,6 +203,43 @@ impl ToolCourse {
                 angle_rad,
             } => angle_on(axes, sub(point, *centre)) / angle_rad,
         }
+    }
+
+    /// The rotation at a part of an arc where the tool turns as seen from the path, the shorter way
+    /// there; `None` where both ways are as short.
+    #[must_use]
+    pub(super) fn rotation_on_path(&self, s: f64, to: &Rotation) -> Option<Rotation> {
+        let (
+            Line::Circle {
+                axes, angle_rad, ..
+            },
+            PathRotation::Axis { from, .. },
+        ) = (&self.line, &self.turn)
+        else {
+            return None;
+        };
+        let normal = cross(axes[0], axes[1]);
+        let normal = scale(norm(normal).recip(), normal);
+        let seen = about(&normal, -angle_rad) * *to * from.transpose();
+        let by = seen.vector();
+        let is_clear = (norm(by) - std::f64::consts::PI).abs() > EITHER_WAY_RAD;
+        is_clear
+            .then(|| about(&normal, angle_rad * s) * Rotation::from_vector(scale(s, by)) * *from)
+    }
+
+    /// The rotation at a part of the path where the tool turns the longer way, and by how much it
+    /// turns the shorter one, radians.
+    pub(super) fn long_way(&self, s: f64) -> Option<(Rotation, f64)> {
+        let PathRotation::Axis {
+            from,
+            axis,
+            angle_rad,
+        } = &self.turn
+        else {
+            return None;
+        };
+        let round = angle_rad - std::f64::consts::TAU;
+        Some((about(axis, round * s) * *from, *angle_rad))
     }
 
     /// Whether it is an arc.

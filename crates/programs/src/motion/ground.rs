@@ -11,10 +11,20 @@ use crate::inverse::{Arm, Branch, Unsupported};
 use crate::model::Conditions;
 use crate::model::profile::Profile;
 use crate::program::{
-    Configuration, FrameId, Language, Move, Program, Settings, Shape, Source, TargetId, ToolId,
-    Value,
+    Configuration, Displacement, FrameId, Language, Move, Program, Settings, Shape, Source,
+    TargetId, ToolId, Value,
 };
 use std::sync::Arc;
+
+/// Where a move goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    /// As its target's numbers say, displaced as the text says.
+    pub value: Value,
+    pub configuration: Configuration,
+    /// Only the running program knows how far from there it goes.
+    pub is_near: bool,
+}
 
 /// A program with all that is known of its tools, work frames and arm.
 pub(crate) struct Ground<'a> {
@@ -146,6 +156,23 @@ impl<'a> Ground<'a> {
         self.setting.frames[frame]
             .as_ref()
             .expect("the work frame of a move that needs it is known")
+    }
+
+    /// What the target of a move means where the move goes; `None` where it has no numbers.
+    pub(crate) fn goal(&self, motion: &Move) -> Option<Goal> {
+        let decoded =
+            crate::program::meaning(self.language, self.program, self.settings, motion.target?)?;
+        let (value, is_near) = match (decoded.value, &motion.displacement) {
+            (Value::Pose(pose), Displacement::By(shift)) => {
+                (Value::Pose(shift.apply(&pose)), false)
+            }
+            (value, displacement) => (value, *displacement != Displacement::None),
+        };
+        Some(Goal {
+            value,
+            configuration: decoded.configuration,
+            is_near,
+        })
     }
 
     /// What a target's numbers mean in its work frame; joints in that of the arm at home.

@@ -33,6 +33,8 @@ const MOST_VALUES: usize = 4;
 /// Positions with numbers in the files that are distinguished: a routine may be called for each of
 /// an array.
 const MOST_TARGETS: usize = 64;
+/// Likewise, each in so many displacements on average.
+const MOST_DISPLACED: usize = 4 * MOST_TARGETS;
 
 /// What a variable may hold, each with the write that put it there; by [`Atom`], an index of
 /// [`Holdings`].
@@ -117,15 +119,22 @@ impl Holdings {
         atoms.dedup_by_key(|(atom, _)| *atom);
         let is_target = |atom: &Atom| matches!(atom, Atom::Target { .. } | Atom::Changed { .. });
         let targets = atoms.iter().filter(|(atom, _)| is_target(atom)).count();
+        let mut different: Vec<u32> = Vec::new();
+        if targets > MOST_TARGETS {
+            different.extend(targets_of(&atoms));
+            different.sort_unstable();
+            different.dedup();
+        }
+        let are_lost = different.len() > MOST_TARGETS || targets > MOST_DISPLACED;
         let uncertain = atoms
             .iter()
             .filter(|(atom, _)| *atom == Atom::Uncertain)
             .count();
-        if targets > MOST_TARGETS || atoms.len() - targets - uncertain > MOST_VALUES {
+        if are_lost || atoms.len() - targets - uncertain > MOST_VALUES {
             let site = atoms.iter().map(|(_, site)| *site).min();
             atoms.push((Atom::Anything, site.unwrap_or(DECLARED)));
         }
-        if targets > MOST_TARGETS {
+        if are_lost {
             self.lost.extend(targets_of(&atoms));
             atoms.retain(|(atom, _)| !is_target(atom));
         }

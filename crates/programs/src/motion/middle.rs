@@ -12,10 +12,17 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation};
 use crate::model::Conditions;
-use crate::program::{Before, Displacement, Motion, Move, Value};
+use crate::program::{Before, Motion, Move};
 
 /// A smaller rotation away from the path's is none.
 const SAME_RAD: f64 = 0.01 * DEG;
+/// A rotation that is seen from the path and a shorter one that differ by more are told apart: the
+/// correction of a point does not change much within.
+const MATTERS_RAD: f64 = 10.0 * DEG;
+/// A rotation by more may be meant the longer way.
+const LARGE_RAD: f64 = 90.0 * DEG;
+/// The point between is taught on the longer way where it is as near to that.
+const TAUGHT_RAD: f64 = 30.0 * DEG;
 /// A larger one is reported where the controller takes up the orientation of the point.
 const MOST_RAD: f64 = 1.0 * DEG;
 
@@ -40,6 +47,9 @@ pub(super) fn middle(
     let course = ToolCourse::arc(&from, wanted.translation, &end, walk_options.turning);
     let there = rotation_on(&course, wanted);
     let middle = wanted.rotation.transpose() * there;
+    if let Some(angle) = other_way(ground, &course, &end, wanted, &there) {
+        findings.push(turns_otherwise(ground, motion, angle));
+    }
     if ground.language.turns_through_middle() {
         if middle.angle() > MOST_RAD {
             findings.push(rotated(ground, motion, middle.angle()));
@@ -48,6 +58,31 @@ pub(super) fn middle(
     }
     let same = middle.angle() < SAME_RAD;
     Some(if same { Rotation::identity() } else { middle })
+}
+
+/// By how much the tool may be rotated, on the way of an arc, away from where the shorter way from its
+/// beginning to its end has it: as seen from the path, where the controller looks at it so, or since
+/// the point between is taught on the longer way.
+fn other_way(
+    ground: &Ground,
+    course: &ToolCourse,
+    end: &Pose,
+    via: &Pose,
+    there: &Rotation,
+) -> Option<f64> {
+    let part = course.part_at(via.translation);
+    if ground.language.turns_through_middle() {
+        return None;
+    }
+    let away = |rotation: Rotation| (rotation.transpose() * *there).angle();
+    if ground.language.turns_with_path() {
+        let on_path = course.rotation_on_path(part, &end.rotation);
+        return on_path.map(away).filter(|angle| *angle > MATTERS_RAD);
+    }
+    let (long, turned_by) = course.long_way(part)?;
+    let to_long = (long.transpose() * via.rotation).angle();
+    let is_taught = turned_by > LARGE_RAD && to_long < TAUGHT_RAD && to_long < away(via.rotation);
+    is_taught.then(|| away(long))
 }
 
 /// The rotation of a path at its point nearest to a pose.
@@ -81,7 +116,7 @@ fn end_pose(ground: &Ground, at: usize) -> Option<Pose> {
     let via = crate::program::script::short(at);
     let end: &Move = program.moves.get(at + 1)?;
     let is_arc = end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(via));
-    let target = end.target.filter(|_| is_arc)?;
+    end.target.filter(|_| is_arc)?;
     ground.equipped(end.tool)?;
     let frame = ground.frame_of(end);
     if ground.setting.frames[frame].is_none() || ground.is_adrift(end) {
@@ -94,13 +129,20 @@ fn end_pose(ground: &Ground, at: usize) -> Option<Pose> {
             _ => None,
         })
         .any(|ride| ride.moves());
-    let decoded = crate::program::meaning(ground.language, program, ground.settings, target)?;
-    let value = match (decoded.value, &end.displacement) {
-        (Value::Pose(pose), Displacement::By(shift)) => Value::Pose(shift.apply(&pose)),
-        (value, Displacement::None) => value,
-        _ => return None,
-    };
-    (!moves_axes).then(|| ground.meant(&value, end.tool, frame))
+    let goal = ground.goal(end).filter(|goal| !goal.is_near)?;
+    (!moves_axes).then(|| ground.meant(&goal.value, end.tool, frame))
+}
+
+/// That the tool may turn otherwise on an arc than it is taken to.
+fn turns_otherwise(ground: &Ground, motion: &Move, angle_rad: f64) -> Finding {
+    let message = format!(
+        "the tool may turn the other way on this arc: at its middle it would be rotated by {:.0} deg \
+         from where the shorter way from beginning to end has it, for which the middle is \
+         corrected",
+        angle_rad / DEG
+    );
+    let hint = "divide the arc in two, each of less than half a revolution";
+    ground.at_move("arc-rotation", Severity::Warning, motion, message, hint)
 }
 
 /// That a controller which takes up the orientation of the point is asked for more than the rotation

@@ -14,7 +14,7 @@ use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
-use crate::program::{Before, Configuration, Displacement, Motion, Program, Role, TargetId, Value};
+use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -315,16 +315,14 @@ impl Walker<'_, '_> {
                 None => nowhere,
             };
         };
-        let Some(decoded) =
-            crate::program::meaning(ground.language, ground.program, ground.settings, target)
-        else {
+        let Some(goal) = ground.goal(motion) else {
             return nowhere;
         };
         // where the robot goes from a point that only the running program knows, no side is known
         let starts_unknown = self.arrivals.unknown_start(ground.program, from).is_some();
         let carried = before.filter(|_| !starts_unknown);
         let direction = carried.map_or([0; 6], |before| before.direction);
-        if let Value::Joints(q) = decoded.value {
+        if let Value::Joints(q) = goal.value {
             if let Some(angle) = q.iter().find(|angle| angle.abs() > MOST_JOINT_RAD) {
                 self.say_endless(target, ("a joint", angle / DEG, MOST_JOINT_RAD / DEG));
                 return nowhere;
@@ -337,6 +335,7 @@ impl Walker<'_, '_> {
                     .filter(|_| !starts_unknown)
                     .map_or([0; 6], |start| turned(&start, &q, direction)),
                 known: true,
+                displaced: goal.is_near,
                 ..nowhere
             };
         }
@@ -354,17 +353,12 @@ impl Walker<'_, '_> {
             self.say_endless(target, ("the orientation", angle, limit));
             return nowhere;
         }
-        let (value, displaced) = match (&decoded.value, &motion.displacement) {
-            (Value::Pose(pose), Displacement::By(shift)) => (Value::Pose(shift.apply(pose)), false),
-            (value, Displacement::Unknown | Displacement::Overwritten) => (*value, true),
-            (value, _) => (*value, false),
-        };
-        let mut wanted = ground.meant(&value, motion.tool, frame);
+        let mut wanted = ground.meant(&goal.value, motion.tool, frame);
         let middle = before.filter(|before| before.known).and_then(|before| {
             let (at, walk_options) = (at as usize, self.walk_options);
             middle::middle(ground, walk_options, at, &before, &wanted, self.findings)
         });
-        let mut configuration = decoded.configuration;
+        let mut configuration = goal.configuration;
         if let Some(middle) = middle.filter(|middle| *middle != Rotation::identity()) {
             wanted.rotation = wanted.rotation * middle;
             // that is of another orientation
@@ -419,7 +413,7 @@ impl Walker<'_, '_> {
             branch: posture.branch,
             direction,
             known: true,
-            displaced,
+            displaced: goal.is_near,
             middle,
             ..nowhere
         }

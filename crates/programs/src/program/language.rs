@@ -95,6 +95,11 @@ pub trait Language: Sync {
         false
     }
 
+    /// Whether the tool turns on arcs as seen from the path, and not in the work frame.
+    fn turns_with_path(&self) -> bool {
+        false
+    }
+
     /// Decimals of a number that are worth `millimetre_decimals` of a millimetre, for a tool a
     /// metre away where it is an angle or part of a quaternion. Most languages write
     /// millimetres and degrees: a thousandth of a millimetre is 6e-5 degrees there.

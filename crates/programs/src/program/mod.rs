@@ -22,6 +22,7 @@
 //! ```
 
 pub mod csv;
+mod displacement;
 mod drive;
 mod edit;
 mod error;
@@ -44,6 +45,7 @@ pub mod urscript;
 pub mod val3;
 mod words;
 
+pub use displacement::{Displacement, Shift, Stride};
 pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
@@ -260,46 +262,6 @@ pub enum Motion {
     ArcVia,
     /// The end of an arc.
     ArcEnd,
-}
-
-/// What is added to a target before the robot goes there.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Displacement {
-    /// Nothing: the robot goes to the target.
-    None,
-    /// A motion that the text tells.
-    By(Box<Shift>),
-    /// Something that only the running program knows.
-    Unknown,
-    /// The running program puts numbers of its own in the place of some of a copy's: these lose
-    /// their correction.
-    Overwritten,
-}
-
-/// `shifted frame_from_tool = in_frame · frame_from_tool · in_tool`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shift {
-    /// A motion in the work frame (RAPID `Offs`).
-    pub in_frame: Pose,
-    /// A motion in the tool frame (RAPID `RelTool`).
-    pub in_tool: Pose,
-}
-
-impl Shift {
-    /// A translation in the work frame alone, metres.
-    #[must_use]
-    pub fn along([x, y, z]: Vector) -> Self {
-        Self {
-            in_frame: Pose::from_translation(x, y, z),
-            in_tool: Pose::identity(),
-        }
-    }
-
-    /// `frame_from_tool`, shifted.
-    #[must_use]
-    pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
-        self.in_frame * *frame_from_tool * self.in_tool
-    }
 }
 
 /// How fast a move is, and how far from its target the next one may begin, where the program tells.

@@ -1,7 +1,7 @@
 //! How targets are written as numbers, where several languages write them so: poses, and
 //! configuration data.
 
-use super::{Posture, Role, Shift};
+use super::{Displacement, Posture, Role, Shift, Stride};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Rotation};
 
@@ -48,18 +48,34 @@ pub(super) fn pose_of_angles(n: [f64; 6]) -> Pose {
     }
 }
 
-/// What a position is displaced by whose number `at` of those grows by so much; `None` for the
-/// angles that rotate it about no axis of the tool.
-pub(super) fn shift_of(at: usize, by: f64) -> Option<Shift> {
+/// What a position is displaced by whose number `at` of those grows by so much; the last two angles
+/// rotate it about no axis of the tool.
+pub(super) fn grown_by(at: usize, by: f64) -> Option<Displacement> {
     let mut n = [0.0; 6];
     *n.get_mut(at)? = by;
     let (along, still) = (pose_of_angles(n), Pose::identity());
     let (in_frame, in_tool) = match at {
         0..=2 => (along, still),
         3 => (still, along),
-        _ => return None,
+        _ => return Some(turned_by(by)),
     };
-    Some(Shift { in_frame, in_tool })
+    Some(Displacement::By(Box::new(Shift { in_frame, in_tool })))
+}
+
+/// Whether a value has something in it that a word by itself names: `p.Z` in `hop+p.Z`, and not in
+/// `up.Z`.
+pub(super) fn mentions(value: &[u8], word: &[u8]) -> bool {
+    let is_letter = |at: Option<usize>| {
+        let byte = at.and_then(|at| value.get(at));
+        byte.is_some_and(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'$'))
+    };
+    memchr::memmem::find_iter(value, word)
+        .any(|at| !is_letter(at.checked_sub(1)) && !is_letter(Some(at + word.len())))
+}
+
+/// What a position is displaced by one of whose angles grows by so many degrees.
+pub(super) fn turned_by(degrees: f64) -> Displacement {
+    Displacement::Within(Box::new([Stride::Turned(Some(degrees * DEG))]))
 }
 
 /// Writes these numbers, the angles as [`nearest_angles`].

@@ -26,10 +26,13 @@ pub fn parse(text: &[u8]) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// What a sum adds to its one term that `is_own`: 200 of `p.Z+200`, −5 of `10+p.Z-(15)`. `None`
-/// where another term is no number.
-pub(crate) fn added(text: &[u8], is_own: impl Fn(&[u8]) -> bool) -> Option<f64> {
-    let (mut sum, mut sign, mut own) = (0.0, 1.0, 0);
+/// The one term of a sum that is no number, and what the numbers add to it: `p.Z` and 200 of
+/// `p.Z+200`, −5 of `10+p.Z-(15)`. `None` where there is another such term, or it is subtracted.
+pub(crate) fn term_and_sum(
+    text: &[u8],
+    number_of: impl Fn(&[u8]) -> Option<f64>,
+) -> Option<(&[u8], f64)> {
+    let (mut sum, mut sign, mut other) = (0.0, 1.0, None);
     let (mut start, mut depth) = (0, 0_u32);
     for at in 0..=text.len() {
         let byte = text.get(at);
@@ -58,15 +61,16 @@ pub(crate) fn added(text: &[u8], is_own: impl Fn(&[u8]) -> bool) -> Option<f64> 
             sign *= next;
             continue;
         }
-        if sign > 0.0 && is_own(term) {
-            own += 1;
-        } else {
-            let inside = term.strip_prefix(b"(").and_then(|t| t.strip_suffix(b")"));
-            sum += sign * parse(inside.unwrap_or(term).trim_ascii())?;
+        let inside = term.strip_prefix(b"(").and_then(|t| t.strip_suffix(b")"));
+        let inside = inside.unwrap_or(term).trim_ascii();
+        match number_of(inside) {
+            Some(number) => sum += sign * number,
+            None if sign > 0.0 && other.is_none() => other = Some(inside),
+            None => return None,
         }
         sign = next;
     }
-    (own == 1).then_some(sum)
+    Some((other?, sum))
 }
 
 /// The number that is all of a text, which begins at a byte of its file.
@@ -412,7 +416,11 @@ mod tests {
 
     #[test]
     fn sums_of_numbers_add_to_their_own_term() {
-        let added = |text: &str| added(text.as_bytes(), |term| term == b"p[a+1].Z");
+        let added = |text: &str| {
+            let sum = term_and_sum(text.as_bytes(), parse);
+            sum.filter(|(term, _)| *term == b"p[a+1].Z")
+                .map(|(_, by)| by)
+        };
         for (text, value) in [
             ("p[a+1].Z+200", Some(200.0)),
             (" 10 + p[a+1].Z - (-15.5)", Some(25.5)),

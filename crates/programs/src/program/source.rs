@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// A file's name and bytes. The encoding does not matter: nothing is decoded but for messages.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Source {
     /// The file as the user named it.
     pub name: String,

@@ -380,6 +380,9 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
 }
 
 /// No frame is rotated by so much.
+///
+/// # Errors
+/// An angle that is, at the place of the pose.
 pub fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
     let angles = [
         ("rx_deg", file.value.rx_deg),

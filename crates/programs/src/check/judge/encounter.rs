@@ -50,7 +50,9 @@ impl Job<'_> {
         report.clearance = Some(Box::new(found.nearest));
         let is_other = found.least_room.pair != found.nearest.pair;
         report.least_room = is_other.then(|| Box::new(found.least_room));
-        if first {
+        // who comes into a body passes its surface, unless he was in it from the first
+        let from_first = |start| self.walk.start(start).is_none();
+        if first || self.walk.start(index).is_some_and(from_first) {
             for pair in collision::inside(scene, &arms.mover(Which::Real), leg, &leg.start) {
                 report.clearance = Some(Box::new(Clearance {
                     clearance_m: 0.0,

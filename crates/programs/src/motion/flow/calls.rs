@@ -3,9 +3,7 @@
 use super::{Flow, State};
 use crate::motion::before::ANYWHERE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::script::{
-    Call, DISPLACED_SOMEHOW, Expr, OVERWRITTEN, RoutineId, Statement, VariableId, short,
-};
+use crate::program::script::{Call, Expr, RoutineId, Statement, VariableId, short};
 use std::rc::Rc;
 
 impl Flow<'_> {
@@ -150,10 +148,7 @@ impl Flow<'_> {
             Atom::Target {
                 target,
                 displacement,
-            } => {
-                let somehow = matches!(displacement, DISPLACED_SOMEHOW | OVERWRITTEN);
-                target == own && (somehow || self.grown.contains(&displacement))
-            }
+            } => target == own && self.is_part_written(displacement),
             _ => false,
         };
         let mut atoms = self.holdings.of(held).to_vec();

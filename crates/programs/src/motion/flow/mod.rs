@@ -10,15 +10,18 @@
 
 mod calls;
 mod entries;
+mod moved;
 mod statements;
 mod variables;
 mod writes;
 
+pub(super) use moved::OF_MOVE;
+
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    DisplacementId, Held, How, Label, ModalId, Part, PartValue, RoutineId, Script, Statement,
-    TableId, ValueId, VariableId, short,
+    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Statement, TableId, ValueId,
+    VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::{BTreeSet, BinaryHeap};
@@ -122,8 +125,7 @@ pub(super) struct Flow<'a> {
     script: &'a Script,
     /// Which targets are joints.
     joints: Vec<bool>,
-    /// Displacements of positions of which a part grows.
-    grown: HashSet<DisplacementId>,
+    displacements: moved::Displacements,
     pub holdings: Holdings,
     pub sets: Sets,
     /// Values that writes of parts made, behind those of the script.
@@ -182,10 +184,6 @@ pub(super) struct Flow<'a> {
 impl<'a> Flow<'a> {
     /// Follows a script.
     pub(super) fn of(script: &'a Script, joints: Vec<bool>) -> Self {
-        let grown = script.writes.iter().filter_map(|write| match write.how {
-            How::PartBy(_, by) => Some(by),
-            _ => None,
-        });
         let mut label_places = vec![u32::MAX; script.labels as usize];
         for (at, statement) in script.statements.iter().enumerate() {
             if let Statement::Label(label) = statement {
@@ -195,7 +193,7 @@ impl<'a> Flow<'a> {
         let mut flow = Self {
             script,
             joints,
-            grown: grown.collect(),
+            displacements: moved::Displacements::new(),
             holdings: Holdings::new(),
             sets: Sets::new(),
             made: Vec::new(),

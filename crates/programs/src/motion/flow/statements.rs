@@ -258,6 +258,7 @@ impl<'a> Flow<'a> {
                     self.arrive(instance, label, &state);
                     return visits;
                 }
+                Statement::Enter(number) => self.begin_rounds(number, &mut state),
                 Statement::Return | Statement::Exit => break,
             }
             at += 1;

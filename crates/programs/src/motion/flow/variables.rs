@@ -3,8 +3,7 @@
 use super::{Flow, MOST_WRITES, State};
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Statement, TableId, VariableId,
-    Written, short,
+    Expr, Held, How, NOT_DISPLACED, Statement, TableId, VariableId, Written, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
@@ -154,33 +153,31 @@ impl Flow<'_> {
             Expr::Displaced { base, by } => {
                 let base = of_variable(self, script.lists[base as usize]);
                 let atoms = self.holdings.of(base).to_vec();
-                let displaced = atoms.into_iter().map(|(atom, site)| {
-                    let atom = match atom {
-                        Atom::Target {
-                            target,
-                            displacement: NOT_DISPLACED,
-                        } => Atom::Target {
-                            target,
-                            displacement: by,
-                        },
+                let mut displaced = Vec::with_capacity(atoms.len());
+                for (atom, of) in atoms {
+                    match atom {
                         Atom::Target {
                             target,
                             displacement,
-                        } => Atom::Target {
-                            target,
-                            displacement: if displacement == OVERWRITTEN {
-                                OVERWRITTEN
-                            } else {
-                                DISPLACED_SOMEHOW
-                            },
-                        },
+                        } => {
+                            let all = self.displaced_again(displacement, by, site);
+                            displaced.extend(all.into_iter().map(|displacement| {
+                                (
+                                    Atom::Target {
+                                        target,
+                                        displacement,
+                                    },
+                                    of,
+                                )
+                            }));
+                        }
                         // except where the robot itself was, nothing is as it is
-                        Atom::Value(value) if *self.value(value) == Held::Actual => Atom::Anything,
-                        other => other,
-                    };
-                    (atom, site)
-                });
-                let displaced = displaced.collect();
+                        Atom::Value(value) if *self.value(value) == Held::Actual => {
+                            displaced.push((Atom::Anything, of));
+                        }
+                        other => displaced.push((other, of)),
+                    }
+                }
                 self.holdings.intern(displaced)
             }
             Expr::Variable(_) => of_variable(self, value),

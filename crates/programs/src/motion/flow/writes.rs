@@ -85,9 +85,14 @@ impl Flow<'_> {
                 return self.holdings.intern(here);
             }
             How::Parts { first, parts } => (*first, parts.clone(), None),
-            How::PartSomehow(remark) | How::PartNumber(remark) | How::PartBy(remark, _) => {
-                (0, 0..0, Some(*remark))
-            }
+            How::PartSomehow(remark)
+            | How::PartNumber(remark)
+            | How::PartBy(remark, _)
+            | How::PartOf(remark, ..) => (0, 0..0, Some(*remark)),
+        };
+        let of = match write.how {
+            How::PartOf(_, of, by) => Some((self.evaluate(state, of, site), by)),
+            _ => None,
         };
         let own = match self.script.variables[variable as usize].declared {
             Expr::Target(target) => Some(short(target)),
@@ -102,10 +107,25 @@ impl Flow<'_> {
                 Atom::Target {
                     target,
                     displacement,
-                } => Atom::Target {
-                    target,
-                    displacement: self.displaced_by(&write.how, target, displacement),
-                },
+                } => {
+                    let all = match of {
+                        Some((of, by)) => vec![self.part_of(target, displacement, of, by, site)],
+                        None => {
+                            let by = self.added_by(&write.how, target);
+                            self.displaced_again(displacement, by, site)
+                        }
+                    };
+                    changed.extend(all.into_iter().map(|displacement| {
+                        (
+                            Atom::Target {
+                                target,
+                                displacement,
+                            },
+                            site,
+                        )
+                    }));
+                    continue;
+                }
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
                     None => self
@@ -119,15 +139,41 @@ impl Flow<'_> {
         self.holdings.intern(changed)
     }
 
-    /// By what a copy of a target is displaced once parts of it are written.
-    fn displaced_by(&self, how: &How, target: u32, before: DisplacementId) -> DisplacementId {
+    /// What displaces a copy of a target a part of which becomes that of another position and
+    /// something more: what is added, where the other one is that target as it stands.
+    fn part_of(
+        &mut self,
+        target: u32,
+        before: DisplacementId,
+        of: Holding,
+        by: DisplacementId,
+        site: Site,
+    ) -> DisplacementId {
+        let is_same = match self.holdings.of(of) {
+            [
+                (
+                    Atom::Target {
+                        target: of,
+                        displacement,
+                    },
+                    _,
+                ),
+            ] => *of == target && *displacement == NOT_DISPLACED,
+            _ => false,
+        };
+        if !is_same || self.joints[target as usize] {
+            return OVERWRITTEN;
+        }
+        self.replaced(before, by, site)
+    }
+
+    /// What a write of a part adds to a copy of a target.
+    fn added_by(&self, how: &How, target: u32) -> DisplacementId {
         let is_joints = self.joints[target as usize];
         match *how {
             // numbers of the text do not know of a correction
-            How::PartNumber(_) => OVERWRITTEN,
-            How::PartBy(_, by) if before == NOT_DISPLACED && !is_joints => by,
-            How::PartBy(..) if before == OVERWRITTEN => OVERWRITTEN,
-            // what is computed is mostly the old value and something more
+            How::PartNumber(_) | How::PartOf(..) => OVERWRITTEN,
+            How::PartBy(_, by) if !is_joints => by,
             _ => DISPLACED_SOMEHOW,
         }
     }

@@ -9,10 +9,7 @@ use super::before::Stop;
 use super::flow::{Flow, Modes};
 use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::finding::Severity;
-use crate::program::script::{
-    DISPLACED_SOMEHOW, Held, Instruction, NOT_DISPLACED, OVERWRITTEN, Place, Remark, RemarkId,
-    Script, ValueId, short,
-};
+use crate::program::script::{Held, Instruction, Place, Remark, RemarkId, Script, ValueId, short};
 use crate::program::{
     ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
     TargetId, ToolId,
@@ -171,6 +168,7 @@ impl Resolver<'_, '_> {
             choices: self.choices(reached.modes)?,
             guards,
             external_state,
+            near: Vec::new(),
         };
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
@@ -368,15 +366,6 @@ impl Resolver<'_, '_> {
 /// Moves of one stop that are distinguished as predecessors.
 const MOST_ALTERNATIVES: u32 = 16;
 
-/// Two displacements one after another.
-fn both(a: u32, b: u32) -> u32 {
-    match (a, b) {
-        (NOT_DISPLACED, other) | (other, NOT_DISPLACED) => other,
-        (OVERWRITTEN, _) | (_, OVERWRITTEN) => OVERWRITTEN,
-        _ => DISPLACED_SOMEHOW,
-    }
-}
-
 /// What a move has, before its targets are listed.
 struct Listed<'a> {
     at: u32,
@@ -385,6 +374,8 @@ struct Listed<'a> {
     choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
     external_state: u32,
+    /// Targets that the move goes near: once for all that only the running program knows.
+    near: Vec<TargetId>,
 }
 
 /// External axes are shifted by one of several offsets.

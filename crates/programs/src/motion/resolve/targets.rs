@@ -1,7 +1,8 @@
 //! Where moves go.
 
-use super::{Listed, MOST_USES, Refused, Resolver, both};
+use super::{Listed, MOST_USES, Refused, Resolver};
 use crate::finding::Severity;
+use crate::motion::flow::OF_MOVE;
 use crate::motion::holding::{Atom, Site};
 use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, ValueId};
 use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
@@ -23,8 +24,9 @@ impl Resolver<'_, '_> {
             Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
             Expr::Unknown(remark) => self.go_to(Atom::Unknown(remark), None, displacement, listed),
             Expr::Displaced { base, by } => {
-                let by = both(displacement, by);
-                self.fixed(script.lists[base as usize], by, listed);
+                for by in self.flow.displaced_again(by, displacement, OF_MOVE) {
+                    self.fixed(script.lists[base as usize], by, listed);
+                }
             }
             Expr::Any { first, end } => {
                 let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
@@ -72,7 +74,11 @@ impl Resolver<'_, '_> {
             Atom::Target {
                 target,
                 displacement: of,
-            } => self.go_target(target as usize, both(displacement, of), listed),
+            } => {
+                for by in self.flow.displaced_again(of, displacement, OF_MOVE) {
+                    self.go_target(target as usize, by, listed);
+                }
+            }
             Atom::Changed { target } => {
                 let because = site.and_then(|site| self.flow.place_of(site));
                 self.used[target as usize] = true;
@@ -134,7 +140,7 @@ impl Resolver<'_, '_> {
         );
     }
 
-    pub(super) fn go_target(&mut self, target: TargetId, displacement: u32, listed: &Listed) {
+    pub(super) fn go_target(&mut self, target: TargetId, displacement: u32, listed: &mut Listed) {
         self.used[target] = true;
         self.as_written[target] = true;
         for &(remark, site) in &listed.guards {
@@ -148,10 +154,13 @@ impl Resolver<'_, '_> {
             self.uncertain.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
-        let displacement = match self.script.displacements.get(displacement as usize) {
-            Some(displacement) => displacement.clone(),
-            None => Displacement::Unknown,
-        };
+        let displacement = self.flow.displacement(displacement).clone();
+        if displacement == Displacement::Unknown {
+            if listed.near.contains(&target) {
+                return;
+            }
+            listed.near.push(target);
+        }
         let choices = &*listed.choices;
         if !is_joints {
             for &(why, site, what) in &choices.refused {

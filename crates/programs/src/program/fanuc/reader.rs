@@ -82,6 +82,8 @@ pub(super) struct Reader<'a> {
     pub read: BTreeSet<u32>,
     /// Any register is read.
     pub reads_any: bool,
+    /// Numbers of position registers are written into others.
+    pub gets_elements: bool,
     /// Copies of points into registers.
     pub copies: Vec<(Place, u32)>,
     /// Writes of tools and frames from registers.
@@ -90,6 +92,16 @@ pub(super) struct Reader<'a> {
     pub from_constants: Vec<usize>,
     /// Moves to any register.
     pub to_any_register: Vec<usize>,
+}
+
+/// Whether an instruction is `R[1]=PR[4,3]`, or a sum with such an element.
+fn gets_elements(bytes: &[u8]) -> bool {
+    memchr::memmem::find_iter(bytes, b"PR[").any(|at| {
+        let start = memchr::memrchr2(b'\n', b'\r', &bytes[..at]).map_or(0, |end| end + 1);
+        let before = &bytes[start..at];
+        let before = before.splitn(2, |&b| b == b':').nth(1).unwrap_or(before);
+        before.trim_ascii_start().starts_with(b"R[") && before.contains(&b'=')
+    })
 }
 
 /// The statements of all files.
@@ -132,6 +144,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         aliased: BTreeSet::new(),
         read: BTreeSet::new(),
         reads_any: false,
+        gets_elements: sources.iter().any(|source| gets_elements(&source.bytes)),
         copies: Vec::new(),
         from_registers: Vec::new(),
         from_constants: Vec::new(),

@@ -7,14 +7,14 @@ use super::lines::Line;
 use super::moves::Row;
 use super::reader::{Reader, called};
 use super::words::{
-    Named, Register, assigned, behind_group, comma, concerns_group_1, each_position, element,
-    indexed, is_word, motion, parts, position, register, whole, word_length, words,
+    Named, Register, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position,
+    element, indexed, is_word, motion, parts, position, register, whole, word_length, words,
 };
-use crate::program::notation::shift_of;
+use crate::program::notation::grown_by;
+use crate::program::number;
 use crate::program::script::{
     Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Write, Written, short,
 };
-use crate::program::{Shift, number};
 use std::collections::BTreeSet;
 
 /// Conditions inside conditions.
@@ -406,11 +406,7 @@ impl Reader<'_> {
     fn set_register(&mut self, index: &[u8], value: &[u8]) {
         let Register { number, is_element } = register(index);
         let how = if is_element {
-            let computed = self.controller.computed;
-            match grown(index, value) {
-                Some(shift) => self.builder.script.part_by(computed, shift),
-                None => How::part(value, computed),
-            }
+            self.part_becomes(index, value)
         } else {
             How::Whole(self.position_value(value))
         };
@@ -427,6 +423,44 @@ impl Reader<'_> {
         });
         let register = self.register(number);
         self.write(Written::One(register), how);
+    }
+
+    /// What `PR[4,3]=` makes of a register: it displaces it by 200 mm where `PR[4,3]+200` is behind
+    /// it.
+    fn part_becomes(&mut self, index: &[u8], value: &[u8]) -> How {
+        let computed = self.controller.computed;
+        let (own, at) = (register(index).number, element(index));
+        let is_own = |inside: &[u8]| {
+            (register(inside).number, element(inside)) == (own, at) && concerns_group_1(inside)
+        };
+        let number = at.and_then(|at| (at as usize).checked_sub(1));
+        if let Some(number) = number
+            && let Some((term, by)) = number::term_and_sum(value, number::parse)
+            && let Some(inside) = term.strip_prefix(b"PR[").and_then(|t| t.strip_suffix(b"]"))
+            && let Some(displacement) = grown_by(number, by)
+        {
+            if own.is_some() && is_own(inside) {
+                return self.builder.script.part_by(computed, displacement);
+            }
+            if let Some(other) = register(inside).number
+                && element(inside) == at
+                && number < 3
+                && concerns_group_1(inside)
+            {
+                let other = Expr::Variable(self.register(other));
+                let by = self.builder.script.displacement(displacement);
+                return How::PartOf(computed, other, by);
+            }
+        }
+        let mut elements = memchr::memmem::find_iter(value, b"PR[").filter_map(|at| {
+            let inside = &value[at + 3..];
+            Some(&inside[..bracket_end(inside)?])
+        });
+        // what a number register holds may be what an element was
+        let is_number = memchr::memmem::find_iter(value, b"R[")
+            .any(|at| at.checked_sub(1).is_none_or(|before| value[before] != b'P'));
+        let is_own = elements.any(is_own) || is_number && self.gets_elements;
+        How::part(is_own, matches!(number, Some(3..6)), computed)
     }
 
     /// The position that a value is: a point, another register, where the robot is, or what is
@@ -464,20 +498,6 @@ impl Reader<'_> {
             }
         }
     }
-}
-
-/// By what `PR[4,3]=` displaces a register: 200 mm where `PR[4,3]+200` is behind it.
-fn grown(index: &[u8], value: &[u8]) -> Option<Shift> {
-    let own = (register(index).number?, element(index)?);
-    let is_own = |term: &[u8]| {
-        let inside = term.strip_prefix(b"PR[").and_then(|t| t.strip_suffix(b"]"));
-        inside.is_some_and(|inside| {
-            let same = (register(inside).number, element(inside)) == (Some(own.0), Some(own.1));
-            same && concerns_group_1(inside)
-        })
-    };
-    let by = number::added(value, is_own)?;
-    shift_of((own.1 as usize).checked_sub(1)?, by)
 }
 
 /// Whether `THEN` ends a condition.

@@ -7,10 +7,10 @@ use super::lines::{Line, Lines, words};
 use super::relative::{Frames, Given, given, is_relative};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
-use crate::program::number::whole;
+use crate::program::number::{self, whole};
 use crate::program::script::{
-    Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
-    ValueId, VariableId, Write, Written, short,
+    Argument, Builder, Call, Expr, Held, How, Place, Remark, RemarkId, RoutineId, Script, Start,
+    TableId, ValueId, VariableId, Write, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -46,6 +46,9 @@ pub(super) fn script<'a>(
         external_names,
         written_external: written_external(sources, &positions),
         given_frames: given(sources, &positions),
+        gets_parts: sources
+            .iter()
+            .any(|source| memchr::memmem::find(&source.bytes, b"GETE").is_some()),
         positions,
     };
     for job in &reader.positions.jobs {
@@ -119,6 +122,8 @@ pub(super) struct Reader<'a> {
     written_external: HashSet<WrittenExternal>,
     /// Calls that give jobs a user frame.
     given_frames: Vec<Given<'a>>,
+    /// Numbers of positions are written into others (`GETE`).
+    gets_parts: bool,
 }
 
 /// The letters of variables with axes of a base or a station, and their number; none where only the
@@ -413,9 +418,7 @@ impl<'a> Reader<'a> {
         let computed = self.builder.script.remark(Cause::Computed.remark());
         match effect {
             Effect::Part => {
-                let sets = line.text.starts_with(b"SETE");
-                let value = words(line.text).last().filter(|_| sets).unwrap_or_default();
-                self.write(line, written, How::part(value, computed));
+                self.write(line, written, self.part_becomes(line, computed));
             }
             Effect::Perhaps => {
                 self.builder.begin_if(None);
@@ -424,6 +427,16 @@ impl<'a> Reader<'a> {
             }
             _ => self.write(line, written, How::Whole(Expr::Unknown(computed))),
         }
+    }
+
+    /// What `SETE P001 (3) D005` makes of a position: it is displaced where the number may come from
+    /// one.
+    fn part_becomes(&self, line: Line, computed: RemarkId) -> How {
+        let sets = line.text.starts_with(b"SETE");
+        let (value, part) = (words(line.text).last(), words(line.text).nth(2));
+        let is_number = value.is_some_and(|value| number::parse(value).is_some());
+        let is_angle = part.is_some_and(|part| matches!(part, b"(4)" | b"(5)" | b"(6)"));
+        How::part(!sets || !is_number && self.gets_parts, is_angle, computed)
     }
 
     /// Notes the P variables that something is computed from.

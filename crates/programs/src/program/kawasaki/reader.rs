@@ -10,6 +10,7 @@ use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
+use crate::program::notation::mentions;
 use crate::program::script::{
     Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
     Write, Written, short,
@@ -398,10 +399,8 @@ impl<'a> Reader<'a> {
         let value = part.behind(defined.len() + 1);
         if is_partial {
             let remark = self.builder.script.remark(Cause::Computed.remark());
-            let how = match value.value() {
-                Some(_) if !is_sum => How::PartNumber(remark),
-                _ => How::PartSomehow(remark),
-            };
+            let is_own = is_sum || mentions(value.whole(), defined.whole());
+            let how = How::part(is_own, false, remark);
             return self.write_name(&name, how);
         }
         if is_sum {

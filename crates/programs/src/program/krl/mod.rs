@@ -38,6 +38,7 @@ mod states;
 mod status;
 mod targets;
 mod tokens;
+mod turning;
 
 use super::kit::not_this_language;
 use super::notation;

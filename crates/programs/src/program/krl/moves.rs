@@ -45,6 +45,7 @@ pub(super) struct With {
     load: Option<Expr>,
     mode: Option<Expr>,
     orientation: Option<Expr>,
+    circle: Option<Expr>,
 }
 
 /// Where the robot is, for moves relative to it.
@@ -109,6 +110,7 @@ impl Reader {
             if rest.has_angle {
                 modal.guards = self.states.angle_guards;
             }
+            modal.guards = self.guards_on_arc(motion, modal.guards, rest.with.circle);
             self.builder.go(instruction, modal);
             let plain = context.tool.is_none() && context.base.is_none();
             if !is_via && plain && !rest.has_angle && point.is_pose {
@@ -160,7 +162,7 @@ impl Reader {
             base,
             load,
             mode,
-            orientation: _,
+            ..
         } = rest.with;
         let state = |own: Option<Expr>, of: Option<Expr>, state| {
             own.or(of).unwrap_or(self.states.expr(state))
@@ -247,6 +249,9 @@ impl Reader {
                 (b"$LOAD", None) => with.load = Some(self.state_value(State::Load, cursor)?),
                 (b"$IPO_MODE", None) => with.mode = Some(self.state_value(State::Ipo, cursor)?),
                 (b"$ORI_TYPE", None) => with.orientation = Some(self.orientation(cursor)),
+                (b"$CIRC_TYPE" | b"$CIRC_MODE", _) => {
+                    with.circle = Some(self.circle(name.start as usize, cursor));
+                }
                 (b"$TOOL", Some(_)) => with.tool = Some(self.chosen()),
                 (b"$BASE", Some(_)) => with.base = Some(self.chosen()),
                 (b"$VEL", _) => speed_zone.speed_m_s = speed(cursor, part)?,

@@ -5,6 +5,7 @@ use super::moves::Last;
 use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
+use super::turning::Circles;
 use crate::program::kit::{Fault, content_start};
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
@@ -16,6 +17,7 @@ pub(super) struct Reader {
     pub(super) builder: Builder,
     pub(super) names: Names,
     pub(super) states: States,
+    pub(super) circles: Circles,
     /// Tools, bases and loads of data lists.
     pub(super) declared: Declared,
     pub(super) file: u32,
@@ -83,6 +85,7 @@ impl Reader {
         let mut builder = Builder::default();
         Self {
             states: States::new(&mut builder.script),
+            circles: Circles::new(&mut builder.script),
             builder,
             external,
             names: Names::default(),

@@ -9,9 +9,9 @@ use super::remarks::{assigned, computed, external_written};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
-use crate::program::notation::shift_of;
+use crate::program::notation::{grown_by, mentions};
 use crate::program::script::{Expr, Held, How, Write, Written};
-use crate::program::{ExternalUse, Shift, Source, SpeedZone, number};
+use crate::program::{ExternalUse, Source, SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
@@ -68,19 +68,6 @@ fn refers_to_end(mut cursor: Cursor) -> bool {
 /// arguments of a routine.
 pub(super) fn is_kept(mut rest: Cursor) -> bool {
     written(rest).is_some() || rest.take(b'(') && rest.blanks() != b')'
-}
-
-/// By what `p.Z=` displaces a position: 200 mm where `p.Z+200` is behind it.
-fn grown(part: &[u8], own: &[u8], value: &[u8]) -> Option<Shift> {
-    let own = own.trim_ascii_end().strip_suffix(b"=")?;
-    let letters = |text: &[u8]| -> Vec<u8> {
-        let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
-        letters.map(u8::to_ascii_uppercase).collect()
-    };
-    let own = letters(own);
-    let by = number::added(value, |term| letters(term) == own)?;
-    let [letter] = part else { return None };
-    shift_of(b"XYZC".iter().position(|known| known == letter)?, by)
 }
 
 impl Reader {
@@ -472,6 +459,11 @@ impl Reader {
             self.calls_in(cursor);
             return self.write_state(place, state, part, &mut cursor);
         }
+        if matches!(word, b"$CIRC_TYPE" | b"$CIRC_MODE") {
+            let value = self.circle(first.start as usize, &mut cursor);
+            self.put(place, self.circles.state, value);
+            return Ok(());
+        }
         if word == b"LDAT_ACT" {
             let value = match part {
                 None => self.ldat(&mut cursor),
@@ -553,15 +545,7 @@ impl Reader {
             How::Whole(self.unknown(external_written(axis)))
         } else if let Some(part) = part {
             self.calls_in(cursor);
-            let own = &cursor.bytes[self.here.offset as usize..cursor.at];
-            let value = &cursor.bytes[cursor.at..cursor.end];
-            let value = value.split(|&b| b == b';').next().unwrap_or(value);
-            let script = &mut self.builder.script;
-            let remark = script.remark(computed());
-            match grown(part, own, value) {
-                Some(shift) => script.part_by(remark, shift),
-                None => How::part(value, remark),
-            }
+            self.part_becomes(part, cursor)
         } else if cursor.peek().kind == Kind::End {
             return Ok(());
         } else {
@@ -581,6 +565,54 @@ impl Reader {
         };
         self.write_element(owner, at, how);
         Ok(())
+    }
+
+    /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or
+    /// that of the position that it is a copy of.
+    fn part_becomes(&mut self, part: &[u8], mut cursor: Cursor) -> How {
+        let remark = self.builder.script.remark(computed());
+        let letters = |text: &[u8]| -> Vec<u8> {
+            let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
+            letters.map(u8::to_ascii_uppercase).collect()
+        };
+        let own = cursor.bytes[self.here.offset as usize..cursor.at].trim_ascii_end();
+        let own = letters(own.strip_suffix(b"=").unwrap_or(own));
+        let value = &cursor.bytes[cursor.at..cursor.end];
+        let value = value.split(|&b| b == b';').next().unwrap_or(value);
+        let part = letters(part);
+        let is_named = |name: &[u8]| part[..] == *name;
+        let names = [&b"X"[..], b"Y", b"Z", b"C", b"B", b"A"];
+        let at = names.into_iter().position(is_named);
+        if let Some(at) = at
+            && let Some((term, by)) = number::term_and_sum(value, number::parse)
+            && let Some(displacement) = grown_by(at, by)
+        {
+            let term = letters(term);
+            if term == own {
+                return self.builder.script.part_by(remark, displacement);
+            }
+            let start = cursor.at;
+            if let Some(other) = self.part_of(&mut cursor, &part)
+                && at < 3
+                && letters(&cursor.bytes[start..cursor.at]) == term
+            {
+                let by = self.builder.script.displacement(displacement);
+                return How::PartOf(remark, other, by);
+            }
+        }
+        let is_own = mentions(&letters(value), &own);
+        How::part(is_own, at.is_some_and(|at| at > 2), remark)
+    }
+
+    /// The position of which a value is this part.
+    fn part_of(&mut self, cursor: &mut Cursor, part: &[u8]) -> Option<Expr> {
+        let name = cursor.next();
+        let at = cursor.brackets().ok()?;
+        let is_name = name.kind == Kind::Name && cursor.take(b'.');
+        let field = cursor.next();
+        let is_part = is_name && cursor.text(field).eq_ignore_ascii_case(part);
+        let symbol = self.symbol(cursor, name);
+        is_part.then(|| self.named(symbol, Index::of(at, cursor)))?
     }
 
     pub(super) fn write_element(&mut self, owner: Owner, at: Index, how: How) {

@@ -1,7 +1,7 @@
 //! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, FDAT, entries of tables.
 
 use super::aggregate;
-use super::data::{Carried, fdat, is_external, keeps_orientation, load};
+use super::data::{Carried, fdat, is_external, load};
 use super::frames::{
     Choice, State, Table, carried_record, part, part_of, pose_of, record, unit, write_pose,
 };
@@ -135,45 +135,6 @@ impl Reader {
         let name = self.symbol(&inner, token);
         let at = Index::of(inner.brackets().ok()?, &inner);
         self.fdat_of(name, at)?.is_external
-    }
-
-    /// `#CONSTANT`, `SORI_TYP(LCPDAT1)`, `LDAT_ACT.ORI_TYP`
-    pub(super) fn orientation(&mut self, cursor: &mut Cursor) -> Expr {
-        if cursor.take(b'#') {
-            let name = cursor.next();
-            let keeps = !matches!(
-                capitals(cursor.text(name), &mut [0; 24]),
-                b"VAR" | b"JOINT" | b"IGNORE"
-            );
-            return self.orientation_value(keeps);
-        }
-        let name = cursor.next();
-        match capitals(cursor.text(name), &mut [0; 24]) {
-            b"SORI_TYP" => {
-                let mut ldat = inside(cursor);
-                let ldat = ldat.as_mut().map(|inner| self.ldat(inner));
-                ldat.unwrap_or_else(|| self.orientation_value(true))
-            }
-            b"LDAT_ACT" => self.states.expr(State::LdatOrientation),
-            _ => self.orientation_value(true),
-        }
-    }
-
-    /// The orientation of `LCPDAT1`, `{VEL 2,…}` or `LDAT_ACT`.
-    pub(super) fn ldat(&mut self, cursor: &mut Cursor) -> Expr {
-        if cursor.blanks() == b'{' {
-            let keeps = keeps_orientation(cursor).unwrap_or(true);
-            return self.orientation_value(keeps);
-        }
-        let token = cursor.next();
-        if cursor.text(token).eq_ignore_ascii_case(b"LDAT_ACT") {
-            return self.states.expr(State::LdatOrientation);
-        }
-        let name = self.symbol(cursor, token);
-        let at = Index::of(cursor.brackets().unwrap_or(None), cursor);
-        let stored = self.names.constant(name, at, self.context());
-        // LDAT that the files do not have mostly leaves the orientation to the targets
-        self.orientation_value(matches!(stored, Some(Stored::Keeps(true))))
     }
 
     /// A tool or base up to a comma or the end of the line; one that is written out is called
@@ -395,6 +356,7 @@ impl Reader {
                 self.set(place, State::Base, base);
                 self.set(place, State::Ipo, Expr::Value(self.states.on));
                 self.set(place, State::Orientation, Expr::Value(self.states.on));
+                self.usual_circles(place);
             }
             b"TOOL" => {
                 let choice = choice(self, Table::Tool);
@@ -607,7 +569,7 @@ impl Reader {
 }
 
 /// What stands in the brackets in front, which are taken.
-fn inside<'a>(cursor: &mut Cursor<'a>) -> Option<Cursor<'a>> {
+pub(super) fn inside<'a>(cursor: &mut Cursor<'a>) -> Option<Cursor<'a>> {
     if !cursor.take(b'(') {
         return None;
     }

@@ -11,7 +11,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Rotation;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Shape, Shift, Target, Tool, Value};
+use crate::program::{Displacement, Motion, Shape, Shift, Stride, Target, Tool, Value};
 
 /// X Y Z A B C without S and T.
 const POSE: Layout = Layout {
@@ -295,17 +295,30 @@ fn a_number_of_the_text_displaces_by_what_it_says() {
         program.moves[0].displacement.clone()
     };
     let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    let turned =
+        |degrees: f64| Displacement::Within(Box::new([Stride::Turned(Some(degrees * DEG))]));
     for (lines, wanted) in [
         ("p.Z=p.Z+200 ; up", along([0.0, 0.0, 0.2])),
         ("p.x = -50 + P.X", along([-0.05, 0.0, 0.0])),
         ("p.Z=p.Z+200\np.Y=p.Y-(10.0)", along([0.0, -0.01, 0.2])),
         ("p.Z=p.Z+hop", Displacement::Unknown),
-        ("p.Z=XP2.Z+200", Displacement::Unknown),
-        ("p.A=p.A+10", Displacement::Unknown),
+        ("p.Z=XP1.Z+200", along([0.0, 0.0, 0.2])),
+        (
+            "p.X=XP1.X+10\nIF $IN[1] THEN\nENDIF\np.Z=XP1.Z-5",
+            along([0.01, 0.0, -0.005]),
+        ),
+        ("p.Z=XP2.Z+200", Displacement::Overwritten),
+        ("p.Z=hop", Displacement::Overwritten),
+        ("p.A=p.A+10", turned(10.0)),
+        ("p.B=p.B-2.5", turned(-2.5)),
+        (
+            "p.A=p.A+hop",
+            Displacement::Within(Box::new([Stride::Turned(None)])),
+        ),
         ("p.Z=200 ; down", Displacement::Overwritten),
         (
             "p.Z=p.Z+200\nIF $IN[1] THEN\nENDIF\np.Z=p.Z+1",
-            Displacement::Unknown,
+            along([0.0, 0.0, 0.201]),
         ),
     ] {
         assert_eq!(by(lines), wanted, "{lines}");
@@ -539,4 +552,34 @@ fn long_lines_are_reported() {
         "x".repeat(430)
     ));
     assert_eq!(reported(&program), ["long-line"]);
+}
+
+#[test]
+fn arcs_on_which_the_tool_turns_with_the_path_are_refused() {
+    for (before, with, is_refused) in [
+        ("", "", false),
+        ("$CIRC_TYPE=#PATH\n", "", true),
+        (
+            "$CIRC_TYPE=#PATH\nBAS(#INITMOV,0)\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n",
+            "",
+            false,
+        ),
+        ("$CIRC_TYPE=#PATH\n$CIRC_TYPE=#BASE\n", "", false),
+        ("$CIRC_MODE.AUX_PT.ORI=#CONSIDER\n", "", false),
+        ("$CIRC_MODE.AUX_PT.ORI=#INTERPOLATE\n", "", true),
+        ("$CIRC_MODE.TARGET_PT.ORI=#INTERPOLATE\n", "", false),
+        ("$CIRC_MODE.TARGET_PT.ORI=#EXTRAPOLATE\n", "", true),
+        ("", " WITH $CIRC_TYPE=#PATH", true),
+        ("$CIRC_TYPE=#PATH\n", " WITH $CIRC_TYPE=#BASE", false),
+    ] {
+        let program = path(&format!("{before}LIN XP1\nSCIRC XP2,XP3{with}"));
+        let refused: &[&str] = if is_refused {
+            &["move-not-supported"]
+        } else {
+            &[]
+        };
+        let mut all = reported(&program);
+        all.dedup();
+        assert_eq!(all, refused, "{before}{with}");
+    }
 }

@@ -206,8 +206,45 @@ impl Reader<'_> {
             }
         }
         self.rewind(mark);
+        let start = self.token.start as usize;
         self.expression()?;
-        Ok(Amount::Computed)
+        let text = &self.bytes[start..self.token.start as usize];
+        Ok(self.counted(text).unwrap_or(Amount::Computed))
+    }
+
+    /// `i*40`, `(i-1)*40`, `20-40*i` of a counter whose values the text tells.
+    fn counted(&mut self, text: &[u8]) -> Option<Amount> {
+        let (text, sign) = match text.trim_ascii().strip_prefix(b"-") {
+            Some(rest) if !rest.contains(&b'+') && !rest.contains(&b'-') => (rest, -1.0),
+            _ => (text, 1.0),
+        };
+        let (term, sum) = number::term_and_sum(text, number::parse)?;
+        let mut factors = term.splitn(2, |&b| b == b'*').map(<[u8]>::trim_ascii);
+        let (a, b) = (factors.next()?, factors.next());
+        let (counter, factor) = match b {
+            None => (a, 1.0),
+            Some(b) => match (number::parse(a), number::parse(b)) {
+                (Some(factor), None) => (b, factor),
+                (None, Some(factor)) => (a, factor),
+                _ => return None,
+            },
+        };
+        let inside = counter
+            .strip_prefix(b"(")
+            .and_then(|c| c.strip_suffix(b")"));
+        let (name, more) = number::term_and_sum(inside.unwrap_or(counter), number::parse)?;
+        let name = self.parsed.symbols.find(name)?;
+        let of = self
+            .loops
+            .iter()
+            .rev()
+            .find(|of| of.counter == Some(name))?;
+        let (from, step, most) = of.counts?;
+        Some(Amount::Counted {
+            first: sign * (sum + factor * (from + more)),
+            by: sign * factor * step,
+            most,
+        })
     }
 
     /// `{2}` or `{1,3}` where it stands. Its names are of no expression; they stay in the list, as

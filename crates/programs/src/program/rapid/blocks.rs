@@ -4,6 +4,13 @@ use super::reader::{OpenLoop, Reader};
 use super::syntax::{Expression, StatementKind};
 use super::tokens::{Fault, Kind};
 use crate::program::names::Symbol;
+use crate::program::number;
+
+/// `WHILE condition DO`, whose condition calls functions.
+const WHILE: StatementKind = StatementKind::Loop {
+    may_pass: false,
+    most: None,
+};
 
 /// Whether a word begins, parts or ends a block, or leaves one.
 pub(super) fn is_block_word(word: &[u8]) -> bool {
@@ -60,11 +67,15 @@ impl Reader<'_> {
             b"for" => {
                 let is_name = self.token.kind == Kind::Name;
                 let counter = is_name.then(|| self.parsed.symbols.intern(self.text(self.token)));
+                let first = self.token;
                 self.condition()?;
-                self.note(start, StatementKind::Loop { may_pass: true });
+                let counts = self.counts(first.start);
+                let (may_pass, most) = (true, counts.map(|(.., more)| more + 1));
+                self.note(start, StatementKind::Loop { may_pass, most });
                 self.loops.push(OpenLoop {
                     endless: false,
                     counter,
+                    counts,
                 });
             }
             b"endwhile" | b"endfor" => {
@@ -113,11 +124,38 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// The first value of `i FROM 1 TO 10 STEP 2 DO`, what is added, and how often: its counter
+    /// cannot be written.
+    fn counts(&self, start: u32) -> Option<(f64, f64, u32)> {
+        let text = &self.bytes[start as usize..self.token.start as usize];
+        let words: Vec<_> = text
+            .split(|b| b.is_ascii_whitespace())
+            .filter(|word| !word.is_empty())
+            .collect();
+        let is = |at: usize, word: &str| {
+            words
+                .get(at)
+                .is_some_and(|of| of.eq_ignore_ascii_case(word.as_bytes()))
+        };
+        let number = |at: usize| number::parse(words.get(at)?);
+        let (from, to) = (number(2)?, number(4)?);
+        let step = if is(5, "step") {
+            number(6)?
+        } else {
+            1.0_f64.copysign(to - from)
+        };
+        let more = ((to - from) / step).floor();
+        let is_counted = is(1, "from") && is(3, "to") && (0.0..1e6).contains(&more);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let counts = is_counted.then_some((from, step, more as u32));
+        counts
+    }
+
     /// `WHILE condition DO`; functions in the condition are called each time round.
     fn while_loop(&mut self, start: u32) -> Result<(), Fault> {
         let forever = self.is_word(b"true");
         let at = self.parsed.statements.len();
-        self.note(start, StatementKind::Loop { may_pass: false });
+        self.note(start, WHILE);
         let first = self.token;
         self.condition()?;
         let forever = forever
@@ -131,11 +169,14 @@ impl Reader<'_> {
             self.note(start, StatementKind::Leave);
             self.note(start, StatementKind::EndChoice);
         } else if !forever {
-            self.parsed.statements[at].kind = StatementKind::Loop { may_pass: true };
+            self.parsed.statements[at].kind = StatementKind::Loop {
+                may_pass: true,
+                most: None,
+            };
         }
         self.loops.push(OpenLoop {
             endless: forever || calls,
-            counter: None,
+            ..OpenLoop::default()
         });
         Ok(())
     }

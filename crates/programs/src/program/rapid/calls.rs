@@ -357,7 +357,8 @@ impl Translator<'_> {
                 continue;
             }
             if matches!(argument.expression, Expression::Member { .. }) {
-                let part = How::PartSomehow(self.changed());
+                let is_own = resolved.is_derived_datum(datum);
+                let part = How::part(is_own, false, self.changed());
                 self.write_argument(argument, part);
             }
             if !resolved.datum(datum).kind.is_target() || self.is_one_of(argument) {

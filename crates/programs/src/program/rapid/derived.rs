@@ -4,7 +4,7 @@
 use super::builtins::Known;
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
-    Assigned, Base, Callee, Component, Expression, Part, StatementKind, Type, indices,
+    Argument, Assigned, Base, Callee, Component, Expression, Part, StatementKind, Type, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
 use foldhash::HashMap;
@@ -71,6 +71,12 @@ impl Resolved<'_> {
         }
     }
 
+    /// Whether all that data get comes from targets.
+    pub(super) fn is_derived_datum(&self, datum: u32) -> bool {
+        let data = Holder::Data(Entity::Declared(datum));
+        self.derived.contains(&data)
+    }
+
     /// Whether one of these names carries numbers of a target.
     fn carry(&self, names: Part, context: Context) -> bool {
         let mut names = self.parsed.mentions[indices(names)].iter();
@@ -130,7 +136,12 @@ impl Resolved<'_> {
             )
         };
         let mut statements = self.parsed.statements.iter();
-        if self.parsed.composed.is_empty() && !statements.any(|of| is_place(&of.kind)) {
+        let is_part = |of: &Argument| matches!(of.expression, Expression::Member { .. });
+        let mut given = [false, true].into_iter().flat_map(|of| self.list(of));
+        if self.parsed.composed.is_empty()
+            && !statements.any(|of| is_place(&of.kind))
+            && !given.any(is_part)
+        {
             return;
         }
         let Origins { mut holders, .. } = self.origins();
@@ -246,10 +257,14 @@ impl Resolved<'_> {
                 let Some(value) = argument.map(|argument| argument.expression) else {
                     continue;
                 };
-                if !self.is_written_back(datum) {
+                let of_target = matches!(value, Expression::Member { .. })
+                    && self.is_from_target(&value, context);
+                if of_target || !self.is_written_back(datum) {
                     let parameter = Holder::Data(Entity::Declared(datum));
                     origins.add(parameter, Origin::Value(value, context));
-                } else if let Some((name, _)) = self.place_of(&value)
+                }
+                if self.is_written_back(datum)
+                    && let Some((name, _)) = self.place_of(&value)
                     && let Some(entity) = self.entity_of(name, context)
                 {
                     origins.add(Holder::Data(entity), Origin::Parameter(datum));

@@ -28,6 +28,7 @@ mod handlers;
 mod insert;
 mod modes;
 mod moves;
+mod parts;
 mod reader;
 mod records;
 mod resolved;
@@ -114,6 +115,11 @@ impl Language for Rapid {
             Role::Joint => millimetre_decimals + 2,
             Role::Configuration => 0,
         }
+    }
+
+    /// `CirPathMode\PathFrame`
+    fn turns_with_path(&self) -> bool {
+        true
     }
 
     fn pose_roles(&self, _: Layout) -> &'static [Role] {

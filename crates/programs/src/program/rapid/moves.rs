@@ -438,10 +438,10 @@ impl Translator<'_> {
             Expression::Member { name, index } => (name, index, true),
             _ => return,
         };
-        let how = if is_part {
-            How::PartSomehow(self.changed())
-        } else {
-            how
+        let how = match how {
+            How::PartSomehow(_) => how,
+            _ if is_part => How::PartNumber(self.changed()),
+            _ => how,
         };
         let index: Index = self.resolved.parsed.index(index);
         for variable in self.written(name, index) {

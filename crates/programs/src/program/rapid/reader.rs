@@ -27,6 +27,8 @@ pub(super) struct OpenLoop {
     pub endless: bool,
     /// What FOR counts with: it hides data of its name.
     pub counter: Option<Symbol>,
+    /// Its first value, what is added each time, and how often, where the text tells.
+    pub counts: Option<(f64, f64, u32)>,
 }
 
 /// Reads one file into the parsed of all.

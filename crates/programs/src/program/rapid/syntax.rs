@@ -359,6 +359,12 @@ pub(super) enum Amount {
     Number(f64),
     /// A name, which may be a constant, times 1 or -1.
     Named(Symbol, f64),
+    /// What a loop counts: this, and up to so many times that more.
+    Counted {
+        first: f64,
+        by: f64,
+        most: u32,
+    },
     /// Anything else.
     Computed,
 }
@@ -447,6 +453,8 @@ pub(super) enum StatementKind {
     EndChoice,
     Loop {
         may_pass: bool,
+        /// How many rounds it makes at most, where the text tells.
+        most: Option<u32>,
     },
     EndLoop {
         endless: bool,

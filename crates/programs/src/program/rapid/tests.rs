@@ -15,7 +15,7 @@ use super::*;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
 use crate::motion;
-use crate::program::{Displacement, Motion, Shape, Shift, Target, Tool, Value};
+use crate::program::{Displacement, Motion, Shape, Shift, Stride, Target, Tool, Value};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,
@@ -198,7 +198,12 @@ fn what_a_loop_counts_with_hides_a_constant() {
          RelTool(p1,0,0,-i),v5,z5,t;\nENDWHILE\nENDFOR\nMoveL Offs(p1,0,0,i),v5,z5,t;",
     );
     let by: Vec<_> = program.moves.iter().map(|m| &m.displacement).collect();
-    assert_eq!(by[..2], [&Displacement::Unknown, &Displacement::Unknown]);
+    let counted = |most| Stride::By {
+        shift: Shift::along([0.0, 0.0, 0.001]),
+        most: Some(most),
+    };
+    let counted = Displacement::Within(Box::new([counted(1), counted(39)]));
+    assert_eq!(by[..2], [&counted, &Displacement::Unknown]);
     assert!(matches!(by[2], Displacement::By(_)), "behind the loop");
 }
 

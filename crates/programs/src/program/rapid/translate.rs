@@ -6,12 +6,12 @@ use super::grips::Grips;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
-use super::syntax::{Assigned, Component, Expression, Index, StatementKind, Storage, Type};
+use super::syntax::{Index, StatementKind, Storage, Type};
 use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
-    Builder, Call, Expr, Held, How, Instruction, Modal, Part as RecordPart, PartValue, Place,
-    Remark, RemarkId, Script, Start, TableId, ValueId, Variable, VariableId, Write, Written,
+    Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
+    TableId, ValueId, Variable, VariableId, Write, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -298,7 +298,7 @@ impl Translator<'_> {
             StatementKind::Branch { is_last } => self.builder.next_branch(is_last),
             StatementKind::Test => self.builder.begin_choice(),
             StatementKind::EndChoice => self.builder.end_choice(),
-            StatementKind::Loop { may_pass } => self.builder.begin_loop(may_pass),
+            StatementKind::Loop { may_pass, most } => self.builder.begin_rounds(may_pass, most),
             StatementKind::EndLoop { endless } => self.builder.end_loop(endless),
             StatementKind::Leave => self.builder.leave_loop(),
             StatementKind::Label(name) => self.builder.label(u64::from(name.0)),
@@ -345,113 +345,6 @@ impl Translator<'_> {
             variable: Written::One(variable),
             how: How::Whole(value),
         });
-    }
-
-    /// `name{i}.part := value`
-    fn assign(&mut self, name: Symbol, index: Index, component: Component, value: Assigned) {
-        let kind = self.resolved.kind(name, self.context);
-        let is_frame = match kind {
-            Some(kind) => kind.is_frame(),
-            None => {
-                matches!(component, Component::Leaves(..)) || matches!(value, Assigned::Leaves(_))
-            }
-        };
-        if kind.is_some_and(|kind| !kind.is_frame() && !kind.is_target()) {
-            return;
-        }
-        if is_frame && kind.is_none() {
-            self.wanted.entry(name).or_insert(Type::Tooldata);
-        }
-        let all = self.written(name, index);
-        if all.is_empty() {
-            return;
-        }
-        let wanted = kind.or_else(|| self.wanted.get(&name).copied());
-        let wanted = wanted.unwrap_or(Type::Robtarget);
-        let how = if wanted.is_frame() {
-            self.frame_becomes(name, component, value)
-        } else {
-            self.target_becomes(name, component, value, wanted)
-        };
-        for variable in all {
-            let (place, how) = (self.here, how.clone());
-            self.emit_write(Write {
-                place,
-                variable,
-                how,
-            });
-        }
-    }
-
-    fn target_becomes(
-        &mut self,
-        name: Symbol,
-        component: Component,
-        value: Assigned,
-        wanted: Type,
-    ) -> How {
-        let Assigned::To(expression) = value else {
-            return How::Whole(self.computed());
-        };
-        if component != Component::Whole {
-            let changed = self.changed();
-            let is_number = match expression {
-                Expression::Computed((from, to)) if from == to => true,
-                _ => {
-                    component == Component::Place
-                        && !self.resolved.is_from_target(&expression, self.context)
-                }
-            };
-            return if is_number {
-                How::PartNumber(changed)
-            } else {
-                How::PartSomehow(changed)
-            };
-        }
-        if let Expression::Point {
-            base: super::syntax::Base::Target(target),
-            ..
-        } = expression
-        {
-            let named = &mut self.builder.script.targets[target as usize].name;
-            *named = Some(self.resolved.spelling(name).into());
-        }
-        How::Whole(self.position_from(expression, wanted))
-    }
-
-    fn frame_becomes(&mut self, name: Symbol, component: Component, value: Assigned) -> How {
-        match (component, value) {
-            (Component::Leaves(first, _), Assigned::Leaves(leaves)) => How::Parts {
-                first: u32::from(first),
-                parts: self.record_parts(leaves, self.here),
-            },
-            (Component::Leaves(first, count), Assigned::To(_)) => {
-                let computed = RecordPart {
-                    value: PartValue::Computed,
-                    place: self.here,
-                    length: 0,
-                };
-                How::Parts {
-                    first: u32::from(first),
-                    parts: self.add_parts(vec![computed; usize::from(count)]),
-                }
-            }
-            (Component::Whole, Assigned::Leaves(leaves)) => {
-                let parts = self.record_parts(leaves, self.here);
-                let name = self.resolved.spelling(name).into();
-                let record = self.builder.script.value(Held::Record {
-                    name,
-                    parts,
-                    on: Box::default(),
-                });
-                How::Whole(Expr::Value(record))
-            }
-            (Component::Whole, Assigned::To(expression)) => match expression {
-                Expression::Point { .. } => How::Whole(self.frame_from(expression)),
-                _ => How::Whole(self.frame_assigned()),
-            },
-            (Component::Place | Component::Other, _) => How::PartSomehow(self.changed()),
-        }
     }
 
     // ---- before the first statement

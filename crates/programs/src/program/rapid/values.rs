@@ -16,7 +16,7 @@ use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place,
     Remark, RemarkId, Variable, VariableId, short,
 };
-use crate::program::{Displacement, Shift};
+use crate::program::{Displacement, Shift, Stride};
 
 /// Copies of copies of a target that are followed.
 pub(super) const DEEPEST: u32 = 8;
@@ -476,18 +476,41 @@ impl Translator<'_> {
         let found = self.steps(&self.resolved.parsed.steps[indices(steps)]);
         let displacement = match found {
             None => Displacement::Unknown,
-            Some(shift) if shift == Shift::along([0.0; 3]) => Displacement::None,
-            Some(shift) => Displacement::By(Box::new(shift)),
+            Some((shift, counted)) if !counted.is_empty() => {
+                let once = (shift != Shift::none()).then_some(Stride::By {
+                    shift,
+                    most: Some(1),
+                });
+                Displacement::Within(once.into_iter().chain(counted).collect())
+            }
+            Some((shift, _)) if shift == Shift::none() => Displacement::None,
+            Some((shift, _)) => Displacement::By(Box::new(shift)),
         };
         self.builder.script.displacement(displacement)
     }
 
-    fn steps(&self, steps: &[Step]) -> Option<Shift> {
+    /// The displacement of some steps, and what loops count in them.
+    fn steps(&self, steps: &[Step]) -> Option<(Shift, Vec<Stride>)> {
         let mut frame_mm = [0.0; 3];
         let mut in_tool = Pose::identity();
+        let mut counted = Vec::new();
         for step in steps {
             match step {
-                Step::Offs(amounts) => frame_mm = add(frame_mm, self.amounts(amounts)?),
+                Step::Offs(amounts) => {
+                    let mut plain = *amounts;
+                    for (axis, amount) in plain.iter_mut().enumerate() {
+                        if let Amount::Counted { first, by, most } = *amount {
+                            *amount = Amount::Number(first);
+                            let mut along = [0.0; 3];
+                            along[axis] = m_from_mm(by);
+                            counted.push(Stride::By {
+                                shift: Shift::along(along),
+                                most: Some(most),
+                            });
+                        }
+                    }
+                    frame_mm = add(frame_mm, self.amounts(&plain)?);
+                }
                 Step::RelTool(amounts) => {
                     let [x, y, z, rx, ry, rz] = self.amounts(amounts)?;
                     let [x, y, z] = [x, y, z].map(m_from_mm);
@@ -496,10 +519,11 @@ impl Translator<'_> {
                 }
             }
         }
-        Some(Shift {
+        let shift = Shift {
             in_tool,
             ..Shift::along(frame_mm.map(m_from_mm))
-        })
+        };
+        Some((shift, counted))
     }
 
     fn amounts<const N: usize>(&self, amounts: &[Amount; N]) -> Option<[f64; N]> {
@@ -507,14 +531,8 @@ impl Translator<'_> {
         for (value, amount) in values.iter_mut().zip(amounts) {
             *value = match *amount {
                 Amount::Number(number) => number,
-                Amount::Named(name, sign) => match self.resolved.meaning(name, self.context) {
-                    Meaning::One(datum) => match self.resolved.datum(datum).value {
-                        Stored::Number(number) => sign * number,
-                        _ => return None,
-                    },
-                    _ => return None,
-                },
-                Amount::Computed => return None,
+                Amount::Named(name, sign) => sign * self.constant_of(name)?,
+                Amount::Counted { .. } | Amount::Computed => return None,
             };
         }
         values.iter().all(|v| v.is_finite()).then_some(values)

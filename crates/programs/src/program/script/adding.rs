@@ -1,12 +1,12 @@
 //! Puts parts into a script.
 
 use super::{
-    Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId, NOT_DISPLACED,
-    NamedFrame, OVERWRITTEN, Remark, RemarkId, Script, Table, TableId, ValueId, Variable,
-    VariableId, short,
+    ACCUMULATED, Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
+    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Remark, RemarkId, Script, Table, TableId, ValueId,
+    Variable, VariableId, short,
 };
 use crate::geometry::Pose;
-use crate::program::{Displacement, Number, Shift, Target, TargetId};
+use crate::program::{Displacement, Number, Target, TargetId};
 use std::ops::Range;
 
 /// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
@@ -116,7 +116,8 @@ impl Script {
             Displacement::None => NOT_DISPLACED,
             Displacement::Unknown => DISPLACED_SOMEHOW,
             Displacement::Overwritten => OVERWRITTEN,
-            Displacement::By(_) => {
+            Displacement::Accumulated => ACCUMULATED,
+            Displacement::By(_) | Displacement::Within(_) => {
                 self.displacements.push(displacement);
                 short(self.displacements.len() - 1)
             }
@@ -124,9 +125,8 @@ impl Script {
     }
 
     /// A part of a position grows by a number of the text.
-    pub fn part_by(&mut self, remark: RemarkId, shift: Shift) -> How {
-        let by = self.displacement(Displacement::By(Box::new(shift)));
-        How::PartBy(remark, by)
+    pub fn part_by(&mut self, remark: RemarkId, displacement: Displacement) -> How {
+        How::PartBy(remark, self.displacement(displacement))
     }
 
     /// The expression of several, of which only the running program knows the one.

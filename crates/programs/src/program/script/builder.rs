@@ -1,10 +1,10 @@
 //! Puts statements together: blocks become labels, branches and jumps.
 
 use super::{
-    Call, Condition, How, Instruction, Label, Modal, Place, Routine, RoutineId, Script, Start,
-    Statement, VariableId, Write, Written, short,
+    Call, Condition, How, Instruction, Label, Loop, Modal, Place, Routine, RoutineId, Script,
+    Start, Statement, VariableId, Write, Written, short,
 };
-use crate::program::{Displacement, Shift};
+use crate::program::Displacement;
 use foldhash::HashMap;
 
 /// Adds the statements of routines to a script, one routine after another.
@@ -36,6 +36,8 @@ enum Block {
     Loop {
         top: Label,
         end: Label,
+        /// Index in [`Script::loops`].
+        number: u32,
     },
 }
 
@@ -103,24 +105,27 @@ impl Builder {
     /// Several parts of one position that grow in a row are one displacement.
     fn join_shifts(&mut self, write: &mut Write) {
         let script = &mut self.script;
-        if let (How::PartBy(_, by), Written::One(_)) = (&mut write.how, write.variable)
-            && let Displacement::By(shift) = &script.displacements[*by as usize]
-            && let Some(Statement::Write(last)) = script.statements.last()
-            && let Write {
-                variable: same,
-                how: How::PartBy(_, before),
-                ..
-            } = &script.writes[*last as usize]
-            && *same == write.variable
-            && let Displacement::By(before) = &script.displacements[*before as usize]
-        {
-            let shift = Shift {
-                in_frame: shift.in_frame * before.in_frame,
-                in_tool: before.in_tool * shift.in_tool,
-            };
-            *by = script.displacement(Displacement::By(Box::new(shift)));
-            script.statements.pop();
+        let Some(Statement::Write(last)) = script.statements.last() else {
+            return;
+        };
+        let last = &script.writes[*last as usize];
+        if last.variable != write.variable || !matches!(write.variable, Written::One(_)) {
+            return;
         }
+        let of = |by: u32| &script.displacements[by as usize];
+        match (&last.how, &mut write.how) {
+            (How::PartBy(_, before), How::PartBy(_, by)) => {
+                let (Displacement::By(before), Displacement::By(shift)) = (of(*before), of(*by))
+                else {
+                    return;
+                };
+                let both = Displacement::By(Box::new(before.then(shift)));
+                *by = script.displacement(both);
+            }
+            (How::PartSomehow(_), How::PartSomehow(_)) => {}
+            _ => return,
+        }
+        script.statements.pop();
     }
 
     /// A call.
@@ -223,27 +228,48 @@ impl Builder {
     /// Begins a loop. `may_pass`: its statements may be passed over (`WHILE`, `FOR`; not `REPEAT`,
     /// `LOOP`).
     pub fn begin_loop(&mut self, may_pass: bool) {
+        self.begin_rounds(may_pass, None);
+    }
+
+    /// Begins a loop of so many rounds at most, where the text tells.
+    pub fn begin_rounds(&mut self, may_pass: bool, most: Option<u32>) {
         let (top, end) = (self.new_label(), self.new_label());
+        let number = short(self.script.loops.len());
+        let is_counted = |number: u32| self.script.loops[number as usize].most.is_some();
+        let is_outer = !self.innermost_loop().is_some_and(|(.., of)| is_counted(of));
+        if is_outer {
+            self.script.statements.push(Statement::Enter(number));
+        }
+        let start = short(self.script.statements.len());
+        self.script.loops.push(Loop {
+            statements: start..start,
+            most,
+            is_outer,
+        });
         self.put(top);
         if may_pass {
             self.branch(end);
         }
-        self.open.push(Block::Loop { top, end });
+        self.open.push(Block::Loop { top, end, number });
     }
 
     /// Ends a loop. `endless`: it is left by [`Self::leave_loop`] only.
     pub fn end_loop(&mut self, endless: bool) {
-        let Some(Block::Loop { top, end }) = self.open.last() else {
+        let Some(&Block::Loop { top, end, number }) = self.open.last() else {
             return;
         };
-        let (top, end) = (*top, *end);
         self.open.pop();
         if endless {
             self.jump(top);
         } else {
             self.branch(top);
         }
+        self.end_rounds(number);
         self.put(end);
+    }
+
+    fn end_rounds(&mut self, number: u32) {
+        self.script.loops[number as usize].statements.end = short(self.script.statements.len());
     }
 
     /// `END` of whatever block is open, where all end with the same word.
@@ -262,16 +288,17 @@ impl Builder {
                 }
                 self.put(end);
             }
-            Block::Loop { top, end } => {
+            Block::Loop { top, end, number } => {
                 self.branch(top);
+                self.end_rounds(number);
                 self.put(end);
             }
         }
     }
 
-    fn innermost_loop(&self) -> Option<(Label, Label)> {
+    fn innermost_loop(&self) -> Option<(Label, Label, u32)> {
         self.open.iter().rev().find_map(|block| match block {
-            Block::Loop { top, end } => Some((*top, *end)),
+            Block::Loop { top, end, number } => Some((*top, *end, *number)),
             Block::Choice { .. } => None,
         })
     }
@@ -289,14 +316,14 @@ impl Builder {
 
     /// `EXIT`, `break`: behind the innermost loop.
     pub fn leave_loop(&mut self) {
-        if let Some((_, end)) = self.innermost_loop() {
+        if let Some((_, end, _)) = self.innermost_loop() {
             self.jump(end);
         }
     }
 
     /// `continue`: the top of the innermost loop.
     pub fn repeat_loop(&mut self) {
-        if let Some((top, _)) = self.innermost_loop() {
+        if let Some((top, ..)) = self.innermost_loop() {
             self.jump(top);
         }
     }
@@ -312,6 +339,12 @@ impl Builder {
 
     /// A label of the text, by a key of the reader's own in this routine.
     pub fn label(&mut self, key: u64) {
+        // what jumps here goes round without a count
+        for block in &self.open {
+            if let Block::Loop { number, .. } = block {
+                self.script.loops[*number as usize].most = None;
+            }
+        }
         let label = self.named(key);
         self.put(label);
     }

@@ -127,6 +127,8 @@ pub(super) struct Assignment {
     pub element: Option<u32>,
     /// Nothing but a number is.
     pub is_number: bool,
+    /// The same element of that variable and something more is.
+    pub grows: Option<(Symbol, f64)>,
 }
 
 /// A move as the text has it.

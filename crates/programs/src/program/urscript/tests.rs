@@ -1,7 +1,7 @@
 use super::*;
 use crate::finding::Severity;
 use crate::geometry::Pose;
-use crate::program::{Before, Displacement, Edits, Motion, Move, Shape, Value};
+use crate::program::{Before, Displacement, Edits, Motion, Move, Shape, Shift, Stride, Value};
 
 mod flow;
 mod posts;

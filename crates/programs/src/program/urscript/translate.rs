@@ -1,6 +1,7 @@
 //! The statements of one file.
 
 mod loads;
+mod parts;
 
 use self::loads::Present;
 use super::goals::{Common, Facets, Goals};
@@ -419,25 +420,6 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 how,
             });
         }
-    }
-
-    fn assign(&mut self, number: u32) {
-        let assignment = &self.goals.parsed.assignments[number as usize];
-        let variable = self.goals.variables.assigned[number as usize];
-        let offset = assignment.offset;
-        if !assignment.part {
-            self.whole(variable, assignment.value, assignment.function, offset);
-            return;
-        }
-        let held = self.goals.held[variable as usize];
-        let (computed, changes) = (self.goals.common.computed, self.goals.common.frame_changes);
-        let how = if self.goals.variables.writes_own_number(assignment) {
-            How::PartNumber(computed)
-        } else {
-            How::PartSomehow(computed)
-        };
-        self.write(held.position, how, offset);
-        self.write(held.frame, How::PartSomehow(changes), offset);
     }
 
     /// A variable with several values gets one of them.

@@ -129,6 +129,16 @@ impl<'n, 'a> Variables<'n, 'a> {
         variables
     }
 
+    /// Whether a variable may hold the joints that a position has, or others.
+    pub(super) fn holds_joints(&self, variable: VarId) -> bool {
+        let all = self.parsed.assignments.iter().zip(&self.assigned);
+        let mut own = all.filter(|(of, assigned)| **assigned == variable && !of.part);
+        own.any(|(of, _)| {
+            let value = self.parsed.expression(of.value);
+            matches!(value, Expr::Kinematics { .. } | Expr::List(_))
+        })
+    }
+
     // ---- names
 
     fn add(&mut self, name: Symbol, offset: u32, parameter: Option<FunctionId>) -> VarId {

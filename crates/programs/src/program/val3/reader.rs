@@ -8,12 +8,12 @@ use super::moves::Verb;
 use super::project::{Program, World};
 use super::remarks::{computed, finding, frame_assigned, library};
 use super::targets::{Of, Variables};
-use crate::program::notation::shift_of;
+use crate::program::notation::{grown_by, mentions, turned_by};
 use crate::program::script::{
     Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, Write, short,
 };
 use crate::program::words::{self, Words};
-use crate::program::{Shift, Source, number};
+use crate::program::{Source, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Built-in instructions, and which of their arguments they write.
@@ -270,12 +270,7 @@ impl<'a> Reader<'a> {
             if kind == Kind::Tool {
                 return self.write_something(&target, offset, false);
             }
-            let script = &mut self.builder.script;
-            let remark = script.remark(computed());
-            let how = match grown(line.part(0..target.words), value) {
-                Some(shift) if kind == Kind::Point => script.part_by(remark, shift),
-                _ => How::part(value.whole(), remark),
-            };
+            let how = self.part_becomes(line.part(0..target.words), value);
             return self.write(&target, offset, how);
         }
         let joints = match kind {
@@ -298,6 +293,51 @@ impl<'a> Reader<'a> {
             Kind::Tool => self.tool(value),
             _ => self.position(value),
         }
+    }
+
+    /// What `p.trsf.z=` makes of a point: it displaces it by 200 mm where `p.trsf.z+200` is behind
+    /// it, or that of the point that it is a copy of.
+    fn part_becomes(&mut self, field: Words<'a, '_>, value: Words<'a, '_>) -> How {
+        let letters = |text: &[u8]| -> Vec<u8> {
+            let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
+            letters.copied().collect()
+        };
+        let remark = self.builder.script.remark(computed());
+        let own = letters(field.whole());
+        let last = field.len().checked_sub(3);
+        let last = last.filter(|last| field.text(*last) == b"trsf");
+        let fields = [&b"x"[..], b"y", b"z", b"rx", b"ry", b"rz"];
+        let at = last.and_then(|last| {
+            let name = field.text(last + 2);
+            fields.iter().position(|known| *known == name)
+        });
+        if let (Some(at), Some((term, by))) =
+            (at, number::term_and_sum(value.whole(), number::parse))
+        {
+            let displacement = match at {
+                0..=2 => grown_by(at, by),
+                // Rx · Ry · Rz
+                _ => Some(turned_by(by)),
+            };
+            let Some(displacement) = displacement else {
+                return How::PartSomehow(remark);
+            };
+            if letters(term) == own {
+                return self.builder.script.part_by(remark, displacement);
+            }
+            let other = Reference::of(value).filter(|other| other.has_field && other.words > 4);
+            if let Some(other) = other.filter(|_| at < 3) {
+                let end = letters(value.part(other.words - 4..other.words).whole());
+                let is_same = end == [b".trsf.", fields[at]].concat();
+                if is_same && letters(value.part(0..other.words).whole()) == letters(term) {
+                    let other = self.given(Kind::Point, value.part(0..other.words - 4));
+                    let by = self.builder.script.displacement(displacement);
+                    return How::PartOf(remark, other, by);
+                }
+            }
+        }
+        let is_own = mentions(&letters(value.whole()), &own);
+        How::part(is_own, at.is_some_and(|at| at > 2), remark)
     }
 
     /// A built-in instruction changes something in a manner of its own.
@@ -394,23 +434,6 @@ impl<'a> Reader<'a> {
             self.builder.end_choice();
         }
     }
-}
-
-/// By what `p.trsf.z=` displaces a point: 200 mm where `p.trsf.z+200` is behind it.
-fn grown(field: Words, value: Words) -> Option<Shift> {
-    let last = field.len().checked_sub(3)?;
-    let letters = |text: &[u8]| -> Vec<u8> {
-        let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
-        letters.copied().collect()
-    };
-    let own = letters(field.whole());
-    let by = number::added(value.whole(), |term| letters(term) == own)?;
-    let at = [b"x", b"y", b"z"]
-        .iter()
-        .position(|axis| field.text(last + 2) == *axis)?;
-    (field.text(last) == b"trsf")
-        .then(|| shift_of(at, by))
-        .flatten()
 }
 
 /// The words of a statement with a list in brackets behind them.

@@ -4,7 +4,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Move, Shift, Value};
+use crate::program::{Displacement, Motion, Move, Shift, Stride, Value};
 
 mod arrays;
 mod projects;
@@ -199,8 +199,13 @@ fn a_number_of_the_text_displaces_by_what_it_says() {
             "pB.trsf.x = 10 + pB.trsf.x\npB.trsf.z=pB.trsf.z-20",
             along([0.01, 0.0, -0.02]),
         ),
-        ("pB.trsf.z=pA.trsf.z+200", Displacement::Unknown),
-        ("pB.trsf.rx=pB.trsf.rx+20", Displacement::Unknown),
+        ("pB.trsf.z=pA.trsf.z+200", along([0.0, 0.0, 0.2])),
+        ("pB.trsf.z=pA.trsf.x+200", Displacement::Overwritten),
+        ("pB.trsf.z=nZ", Displacement::Overwritten),
+        (
+            "pB.trsf.rx=pB.trsf.rx+20",
+            Displacement::Within(Box::new([Stride::Turned(Some(20_f64.to_radians()))])),
+        ),
         ("pB.trsf.z=pB.trsf.z+nZ", Displacement::Unknown),
     ] {
         assert_eq!(by(line), wanted, "{line}");

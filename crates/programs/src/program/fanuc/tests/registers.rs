@@ -100,10 +100,26 @@ fn a_number_of_the_text_displaces_a_register_by_what_it_says() {
             "PR[4,1:above]=PR[GP1:4,1:above]+(-30) ;\nPR[4,3]=PR[4,3]+40 ;",
             along([-0.03, 0.0, 0.04]),
         ),
-        ("PR[4,3]=PR[5,3]+200 ;", Displacement::Unknown),
-        ("PR[4,3]=PR[4,2]+200 ;", Displacement::Unknown),
+        (
+            "PR[6]=P[2] ;\nPR[4,3]=PR[6,3]+200 ;",
+            along([0.0, 0.0, 0.2]),
+        ),
+        (
+            "PR[6]=P[1] ;\nPR[4,3]=PR[6,3]+200 ;",
+            Displacement::Overwritten,
+        ),
+        ("PR[4,3]=PR[5,3]+200 ;", Displacement::Overwritten),
+        ("PR[4,3]=PR[4,2]+200 ;", Displacement::Overwritten),
+        ("PR[4,3]=R[1] ;", Displacement::Overwritten),
+        (
+            "R[1]=PR[4,3] ;\nR[1]=R[1]+5 ;\nPR[4,3]=R[1] ;",
+            Displacement::Unknown,
+        ),
         ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unknown),
-        ("PR[4,6]=PR[4,6]+90 ;", Displacement::Unknown),
+        (
+            "PR[4,6]=PR[4,6]+90 ;",
+            Displacement::Within(Box::new([Stride::Turned(Some(90_f64.to_radians()))])),
+        ),
         ("PR[4,3]=(-200) ;", Displacement::Overwritten),
     ] {
         assert_eq!(by(lines), wanted, "{lines}");

@@ -57,7 +57,6 @@ fn coordinates_computed_from_a_target_keep_its_correction() {
         "s:=[p1.trans.x,p2.trans.y,p1.trans.z];\nq.trans:=s;",
         "s:=p1.trans;\nset z;\nq.trans.z:=z;",
         // other parts than coordinates
-        "q.rot:=o;",
         "q.extax.eax_a:=rail;",
     ] {
         let all = displaced(&format!(
@@ -80,6 +79,152 @@ fn coordinates_computed_from_a_target_keep_its_correction() {
             );
         }
     }
+}
+
+#[test]
+fn arithmetic_of_a_copy_displaces_it_by_what_the_text_says() {
+    let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    let turned = |angle| Displacement::Within(Box::new([Stride::Turned(angle)]));
+    for (write, by) in [
+        ("q.trans.z:=q.trans.z+50;", along([0.0, 0.0, 0.05])),
+        (
+            "q.trans.Z := 5 + Q.trans.z - up;",
+            along([0.0, 0.0, -0.025]),
+        ),
+        ("q.trans.z:=p1.trans.z+up;", along([0.0, 0.0, 0.03])),
+        (
+            "q.trans.x:=p1.trans.x+10;\nIF a Stop;\nq.trans.z:=p1.trans.z+50;",
+            along([0.01, 0.0, 0.05]),
+        ),
+        // along the same axis the last one counts
+        (
+            "q.trans.z:=p1.trans.z+10;\nIF a Stop;\nq.trans.z:=p1.trans.z+50;",
+            along([0.0, 0.0, 0.05]),
+        ),
+        ("q.trans.z:=p2.trans.z+50;", Displacement::Overwritten),
+        ("q.rot:=o;", turned(None)),
+        (
+            "q.rot:=OrientZYX(EulerZYX(\\Z,q.rot)+90,0,180);",
+            turned(None),
+        ),
+        (
+            "UnpackRawBytes rb,1,q.trans.x\\Float4;",
+            Displacement::Overwritten,
+        ),
+        ("ReadAnyBin file,q.trans.z;", Displacement::Overwritten),
+        ("ok:=StrToVal(s,q.trans.x);", Displacement::Overwritten),
+        ("set q.trans.z;", Displacement::Overwritten),
+        ("lift q.trans.z;", Displacement::Unknown),
+    ] {
+        let all = displaced(&format!(
+            "CONST num up:=30;\nq:=p1;\n{write}\nMoveL q,v5,z5,t;\nENDPROC\nPROC set(INOUT num \
+             z)\nz:=150;\nENDPROC\nPROC lift(INOUT num z)\nz:=z+10;"
+        ));
+        assert_eq!(all, [by], "{write}");
+    }
+}
+
+#[test]
+fn steps_of_several_writes_add_up() {
+    let lower = "q.trans.z:=q.trans.z-10;\nMoveL q,v5,z5,t;\n";
+    let all = displaced(&format!("q:=p1;\n{}", lower.repeat(6)));
+    assert_eq!(all.len(), 6);
+    for (count, by) in (1_u32..).zip(all) {
+        let Displacement::By(shift) = by else {
+            panic!("{by:?}");
+        };
+        let [x, y, z] = shift.in_frame.translation;
+        assert!(x == 0.0 && y == 0.0 && (z + 0.01 * f64::from(count)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_counted_loops_add_is_each_of_their_rounds() {
+    let pallet = "FOR i FROM 0 TO 3 DO\nFOR k FROM 1 TO 5 DO\nMoveL Offs(p1,i*40,(k-1)*50,-5),\
+                  v5,z5,t;\nENDFOR\nENDFOR";
+    let by = |shift, most| Stride::By {
+        shift: Shift::along(shift),
+        most: Some(most),
+    };
+    let steps = [
+        by([0.0, 0.0, -0.005], 1),
+        by([0.04, 0.0, 0.0], 3),
+        by([0.0, 0.05, 0.0], 4),
+    ];
+    assert_eq!(displaced(pallet), [Displacement::Within(Box::new(steps))]);
+    // nobody knows how many
+    let open = pallet.replace("TO 3", "TO n");
+    assert_eq!(displaced(&open), [Displacement::Unknown]);
+}
+
+/// What a step of the text may come to in a loop.
+fn grown(shift: Shift, most: Option<u32>) -> Displacement {
+    Displacement::Within(Box::new([Stride::By { shift, most }]))
+}
+
+#[test]
+fn what_a_loop_adds_again_counts_as_often_as_the_text_says() {
+    let down = Shift::along([0.0, 0.0, -0.02]);
+    let once = Displacement::By(Box::new(down));
+    let lower = "MoveL q,v5,z5,t;\nq.trans.z:=q.trans.z-20;";
+    for (loops, most) in [
+        (
+            format!("q:=p1;\nFOR i FROM 1 TO 10 DO\n{lower}\nENDFOR"),
+            Some(10),
+        ),
+        (
+            format!("q:=p1;\nFOR i FROM 9 TO 1 STEP -4 DO\n{lower}\nENDFOR"),
+            Some(3),
+        ),
+        (
+            format!("WHILE a DO\nq:=p1;\nFOR i FROM 1 TO 10 DO\n{lower}\nENDFOR\nENDWHILE"),
+            Some(10),
+        ),
+        (
+            format!("q:=p1;\nFOR i FROM 1 TO 3 DO\nFOR k FROM 1 TO 4 DO\n{lower}\nENDFOR\nENDFOR"),
+            Some(12),
+        ),
+        (
+            format!("q:=p1;\nFOR i FROM 1 TO n DO\n{lower}\nENDFOR"),
+            None,
+        ),
+        (format!("q:=p1;\nWHILE a DO\n{lower}\nENDWHILE"), None),
+        (
+            format!("q:=p1;\nFOR i FROM 1 TO 10 DO\nback:\n{lower}\nIF a GOTO back;\nENDFOR"),
+            None,
+        ),
+        // the loop begins again where it ended
+        (
+            format!("q:=p1;\nWHILE a DO\nFOR i FROM 1 TO 10 DO\n{lower}\nENDFOR\nENDWHILE"),
+            None,
+        ),
+    ] {
+        let all = displaced(&loops);
+        let last = grown(down, most);
+        assert!(all.contains(&Displacement::None), "{loops}: {all:?}");
+        assert!(all.contains(&once) || most.is_none(), "{loops}: {all:?}");
+        assert!(all.contains(&last), "{loops}: {all:?}");
+        let others = |by: &&Displacement| **by != last && matches!(by, Displacement::Within(_));
+        assert!(
+            most.is_none() || !all.iter().any(|by| others(&by)),
+            "{loops}: {all:?}"
+        );
+    }
+    let whole = displaced("q:=p1;\nWHILE a DO\nMoveL q,v5,z5,t;\nq:=Offs(q,0,0,-20);\nENDWHILE");
+    assert!(whole.contains(&grown(down, None)), "{whole:?}");
+}
+
+#[test]
+fn what_only_the_running_program_knows_is_bounded_by_nothing_where_it_is_added_again() {
+    let all = displaced("q:=p1;\nWHILE a DO\nMoveL q,v5,z5,t;\nq.trans.z:=q.trans.z+dz;\nENDWHILE");
+    assert!(all.contains(&Displacement::Accumulated), "{all:?}");
+    let all = displaced("WHILE a DO\nq:=p1;\nq.trans.z:=q.trans.z+dz;\nMoveL q,v5,z5,t;\nENDWHILE");
+    assert_eq!(all, [Displacement::Unknown]);
+    // three writes of a camera are one displacement each
+    let all = displaced(
+        "q:=p1;\nq.trans.x:=q.trans.x+dx;\nIF a Stop;\nq.trans.y:=q.trans.y+dy;\nMoveL q,v5,z5,t;",
+    );
+    assert_eq!(all, [Displacement::Unknown]);
 }
 
 #[test]

@@ -201,9 +201,24 @@ fn coordinates_that_come_from_no_target_lose_its_correction() {
         }
     }
     // an angle
-    for go in ["y=x\ny[5]=h\nmovel(y)", "movel(p[x[0],x[1],x[2],0,0,h])"] {
+    for (go, by) in [
+        (
+            "y=x\ny[5]=h\nmovel(y)",
+            Displacement::Within(Box::new([Stride::Turned(None)])),
+        ),
+        ("movel(p[x[0],x[1],x[2],0,0,h])", Displacement::Unknown),
+    ] {
         let program = path(&format!("{x}h=.25\n{go}"));
-        assert_eq!(program.moves[1].displacement, Displacement::Unknown, "{go}");
+        assert_eq!(program.moves[1].displacement, by, "{go}");
+    }
+    // of the copy itself, or of what it is a copy of
+    for go in [
+        "y=x\ny[2]=y[2]+0.1\nmovel(y)",
+        "y=x\ny[2] = 0.1 + x[2] # up\nmovel(y)",
+    ] {
+        let program = path(&format!("{x}{go}"));
+        let along = Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.1])));
+        assert_eq!(program.moves[1].displacement, along, "{go}");
     }
 }
 

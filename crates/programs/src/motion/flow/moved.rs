@@ -1,0 +1,335 @@
+//! What displaces a target that is displaced again: behind branches, in loops, by several writes.
+//!
+//! Where each write adds its step once, the place is known. A write that is come to again adds its
+//! step as often as the loops around it count, or any number of times.
+
+use super::{Flow, State};
+use crate::geometry::Pose;
+use crate::motion::holding::{Atom, Site};
+use crate::program::script::{
+    ACCUMULATED, DISPLACED_SOMEHOW, DisplacementId, How, NOT_DISPLACED, OVERWRITTEN, Statement,
+    TURNED, short,
+};
+use crate::program::{Displacement, Shift, Stride};
+use foldhash::{HashMap, HashMapExt};
+use std::rc::Rc;
+
+/// Steps one after another whose sum is one place; beyond, each of them may be made or not.
+const MOST_EXACT: usize = 24;
+/// Steps that may be made or not.
+const MOST_STEPS: usize = 4;
+/// The step of a move itself, which nothing keeps.
+pub(in crate::motion) const OF_MOVE: Site = Site::MAX - 1;
+/// Any number of times.
+const ENDLESS: u32 = 0;
+
+/// What a write adds to a copy of a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Added {
+    site: Site,
+    by: DisplacementId,
+    /// How often at most; [`ENDLESS`].
+    most: u32,
+}
+
+/// How a displacement came to be.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Moved {
+    /// By these steps, each once.
+    Exactly(Box<[Added]>),
+    /// By some of them.
+    Within(Box<[Added]>),
+    /// By what only the running program knows, added there.
+    Somehow(Site),
+}
+
+/// Displacements of the flow's own, behind those of the script.
+#[derive(Debug)]
+pub(in crate::motion) struct Displacements {
+    all: Vec<(Moved, Displacement)>,
+    known: HashMap<Moved, DisplacementId>,
+}
+
+impl Displacements {
+    pub(super) fn new() -> Self {
+        Self {
+            all: Vec::new(),
+            known: HashMap::new(),
+        }
+    }
+}
+
+impl Flow<'_> {
+    /// What a displacement is.
+    pub(in crate::motion) fn displacement(&self, id: DisplacementId) -> &Displacement {
+        let script = &self.script.displacements;
+        match (id as usize).checked_sub(script.len()) {
+            Some(own) => &self.displacements.all[own].1,
+            None => &script[id as usize],
+        }
+    }
+
+    /// What displaces a target that is displaced already and then `by` something else at a place. A
+    /// part that is known and one that is not are told apart: either is a displacement of its own.
+    pub(in crate::motion) fn displaced_again(
+        &mut self,
+        before: DisplacementId,
+        by: DisplacementId,
+        site: Site,
+    ) -> Vec<DisplacementId> {
+        for absorbing in [OVERWRITTEN, ACCUMULATED] {
+            if before == absorbing || by == absorbing {
+                return vec![absorbing];
+            }
+        }
+        if by == NOT_DISPLACED {
+            return vec![before];
+        }
+        let old = match (before as usize).checked_sub(self.script.displacements.len()) {
+            Some(own) => Some(self.displacements.all[own].0.clone()),
+            None if before == NOT_DISPLACED => None,
+            None if before == DISPLACED_SOMEHOW => Some(Moved::Somehow(OF_MOVE)),
+            None => Some(Moved::Exactly(Box::new([once(before, OF_MOVE)]))),
+        };
+        if by == DISPLACED_SOMEHOW {
+            return match old {
+                Some(Moved::Somehow(of)) if of == site && site != OF_MOVE => vec![ACCUMULATED],
+                Some(Moved::Somehow(of)) if of == site => vec![before],
+                old => {
+                    let somehow = self.moved(Moved::Somehow(site));
+                    let before = old.map(|_| before);
+                    before.into_iter().chain([somehow]).collect()
+                }
+            };
+        }
+        let added = once(by, site);
+        let (steps, is_exact) = match old {
+            None => (Vec::new(), true),
+            Some(Moved::Somehow(_)) => {
+                let known = self.moved(Moved::Exactly(Box::new([added])));
+                return vec![before, known];
+            }
+            Some(Moved::Exactly(steps)) => (steps.to_vec(), true),
+            Some(Moved::Within(steps)) => (steps.to_vec(), false),
+        };
+        vec![self.with_step(steps, added, is_exact)]
+    }
+
+    /// What displaces a target that is displaced already, and then along one axis as if it were not,
+    /// but `by` something.
+    pub(super) fn replaced(
+        &mut self,
+        before: DisplacementId,
+        by: DisplacementId,
+        site: Site,
+    ) -> DisplacementId {
+        if before == NOT_DISPLACED {
+            return self.moved(Moved::Exactly(Box::new([once(by, site)])));
+        }
+        let own = (before as usize).checked_sub(self.script.displacements.len());
+        let (mut steps, is_exact) = match own.map(|own| &self.displacements.all[own].0) {
+            Some(Moved::Exactly(steps)) => (steps.to_vec(), true),
+            Some(Moved::Within(steps)) => (steps.to_vec(), false),
+            _ => return ACCUMULATED,
+        };
+        let axes_of = |flow: &Self, id| match flow.displacement(id) {
+            Displacement::By(shift) if shift.in_tool == Pose::identity() => {
+                Some(shift.in_frame.translation.map(|part| part != 0.0))
+            }
+            _ => None,
+        };
+        let Some(axes) = axes_of(self, by) else {
+            return ACCUMULATED;
+        };
+        // of what was added along the axis nothing is left
+        let mut is_mixed = false;
+        steps.retain(|step| {
+            let of = axes_of(self, step.by).unwrap_or([true; 3]);
+            let is_apart = (0..3).all(|axis| !(of[axis] && axes[axis]));
+            is_mixed |= !is_apart && (0..3).any(|axis| of[axis] && !axes[axis]);
+            is_apart
+        });
+        if is_mixed {
+            return ACCUMULATED;
+        }
+        steps.push(once(by, site));
+        if (is_exact || steps.len() == 1) && steps.len() <= MOST_EXACT {
+            self.moved(Moved::Exactly(steps.into()))
+        } else {
+            self.some_of(steps)
+        }
+    }
+
+    /// Whether parts of a position are written, or what only the running program knows.
+    pub(super) fn is_part_written(&self, id: DisplacementId) -> bool {
+        let script = self.script;
+        let Some(own) = (id as usize).checked_sub(script.displacements.len()) else {
+            return matches!(id, DISPLACED_SOMEHOW | OVERWRITTEN | ACCUMULATED | TURNED);
+        };
+        let is_part = |step: &Added| match script.statements.get(step.site as usize) {
+            Some(Statement::Write(at)) => !matches!(script.writes[*at as usize].how, How::Whole(_)),
+            _ => false,
+        };
+        match &self.displacements.all[own].0 {
+            Moved::Somehow(_) => true,
+            Moved::Exactly(steps) | Moved::Within(steps) => steps.iter().any(is_part),
+        }
+    }
+
+    fn with_step(&mut self, mut steps: Vec<Added>, added: Added, is_exact: bool) -> DisplacementId {
+        let is_again = |step: &Added| step.site == added.site && added.site != OF_MOVE;
+        let known = steps.iter().position(is_again);
+        if is_exact && known.is_none() && steps.len() < MOST_EXACT {
+            steps.push(added);
+            return self.moved(Moved::Exactly(steps.into()));
+        }
+        match known {
+            Some(at) => {
+                let most = self.most_at(added.site);
+                let before = steps[at].most;
+                steps[at].most = match (before, most) {
+                    (ENDLESS, _) | (_, ENDLESS) => ENDLESS,
+                    (before, most) => before.max(most),
+                };
+            }
+            None => steps.push(added),
+        }
+        self.some_of(steps)
+    }
+
+    /// A displacement by some of these steps.
+    fn some_of(&mut self, mut steps: Vec<Added>) -> DisplacementId {
+        let in_tool = |shift: &Shift| shift.in_tool != Pose::identity();
+        let turns = |step: &&Added| match self.displacement(step.by) {
+            Displacement::By(shift) => in_tool(shift),
+            Displacement::Within(of) => of.iter().any(|stride| match stride {
+                Stride::By { shift, .. } => in_tool(shift),
+                Stride::Turned(_) => true,
+            }),
+            _ => true,
+        };
+        // where the tool turns first is another place
+        let turning = steps.iter().filter(turns).count();
+        if steps.len() > MOST_STEPS || turning > 1 {
+            return ACCUMULATED;
+        }
+        steps.sort_unstable();
+        self.moved(Moved::Within(steps.into()))
+    }
+
+    fn moved(&mut self, moved: Moved) -> DisplacementId {
+        if let Some(&known) = self.displacements.known.get(&moved) {
+            return known;
+        }
+        let displacement = self.meaning(&moved);
+        let all = &mut self.displacements.all;
+        all.push((moved.clone(), displacement));
+        let id = short(self.script.displacements.len() + all.len() - 1);
+        self.displacements.known.insert(moved, id);
+        id
+    }
+
+    fn meaning(&self, moved: &Moved) -> Displacement {
+        let steps = match moved {
+            Moved::Somehow(_) => return Displacement::Unknown,
+            Moved::Exactly(steps) | Moved::Within(steps) => steps,
+        };
+        let is_exact = matches!(moved, Moved::Exactly(_));
+        let mut sum = Some(Shift::none()).filter(|_| is_exact);
+        let mut strides = Vec::with_capacity(steps.len());
+        for step in steps {
+            match self.displacement(step.by) {
+                Displacement::By(shift) => {
+                    sum = sum.map(|sum| sum.then(shift));
+                    strides.push(Stride::By {
+                        shift: **shift,
+                        most: (step.most != ENDLESS).then_some(step.most),
+                    });
+                }
+                Displacement::Within(of) => {
+                    sum = None;
+                    let once = step.most == 1;
+                    strides.extend(of.iter().map(|stride| match stride {
+                        Stride::Turned(_) if !once => Stride::Turned(None),
+                        Stride::By { shift, .. } if !once => Stride::By {
+                            shift: *shift,
+                            most: None,
+                        },
+                        other => other.clone(),
+                    }));
+                }
+                _ => return Displacement::Accumulated,
+            }
+        }
+        match sum {
+            Some(sum) => Displacement::By(Box::new(sum)),
+            None => Displacement::Within(strides.into()),
+        }
+    }
+
+    /// How often at most a write is come to from where the loops around it begin.
+    fn most_at(&self, site: Site) -> u32 {
+        let mut around: Vec<_> = self.script.loops.iter().collect();
+        around.retain(|of| of.statements.contains(&site));
+        // what begins last is inside
+        around.sort_by_key(|of| std::cmp::Reverse(of.statements.start));
+        let mut product = ENDLESS;
+        for of in around {
+            let Some(most) = of.most else {
+                return ENDLESS;
+            };
+            product = product.max(1).saturating_mul(most.max(1));
+            if of.is_outer {
+                break;
+            }
+        }
+        product
+    }
+
+    /// A loop begins: steps that it made before add up with those that it makes now.
+    pub(super) fn begin_rounds(&mut self, number: u32, state: &mut State) {
+        if self.displacements.all.is_empty() {
+            return;
+        }
+        let of = self.script.loops[number as usize].statements.clone();
+        for slot in 0..state.holds.len() {
+            let held = state.holds[slot];
+            let mut atoms = self.holdings.of(held).to_vec();
+            let mut is_other = false;
+            for (atom, _) in &mut atoms {
+                if let Atom::Target { displacement, .. } = atom {
+                    let endless = self.endless(*displacement, &of);
+                    is_other |= endless != *displacement;
+                    *displacement = endless;
+                }
+            }
+            if is_other {
+                let holding = self.holdings.intern(atoms);
+                self.last_modes = None;
+                Rc::make_mut(&mut state.holds)[slot] = holding;
+            }
+        }
+    }
+
+    /// A displacement whose steps at these places may have been made any number of times.
+    fn endless(&mut self, id: DisplacementId, of: &std::ops::Range<u32>) -> DisplacementId {
+        let own = (id as usize).checked_sub(self.script.displacements.len());
+        let steps = match own.map(|own| &self.displacements.all[own].0) {
+            Some(Moved::Exactly(steps) | Moved::Within(steps)) => steps,
+            Some(Moved::Somehow(_)) | None => return id,
+        };
+        let is_in = |step: &Added| of.contains(&step.site);
+        if !steps.iter().any(|step| is_in(step) && step.most != ENDLESS) {
+            return id;
+        }
+        let mut steps = steps.to_vec();
+        for step in steps.iter_mut().filter(|step| is_in(step)) {
+            step.most = ENDLESS;
+        }
+        self.some_of(steps)
+    }
+}
+
+fn once(by: DisplacementId, site: Site) -> Added {
+    Added { site, by, most: 1 }
+}

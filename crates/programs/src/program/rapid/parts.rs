@@ -1,0 +1,173 @@
+//! What assignments make of data, as a whole and part by part.
+
+use super::syntax::{Assigned, Base, Component, Expression, Index, Stored, Type};
+use super::translate::Translator;
+use crate::program::names::{Meaning, Symbol};
+use crate::program::notation::grown_by;
+use crate::program::number;
+use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue, Write};
+
+impl Translator<'_> {
+    /// `name{i}.part := value`
+    pub(super) fn assign(
+        &mut self,
+        name: Symbol,
+        index: Index,
+        component: Component,
+        value: Assigned,
+    ) {
+        let kind = self.resolved.kind(name, self.context);
+        let is_frame = match kind {
+            Some(kind) => kind.is_frame(),
+            None => {
+                matches!(component, Component::Leaves(..)) || matches!(value, Assigned::Leaves(_))
+            }
+        };
+        if kind.is_some_and(|kind| !kind.is_frame() && !kind.is_target()) {
+            return;
+        }
+        if is_frame && kind.is_none() {
+            self.wanted.entry(name).or_insert(Type::Tooldata);
+        }
+        let all = self.written(name, index);
+        if all.is_empty() {
+            return;
+        }
+        let wanted = kind.or_else(|| self.wanted.get(&name).copied());
+        let wanted = wanted.unwrap_or(Type::Robtarget);
+        let how = if wanted.is_frame() {
+            self.frame_becomes(name, component, value)
+        } else {
+            self.target_becomes(name, component, value, wanted)
+        };
+        for variable in all {
+            let (place, how) = (self.here, how.clone());
+            self.emit_write(Write {
+                place,
+                variable,
+                how,
+            });
+        }
+    }
+
+    fn target_becomes(
+        &mut self,
+        name: Symbol,
+        component: Component,
+        value: Assigned,
+        wanted: Type,
+    ) -> How {
+        let Assigned::To(expression) = value else {
+            return How::Whole(self.computed());
+        };
+        if component != Component::Whole {
+            return self.part_becomes(component, &expression);
+        }
+        if let Expression::Point {
+            base: Base::Target(target),
+            ..
+        } = expression
+        {
+            let named = &mut self.builder.script.targets[target as usize].name;
+            *named = Some(self.resolved.spelling(name).into());
+        }
+        How::Whole(self.position_from(expression, wanted))
+    }
+
+    fn frame_becomes(&mut self, name: Symbol, component: Component, value: Assigned) -> How {
+        match (component, value) {
+            (Component::Leaves(first, _), Assigned::Leaves(leaves)) => How::Parts {
+                first: u32::from(first),
+                parts: self.record_parts(leaves, self.here),
+            },
+            (Component::Leaves(first, count), Assigned::To(_)) => {
+                let computed = RecordPart {
+                    value: PartValue::Computed,
+                    place: self.here,
+                    length: 0,
+                };
+                How::Parts {
+                    first: u32::from(first),
+                    parts: self.add_parts(vec![computed; usize::from(count)]),
+                }
+            }
+            (Component::Whole, Assigned::Leaves(leaves)) => {
+                let parts = self.record_parts(leaves, self.here);
+                let name = self.resolved.spelling(name).into();
+                let record = self.builder.script.value(Held::Record {
+                    name,
+                    parts,
+                    on: Box::default(),
+                });
+                How::Whole(Expr::Value(record))
+            }
+            (Component::Whole, Assigned::To(expression)) => match expression {
+                Expression::Point { .. } => How::Whole(self.frame_from(expression)),
+                _ => How::Whole(self.frame_assigned()),
+            },
+            (Component::Place | Component::Other, _) => How::PartSomehow(self.changed()),
+        }
+    }
+
+    /// What `p.trans.z:=` makes of a target: it displaces it by 200 mm where `p.trans.z+200` is
+    /// behind it, or that of the target that it is a copy of.
+    fn part_becomes(&mut self, component: Component, value: &Expression) -> How {
+        let changed = self.changed();
+        let (own, text) = self.own_and_value();
+        let axes = [&b".trans.x"[..], b".trans.y", b".trans.z"];
+        let axis = axes.into_iter().position(|axis| own.ends_with(axis));
+        if let Some(axis) = axis
+            && let Some((term, by)) = number::term_and_sum(&text, |term| self.constant(term))
+            && let Some(displacement) = grown_by(axis, by)
+        {
+            if term == own {
+                return self.builder.script.part_by(changed, displacement);
+            }
+            let other = term.strip_suffix(axes[axis]);
+            if let Some(other) = other.and_then(|name| self.resolved.parsed.symbols.find(name)) {
+                let other = self.position(other, Index::Whole, Type::Robtarget);
+                let by = self.builder.script.displacement(displacement);
+                return How::PartOf(changed, other, by);
+            }
+        }
+        let is_angle = memchr::memmem::find(&own, b".rot").is_some();
+        let is_own = self.resolved.is_from_target(value, self.context);
+        match component {
+            Component::Place => How::part(is_own, false, changed),
+            _ if is_angle => How::part(true, true, changed),
+            _ => How::PartSomehow(changed),
+        }
+    }
+
+    /// What the present assignment writes, and what: in small letters and without blanks.
+    fn own_and_value(&self) -> (Vec<u8>, Vec<u8>) {
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let text = &bytes[self.here.offset as usize..];
+        let end = memchr::memchr(b';', text).unwrap_or(text.len());
+        let text = text[..end].iter().filter(|b| !b.is_ascii_whitespace());
+        let text: Vec<u8> = text.map(u8::to_ascii_lowercase).collect();
+        match memchr::memmem::find(&text, b":=") {
+            Some(at) => (text[..at].to_vec(), text[at + 2..].to_vec()),
+            None => (text, Vec::new()),
+        }
+    }
+
+    /// The number that a term is, or that a constant holds.
+    fn constant(&self, term: &[u8]) -> Option<f64> {
+        number::parse(term).or_else(|| {
+            let name = self.resolved.parsed.symbols.find(term)?;
+            self.constant_of(name)
+        })
+    }
+
+    /// The number that a constant holds.
+    pub(super) fn constant_of(&self, name: Symbol) -> Option<f64> {
+        match self.resolved.meaning(name, self.context) {
+            Meaning::One(datum) => match self.resolved.datum(datum).value {
+                Stored::Number(number) => Some(number),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Routines and their statements.
+
+use super::{
+    DisplacementId, Expr, Label, ModalId, NOT_DISPLACED, Place, RemarkId, RoutineId, TURNED,
+    TableId, VariableId,
+};
+use crate::program::{Motion, SpeedZone};
+use std::ops::Range;
+
+/// A routine, or the text of a file outside routines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Routine {
+    /// Its name; empty outside routines.
+    pub name: Box<str>,
+    /// Where it begins.
+    pub place: Place,
+    /// Who starts it.
+    pub start: Start,
+    /// Its statements, a part of [`super::Script::statements`].
+    pub statements: Range<u32>,
+    /// Its moves, a part of [`super::Script::instructions`].
+    pub instructions: Range<u32>,
+}
+
+/// Who starts a routine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Calls; the operator where nothing calls it.
+    Called,
+    /// The controller or the operator, calls or not (`main`).
+    Main,
+    /// An event: it runs between any two statements, or concurrently with them.
+    Concurrent,
+}
+
+/// A statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statement {
+    /// Index in [`super::Script::instructions`].
+    Move(u32),
+    /// Index in [`super::Script::writes`].
+    Write(u32),
+    /// Index in [`super::Script::calls`].
+    Call(u32),
+    /// Starts routines that then run concurrently with this one ([`Start::Concurrent`]): index in
+    /// [`super::Script::calls`].
+    Start(u32),
+    /// Statements come here.
+    Label(Label),
+    /// Goes on there, or with the next statement.
+    Branch(Label),
+    /// Goes on there or with the next statement as a variable says: index in
+    /// [`super::Script::conditions`].
+    BranchUnless(u32),
+    /// Goes on there.
+    Jump(Label),
+    /// Back to the caller.
+    Return,
+    /// The program ends.
+    Exit,
+    /// A loop begins that is in no other one whose rounds the text counts: index in
+    /// [`super::Script::loops`].
+    Enter(u32),
+}
+
+/// A loop.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loop {
+    /// Its statements, a part of [`super::Script::statements`].
+    pub statements: Range<u32>,
+    /// How many rounds it makes at most each time it begins; `None` where the text does not tell.
+    pub most: Option<u32>,
+    /// It is in no other loop, or in one whose rounds the text does not count.
+    pub is_outer: bool,
+}
+
+/// What a branch depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// It holds a [`Held::Flag`], or what only the running program knows.
+    pub variable: VariableId,
+    /// The next statement follows where the variable holds this, …
+    pub wanted: bool,
+    /// … else the one here.
+    pub otherwise: Label,
+}
+
+/// A range of bytes of the file of its instruction; empty where there is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// Behind the last.
+    pub end: u32,
+}
+
+impl Span {
+    /// As a range of indices; `None` where there is none.
+    #[must_use]
+    pub fn range(self) -> Option<Range<usize>> {
+        (self.end > self.start).then_some(self.start as usize..self.end as usize)
+    }
+}
+
+/// A move. An arc is two: one to the point it passes through and one to its end, with the same
+/// span.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instruction {
+    /// File and first byte.
+    pub place: Place,
+    /// Behind its last byte.
+    pub end: u32,
+    /// How the robot gets there.
+    pub motion: Motion,
+    /// On the path the orientation is free (`SingArea \Wrist`, `Wjnt`): only the end counts.
+    pub free_orientation: bool,
+    /// Where to.
+    pub target: Expr,
+    /// Index in [`super::Script::modals`]; [`Builder::go`] sets it.
+    pub modal: ModalId,
+    /// The joints, radians, from which the controller's inverse starts.
+    pub near: Option<Box<[f64; 6]>>,
+    /// Added to the target by the instruction itself.
+    pub displacement: DisplacementId,
+    /// Where its target stands in it.
+    pub target_span: Span,
+}
+
+impl Instruction {
+    /// A joint move to nowhere, of no length: what is not named is as most moves have it.
+    #[must_use]
+    pub fn at(place: Place) -> Self {
+        Self {
+            place,
+            end: place.offset,
+            motion: Motion::Joint,
+            free_orientation: false,
+            target: Expr::Absent,
+            modal: 0,
+            near: None,
+            displacement: NOT_DISPLACED,
+            target_span: Span::default(),
+        }
+    }
+
+    /// Its bytes in its file.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.place.offset as usize..self.end as usize
+    }
+}
+
+/// With what a move runs: mostly with the same as the one before it, so that it stands once for
+/// both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modal {
+    /// With which tool.
+    pub tool: Expr,
+    /// In which work frame.
+    pub frame: Expr,
+    /// With which load where it is not the tool's own.
+    pub load: Expr,
+    /// Whether the controller honours configuration data in this move: a flag.
+    pub configured: Expr,
+    /// A flag of the controller that leaves the orientation free on the path, too.
+    pub wrist: Expr,
+    /// Index in [`super::Script::guards`]: variables that may hold a [`Held::Remark`] against this move.
+    pub guards: u32,
+    /// Index in [`super::Script::expected`]: numbers that variables should hold at this move.
+    pub expected: u32,
+    /// Speed and corner.
+    pub speed_zone: SpeedZone,
+}
+
+impl Default for Modal {
+    /// Nothing is said.
+    fn default() -> Self {
+        Self {
+            tool: Expr::Absent,
+            frame: Expr::Absent,
+            load: Expr::Absent,
+            configured: Expr::Absent,
+            wrist: Expr::Absent,
+            guards: 0,
+            expected: 0,
+            speed_zone: SpeedZone::default(),
+        }
+    }
+}
+
+/// A number that a variable should hold at a move; a word where it certainly holds another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Expected {
+    /// The variable.
+    pub variable: VariableId,
+    /// The number.
+    pub number: i64,
+    /// What is said where the other number was written.
+    pub remark: RemarkId,
+}
+
+/// A write of a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Write {
+    /// Where.
+    pub place: Place,
+    /// What is written.
+    pub variable: Written,
+    /// What it is then.
+    pub how: How,
+}
+
+/// What a write may concern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// A variable.
+    One(VariableId),
+    /// One of a table, and only the running program knows which.
+    AnyOf(TableId),
+}
+
+/// How a variable is written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum How {
+    /// As a whole.
+    Whole(Expr),
+    /// Some parts of a record or of a position: those from `first` on become these
+    /// [`super::Script::parts`].
+    Parts {
+        /// Index of the first part in the record.
+        first: u32,
+        /// What they become.
+        parts: Range<u32>,
+    },
+    /// A part of it, in a manner that only the running program knows.
+    PartSomehow(RemarkId),
+    /// A part of a position becomes a number that is not what it was and something more.
+    PartNumber(RemarkId),
+    /// A part of a position grows by a number of the text, or its orientation changes: that
+    /// displaces it.
+    PartBy(RemarkId, DisplacementId),
+    /// A part of a position becomes the same part of another position, displaced along it.
+    PartOf(RemarkId, Expr, DisplacementId),
+}
+
+impl How {
+    /// A part of a position becomes what only the running program knows: something more than it was
+    /// (`is_own`), or something that has nothing to do with that. `is_angle` where it is one of the
+    /// orientation.
+    #[must_use]
+    pub fn part(is_own: bool, is_angle: bool, remark: RemarkId) -> Self {
+        match (is_own, is_angle) {
+            (true, true) => Self::PartBy(remark, TURNED),
+            (true, false) => Self::PartSomehow(remark),
+            (false, _) => Self::PartNumber(remark),
+        }
+    }
+}
+
+/// A call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    /// Where.
+    pub place: Place,
+    /// The routines that it may call; none where it is not in the files.
+    pub callees: Box<[RoutineId]>,
+    /// It may also be one that is not in the files, which then may write what it is given, and
+    /// what is shared.
+    pub foreign: bool,
+    /// What is called, for messages.
+    pub name: Box<str>,
+    /// In [`super::Script::arguments`].
+    pub arguments: Range<u32>,
+}
+
+/// An argument of a call.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Argument {
+    /// The parameter, a variable of the callee; `None` where it is not known.
+    pub parameter: Option<VariableId>,
+    /// What it is given.
+    pub value: Expr,
+    /// The caller's variable that the routine may write through it.
+    pub back: Option<VariableId>,
+}
