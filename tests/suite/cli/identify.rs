@@ -142,7 +142,7 @@ fn a_bad_cell_and_too_few_rows_write_nothing() {
     }
 }
 
-/// Joint angles of 40 configurations, degrees, and each a little beside them.
+/// Joint angles of 40 configurations, degrees, and each a little off them.
 fn configurations() -> (Vec<[f64; 6]>, Vec<[f64; 6]>) {
     use rand::{RngExt, SeedableRng};
     let mut random = rand::rngs::StdRng::seed_from_u64(9);

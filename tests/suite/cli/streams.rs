@@ -300,8 +300,8 @@ fn what_is_printed_goes_neither_onto_what_is_read_nor_into_the_place_of_an_outpu
         };
         assert_eq!(names(&now), names(&before), "{line}");
         for ((was, name), (is, _)) in before.iter().zip(&now) {
-            let is_told = name == Path::new("out.mod") && line.contains("2> out.mod");
-            assert!(is == was || is_told, "{line}: {}", name.display());
+            let is_said = name == Path::new("out.mod") && line.contains("2> out.mod");
+            assert!(is == was || is_said, "{line}: {}", name.display());
         }
         // where it can be heard it is said
         if !line.ends_with("2>&1") && !line.contains("2> out.mod") {

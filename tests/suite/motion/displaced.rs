@@ -3,7 +3,6 @@
 
 use super::{P, PLAIN, done, errors, given, message, profile_of, rapid, try_with};
 use poseshift::compensate::{Compensation, Options, compensate};
-use poseshift::finding::Severity;
 use poseshift::program::{Source, language_of};
 
 const START: &str = "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveL \
@@ -48,19 +47,19 @@ fn a_loop_that_lowers_a_copy_is_judged_at_the_lowest_place_that_it_may_come_to()
             .into(),
     ] {
         let counted = done(&[PLAIN], &[("t.mod", &program(&counted))]);
-        let told = unknown(&counted);
-        assert_eq!(told.len(), 1, "{:?}", counted.findings);
-        assert!((told[0] - most).abs() < 0.0015, "{told:?} of {places:?}");
+        let said = unknown(&counted);
+        assert_eq!(said.len(), 1, "{:?}", counted.findings);
+        assert!((said[0] - most).abs() < 0.0015, "{said:?} of {places:?}");
         assert_eq!(errors(&counted), ["displacement-unknown"], "beyond 0.05 mm");
     }
     // how often nobody says: as far as the arm reaches
     let endless = program(&format!("q:=p;\nWHILE n>0 DO\n{lower}\nENDWHILE"));
     let refused = done(&[PLAIN], &[("t.mod", &endless)]);
-    let told = unknown(&refused)[0];
-    assert!(told >= most - 0.0015, "{told}");
+    let said = unknown(&refused)[0];
+    assert!(said >= most - 0.0015, "{said}");
     assert_eq!(errors(&refused), ["displacement-unknown"]);
     let options = Options {
-        max_derived_error_m: Some(1e-3 * (told + 0.001)),
+        max_derived_error_m: Some(1e-3 * (said + 0.001)),
         ..given()
     };
     let taken = try_with(options, &[PLAIN], &[("t.mod", &endless)]).expect("read");
@@ -94,10 +93,6 @@ fn growth_is_bounded_in_every_language() {
         90,A4 0,A5 30,A6 0}\nLIN XP\np=XP\nLOOP\nLIN p\np.Z=p.Z-50\nENDLOOP\nEND\n";
     let data = "DEFDAT t\nDECL E6POS XP={X 500,Y 0,Z 600,A 0,B 90,C 0}\nENDDAT\n";
     let turned = kuka.replace("LOOP\nLIN p\np.Z=p.Z-50\nENDLOOP", "p.A=p.A+90\nLIN p");
-    let copied = kuka.replace(
-        "LOOP\nLIN p\np.Z=p.Z-50\nENDLOOP",
-        "p.Z=XP.Z-200\nIF $IN[1] THEN\np.Z=p.Z-300\nENDIF\nLIN p",
-    );
     let fanuc = "/PROG T\n/MN\n 1: UFRAME_NUM=0 ;\n 2: UTOOL_NUM=1 ;\n 3:J P[1] 10% FINE ;\n \
         4: PR[1]=P[1] ;\n 5: LBL[1] ;\n 6:L PR[1] 100mm/sec FINE ;\n 7: PR[1,3]=PR[1,3]-10 ;\n 8: \
         JMP LBL[1] ;\n/POS\nP[1]{\n GP1:\n UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0',\n X = 500.0 \
@@ -130,22 +125,13 @@ fn growth_is_bounded_in_every_language() {
         ),
     ] {
         let done = read(robot, &files);
-        let told = unknown(&done);
+        let said = unknown(&done);
         assert!(
-            told.iter().any(|miss| *miss > 0.05),
+            said.iter().any(|miss| *miss > 0.05),
             "{}: {:?}",
             files[0].0,
             done.findings
         );
         assert_eq!(errors(&done), ["displacement-unknown"], "{}", files[0].0);
     }
-    // steps of the text behind a branch are two places
-    let done = read(
-        "robots/kuka_kr6_r900.yaml",
-        &[("t.src", copied.as_str()), ("t.dat", data)],
-    );
-    let found = done.findings.iter().filter(|f| f.id == "displaced-target");
-    let found: Vec<f64> = found.map(|f| miss_mm(&f.message)).collect();
-    assert_eq!(found.len(), 2, "{:?}", done.findings);
-    assert!(done.findings.iter().all(|f| f.severity < Severity::Error));
 }

@@ -105,7 +105,7 @@ pub(super) fn check(
                 let message = format!(
                     "a point derived from {name} takes its correction along {}: within reach that \
                      is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
-                    strides::told(steps),
+                    strides::in_words(steps),
                     mm_from_m(most),
                 );
                 ("displacement-unknown", severity_of(most), message)

@@ -39,7 +39,7 @@ pub(super) fn places(strides: &[Stride], reach_m: f64) -> Vec<Shift> {
 }
 
 /// The steps in words, behind *takes its correction along*.
-pub(super) fn told(strides: &[Stride]) -> String {
+pub(super) fn in_words(strides: &[Stride]) -> String {
     let each = strides.iter().map(|stride| match stride {
         Stride::By { shift, most } => {
             let [x, y, z] = add(shift.in_frame.translation, shift.in_tool.translation);

@@ -206,7 +206,8 @@ impl ToolCourse {
     }
 
     /// The rotation at a part of an arc where the tool turns as seen from the path, the shorter way
-    /// there; `None` where both ways are as short.
+    /// there; `None` where both ways are as short, or the tool ends as it began: nobody means a
+    /// whole turn.
     #[must_use]
     pub(super) fn rotation_on_path(&self, s: f64, to: &Rotation) -> Option<Rotation> {
         let (
@@ -218,9 +219,13 @@ impl ToolCourse {
         else {
             return None;
         };
+        let world = *to * from.transpose();
+        if world.angle() < EITHER_WAY_RAD {
+            return None;
+        }
         let normal = cross(axes[0], axes[1]);
         let normal = scale(norm(normal).recip(), normal);
-        let seen = about(&normal, -angle_rad) * *to * from.transpose();
+        let seen = about(&normal, -angle_rad) * world;
         let by = seen.vector();
         let is_clear = (norm(by) - std::f64::consts::PI).abs() > EITHER_WAY_RAD;
         is_clear

@@ -16,7 +16,7 @@ use crate::program::{Before, Motion, Move};
 
 /// A smaller rotation away from the path's is none.
 const SAME_RAD: f64 = 0.01 * DEG;
-/// A rotation that is seen from the path and a shorter one that differ by more are told apart: the
+/// A rotation that is seen from the path and a shorter one that differ by more are two: the
 /// correction of a point does not change much within.
 const MATTERS_RAD: f64 = 10.0 * DEG;
 /// A rotation by more may be meant the longer way.

@@ -70,7 +70,7 @@ impl Flow<'_> {
     }
 
     /// What displaces a target that is displaced already and then `by` something else at a place. A
-    /// part that is known and one that is not are told apart: either is a displacement of its own.
+    /// part that is known and one that is not are two: either is a displacement of its own.
     pub(in crate::motion) fn displaced_again(
         &mut self,
         before: DisplacementId,

@@ -73,7 +73,7 @@ impl Flow<'_> {
             How::Whole(value) => {
                 let held = self.evaluate(state, *value, site);
                 let atoms = self.holdings.of(held).to_vec();
-                // of a copy the write that made it another tells more than the copying
+                // of a copy the write that made it another says more than the copying
                 let is_copy = matches!(value, Expr::Variable(_) | Expr::Element { .. });
                 let here = atoms
                     .into_iter()

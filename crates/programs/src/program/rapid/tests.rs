@@ -366,7 +366,7 @@ fn expressions_names_and_routines_block_targets() {
         "external axes stay as they are"
     );
     let program = path("MoveL [p1.trans,p2.rot,p1.robconf,p1.extax],v5,z5,t;");
-    assert_eq!(to(&program), ["p1", "p2", "p1", "p1"], "all flow into it");
+    assert_eq!(to(&program), ["p1", "p2"], "both flow into it");
     assert!(
         program
             .moves
