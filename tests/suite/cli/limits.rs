@@ -472,3 +472,50 @@ fn a_marker_is_known_by_what_is_left_of_it() {
         }
     }
 }
+
+#[test]
+fn a_cell_in_metres_or_with_angles_of_no_frame_is_refused() {
+    let folder = scratch();
+    let program = repository(DEBURR);
+    let profile = repository(THESIS);
+    let words = [
+        "check",
+        program.to_str().expect("UTF-8"),
+        "--profile",
+        profile.to_str().expect("UTF-8"),
+        "--cell",
+        "cell.yaml",
+    ];
+    let check = |body: &str| {
+        let cell = format!("poseshift: cell/1\nbodies:\n  - {{name: fixture, {body}}}\n");
+        std::fs::write(folder.path().join("cell.yaml"), cell).expect("scratch");
+        run_in(folder.path(), &words)
+    };
+    let at = |rz: &str| {
+        format!("at: {{x_mm: 3000, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: {rz}}}")
+    };
+    for (body, says) in [
+        (
+            format!("box_mm: [0.3, 0.6, 0.2], {}", at("0")),
+            "0.6 mm at most",
+        ),
+        (
+            format!("cylinder_mm: {{radius: 0.04, height: 0.9}}, {}", at("0")),
+            "in metres",
+        ),
+        (
+            format!("box_mm: [300, 600, 200], {}", at("1000")),
+            "rz_deg is 1000",
+        ),
+    ] {
+        let (status, said) = check(&body);
+        assert_eq!(status, 2, "{body}: {said}");
+        assert!(
+            said.contains(says) && said.contains("cell.yaml:3"),
+            "{said}"
+        );
+    }
+    // the ball of a stylus is small and none of them
+    let (status, said) = check(&format!("sphere_mm: {{radius: 0.5}}, {}", at("0")));
+    assert_eq!(status, 0, "{said}");
+}

@@ -327,6 +327,8 @@ pairs: [{a: gun, b: wall, clearance_mm: 0}, {a: link0, b: floor, allow: true}]
     fn faults_are_reported_with_their_line() {
         let cases = [
             ("box_mm: [1,", "box_mm: [0,", 4, "above 0"),
+            ("[1, 2000, 2000]", "[0.001, 0.9, 0.9]", 4, "in metres"),
+            ("rz_deg: 0", "rz_deg: 1000", 4, "rz_deg"),
             ("name: floor", "name: wall", 5, "two bodies"),
             ("to: flange", "to: hand", 7, "no body is called `hand`"),
             ("allow: true", "allow: false", 8, "either clearance_mm"),

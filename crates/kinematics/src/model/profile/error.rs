@@ -290,6 +290,14 @@ pub enum Fault {
         /// The largest coordinate, mm.
         largest_mm: f64,
     },
+    /// A body in another unit.
+    #[error("this body measures {largest_mm} mm at most; below {limit_mm} mm it is in metres")]
+    TinyBody {
+        /// Its largest dimension, mm.
+        largest_mm: f64,
+        /// The limit, mm.
+        limit_mm: f64,
+    },
     /// Gravity in another unit.
     #[error("gravity_m_s2 has a length of {found} m/s²; on Earth it is from {low} to {high}")]
     Gravity {
@@ -394,6 +402,7 @@ impl ProfileError {
             Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange \
                 itself"
                 .into(),
+            Fault::TinyBody { .. } => "lengths are in mm: 0.6 m is 600".into(),
             Fault::TinyArm { .. } => "lengths are in mm: 0.29 m is 290".into(),
             Fault::TinyCog { .. } => "lengths are in mm: 0.1 m is 100; write 0 for none".into(),
             Fault::Gravity { .. } => "it is in m/s², not in g: [0, 0, -9.81] of a robot on the \

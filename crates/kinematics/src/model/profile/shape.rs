@@ -1,10 +1,10 @@
 //! Shapes as profile and cell files write them.
 
 use super::file::{Number, PoseFile};
-use super::reading::{metres, pose};
-use super::{Fault, ProfileError};
-use crate::geometry::units::m_from_mm;
-use crate::geometry::{Pose, norm, scale};
+use super::reading::{check_angles, metres, pose};
+use super::{Fault, ProfileError, TINY_M};
+use crate::geometry::units::{m_from_mm, mm_from_m};
+use crate::geometry::{Pose, norm, scale, sub};
 use crate::model::shape::{Form, Shape};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -215,9 +215,34 @@ impl Keys<'_> {
         let [form]: [Form; 1] = forms
             .try_into()
             .map_err(|_| Fault::NotOneShape { found }.at(place))?;
+        if let Some(largest_m) = largest_m(&form).filter(|largest| *largest < TINY_M) {
+            let fault = Fault::TinyBody {
+                largest_mm: mm_from_m(largest_m),
+                limit_mm: mm_from_m(TINY_M),
+            };
+            return Err(fault.at(place));
+        }
+        if let Some(at) = self.at {
+            check_angles(at)?;
+        }
         Ok(Shape {
             form,
             frame_from_shape: self.at.map_or(Ok(Pose::identity()), pose)?,
         })
+    }
+}
+
+/// The largest dimension of a body that has one by itself: a plane has none, a mesh its file.
+fn largest_m(form: &Form) -> Option<f64> {
+    match form {
+        Form::Capsule {
+            from_m,
+            to_m,
+            radius_m,
+        } => Some(norm(sub(*to_m, *from_m)) + 2.0 * radius_m),
+        Form::Box { size_m } => Some(size_m.iter().copied().fold(0.0, f64::max)),
+        Form::Sphere { radius_m } => Some(2.0 * radius_m),
+        Form::Cylinder { radius_m, height_m } => Some(height_m.max(2.0 * radius_m)),
+        Form::Plane { .. } | Form::Mesh { .. } => None,
     }
 }
