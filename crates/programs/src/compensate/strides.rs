@@ -103,18 +103,16 @@ fn within_reach(shift: &Shift, reach_m: f64) -> u32 {
 
 /// Rotations about the origin of the tool: by an angle where it is known, about axes all around.
 fn turned(angle: Option<f64>) -> Vec<Shift> {
-    let angles = match angle {
-        Some(angle) => vec![angle, -angle],
-        None => {
-            let mut angles = Vec::new();
-            let mut at = TURN_RAD;
-            while at < PI + NO_STEP {
-                angles.extend([at, -at]);
-                at += TURN_RAD;
-            }
-            angles
+    let mut angles = Vec::new();
+    if let Some(angle) = angle {
+        angles.extend([angle, -angle]);
+    } else {
+        let mut at = TURN_RAD;
+        while at < PI + NO_STEP {
+            angles.extend([at, -at]);
+            at += TURN_RAD;
         }
-    };
+    }
     let mut all = vec![Shift::none()];
     for axis in axes() {
         all.extend(angles.iter().map(|angle| Shift {

@@ -92,7 +92,7 @@ pub struct Fit {
     /// The scale is at least this.
     pub floor: f64,
     /// The variance by which evidence counts is this many times the square of the scale: above one
-    /// where rows of one configuration miss alike, see [`design`](super::clusters::design).
+    /// where rows of one configuration miss alike, see [`design`].
     pub design: f64,
     /// Sum of squared parts along columns held by their calibration, and how many there are.
     pub strain: (f64, usize),

@@ -108,12 +108,11 @@ impl Flow<'_> {
                     target,
                     displacement,
                 } => {
-                    let all = match of {
-                        Some((of, by)) => vec![self.part_of(target, displacement, of, by, site)],
-                        None => {
-                            let by = self.added_by(&write.how, target);
-                            self.displaced_again(displacement, by, site)
-                        }
+                    let all = if let Some((of, by)) = of {
+                        vec![self.part_of(target, displacement, of, by, site)]
+                    } else {
+                        let by = self.added_by(&write.how, target);
+                        self.displaced_again(displacement, by, site)
                     };
                     changed.extend(all.into_iter().map(|displacement| {
                         (

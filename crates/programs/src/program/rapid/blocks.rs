@@ -129,7 +129,7 @@ impl Reader<'_> {
     fn counts(&self, start: u32) -> Option<(f64, f64, u32)> {
         let text = &self.bytes[start as usize..self.token.start as usize];
         let words: Vec<_> = text
-            .split(|b| b.is_ascii_whitespace())
+            .split(u8::is_ascii_whitespace)
             .filter(|word| !word.is_empty())
             .collect();
         let is = |at: usize, word: &str| {
