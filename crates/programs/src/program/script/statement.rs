@@ -77,7 +77,7 @@ pub struct Loop {
 /// What a branch depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// It holds a [`Held::Flag`], or what only the running program knows.
+    /// It holds a [`Held::Flag`](super::Held::Flag), or what only the running program knows.
     pub variable: VariableId,
     /// The next statement follows where the variable holds this, …
     pub wanted: bool,
@@ -116,7 +116,7 @@ pub struct Instruction {
     pub free_orientation: bool,
     /// Where to.
     pub target: Expr,
-    /// Index in [`super::Script::modals`]; [`Builder::go`] sets it.
+    /// Index in [`super::Script::modals`]; [`Builder::go`](super::Builder::go) sets it.
     pub modal: ModalId,
     /// The joints, radians, from which the controller's inverse starts.
     pub near: Option<Box<[f64; 6]>>,
@@ -164,7 +164,7 @@ pub struct Modal {
     pub configured: Expr,
     /// A flag of the controller that leaves the orientation free on the path, too.
     pub wrist: Expr,
-    /// Index in [`super::Script::guards`]: variables that may hold a [`Held::Remark`] against this move.
+    /// Index in [`super::Script::guards`]: variables that may hold a [`Held::Remark`](super::Held::Remark) against this move.
     pub guards: u32,
     /// Index in [`super::Script::expected`]: numbers that variables should hold at this move.
     pub expected: u32,
