@@ -39,11 +39,19 @@
 #![warn(unreachable_pub)]
 
 #[doc(inline)]
-pub use poseshift_kinematics::{geometry, inverse, model};
+pub use poseshift_kinematics::{geometry, inverse};
 #[doc(inline)]
 pub use poseshift_measuring::{diagnose, identify, register};
 #[doc(inline)]
 pub use poseshift_programs::{check, compensate, finding, motion, program};
+
+/// Where a robot's tool is: the nominal chain, every physical cause that makes the real one differ,
+/// and the profile of one robot.
+pub mod model {
+    pub use poseshift_kinematics::model::*;
+    #[doc(inline)]
+    pub use poseshift_profile as profile;
+}
 
 #[cfg(feature = "cli")]
 mod cli;

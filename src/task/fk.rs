@@ -163,6 +163,7 @@ pub fn fk_telling(
     };
     let poses = table.rows_telling(tell).enumerate().map(pose);
     let poses = poses.collect::<Result<_, Failure>>()?;
+    table.refuse_misspelt()?;
     Ok(Poses {
         poses,
         findings: beyond.findings(&profile.mechanism, &joints.name),

@@ -350,7 +350,9 @@ pub(super) fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
         let world_from_flange = own.as_ref().unwrap_or(&model).forward(&q, &conditions);
         Ok(base_from_world * world_from_flange)
     };
-    table.rows().map(pose).collect()
+    let poses = table.rows().map(pose).collect();
+    table.refuse_misspelt()?;
+    poses
 }
 
 fn poses(source: &Source) -> Result<Vec<Motion>, Failure> {

@@ -108,6 +108,7 @@ pub fn poses(lengths: &Source, sigma_m: f64) -> Result<Poses, Failure> {
             found.settings.push((modes, joints));
         }
     }
+    table.refuse_misspelt()?;
     found.findings = unlike_others(&fixed, &lengths.name);
     Ok(found)
 }

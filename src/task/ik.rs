@@ -140,6 +140,7 @@ pub fn ik_telling(
             }
         }
     }
+    table.refuse_misspelt()?;
     // of all branches some are usually beyond reach
     let reached = if all {
         found > 0 || table.rows().next().is_none()

@@ -91,6 +91,7 @@ pub fn simulate(
     };
     let commands: Vec<Command> = table.rows().map(command).collect::<Result<_, Failure>>()?;
     let given = given(&table, session)?;
+    table.refuse_misspelt()?;
     let found = simulated(file, &commands, &given, forces, &tool, session)?;
     Ok(Simulation {
         findings: beyond.findings(&file.profile.mechanism, &joints.name),

@@ -7,12 +7,18 @@ use crate::identify::input_checks::csv::{line_of_row, not_csv};
 use crate::nearest;
 use crate::program::Source;
 use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 
 /// A table read whole.
 pub(super) struct Table<'a> {
     source: &'a Source,
     header: Vec<String>,
     rows: Vec<(usize, csv::StringRecord)>,
+    /// Which columns somebody asked for.
+    read: Vec<Cell<bool>>,
+    /// What was asked for and is not there.
+    absent: RefCell<BTreeSet<String>>,
 }
 
 /// One row of a table.
@@ -72,16 +78,50 @@ impl<'a> Table<'a> {
                 "the first line names the columns, and the rows stand below it",
             ));
         }
+        let read = vec![Cell::new(false); header.len()];
         Ok(Self {
             source,
             header,
             rows,
+            read,
+            absent: RefCell::default(),
         })
     }
 
     /// Whether it has this column.
     pub(super) fn has(&self, column: &str) -> bool {
-        self.header.iter().any(|name| name == column)
+        self.index_of(column).is_some()
+    }
+
+    /// Which column has this name.
+    fn index_of(&self, column: &str) -> Option<usize> {
+        let index = self.header.iter().position(|name| name == column);
+        match index {
+            Some(index) => self.read[index].set(true),
+            None if !self.absent.borrow().contains(column) => {
+                self.absent.borrow_mut().insert(column.to_owned());
+            }
+            None => {}
+        }
+        index
+    }
+
+    /// That no column, once all is read, was meant as one that was asked for and is not there.
+    ///
+    /// # Errors
+    /// A misspelt column: what stands in it would not count.
+    pub(super) fn refuse_misspelt(&self) -> Result<(), Failure> {
+        let absent = self.absent.borrow();
+        let unread = self.header.iter().zip(&self.read);
+        for (name, _) in unread.filter(|(_, read)| !read.get()) {
+            if let Some(meant) = nearest::misspelt(name, absent.iter().map(String::as_str)) {
+                return Err(Failure::with_hint(
+                    format!("{}: the column `{name}` is not read", self.source.name),
+                    format!("is `{meant}` meant? rename the column, or leave it out"),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// That it has these columns.
@@ -89,6 +129,9 @@ impl<'a> Table<'a> {
     /// # Errors
     /// One of them is missing or stands twice.
     pub(super) fn require(&self, columns: &[&str]) -> Result<(), Failure> {
+        for column in columns {
+            self.index_of(column);
+        }
         let count = |column: &str| self.header.iter().filter(|name| *name == column).count();
         let missing: Vec<_> = columns
             .iter()
@@ -172,8 +215,7 @@ const LARGEST: f64 = 1e12;
 impl Row<'_> {
     /// A cell's text; `None` where there is no such column.
     pub(super) fn text(&self, column: &str) -> Option<&str> {
-        let index = self.table.header.iter().position(|name| name == column)?;
-        self.cells.get(index)
+        self.cells.get(self.table.index_of(column)?)
     }
 
     /// A number in a required column, not larger than [`LARGEST`].

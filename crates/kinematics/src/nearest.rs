@@ -2,6 +2,9 @@
 
 /// Names are alike from this similarity on (Jaro–Winkler: 1 is the same name).
 const ALIKE: f64 = 0.8;
+/// A slip of the keys leaves a name so similar, and no more letters longer or shorter.
+const SLIP: f64 = 0.93;
+const SLIP_LETTERS: usize = 2;
 /// So many are proposed at most.
 const MOST: usize = 3;
 /// Longer lists are not written out.
@@ -47,6 +50,21 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Ve
     rated.into_iter().take(MOST).map(|(_, name)| name).collect()
 }
 
+/// The known name that a name surely means, which is spelt otherwise, lacks its unit, or has a slip
+/// of the keys in it.
+pub fn misspelt<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let wanted = plain(name);
+    let means = |known: &&str| {
+        let stem = known.rsplit_once('_').map_or(*known, |(stem, _)| stem);
+        let known = plain(known);
+        wanted == known
+            || wanted == plain(stem)
+            || wanted.len().abs_diff(known.len()) <= SLIP_LETTERS
+                && strsim::jaro_winkler(&wanted, &known) >= SLIP
+    };
+    known.into_iter().find(means)
+}
+
 /// The way out of a name that is not known: what may be meant, and the known names unless they are
 /// too many. `what` names these: `tools of the profile`.
 pub fn hint<'a>(wanted: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
@@ -90,6 +108,25 @@ mod tests {
         let robots = ["abb_irb120", "abb_irb1600_6_145", "kuka_kr6_r900"];
         assert_eq!(nearest("irb120", robots)[0], "abb_irb120");
         assert!(nearest("irb16oo", robots).contains(&"abb_irb1600_6_145"));
+    }
+
+    #[test]
+    fn a_slip_is_told_from_another_name() {
+        let known = ["temperature_c", "time_s", "sigma_mm", "move1_deg", "dir1"];
+        let cases = [
+            ("tempreature_c", Some("temperature_c")),
+            ("Temperature", Some("temperature_c")),
+            ("sigma", Some("sigma_mm")),
+            ("sigma_m", Some("sigma_mm")),
+            ("DIR_1", Some("dir1")),
+            ("timestamp", None),
+            ("move_id", None),
+            ("direction", None),
+            ("comment", None),
+        ];
+        for (name, means) in cases {
+            assert_eq!(misspelt(name, known), means, "{name}");
+        }
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
 }
 
 /// A value in JSON that YAML takes, too: signs that YAML does not print are escaped.
-pub(crate) fn flow(value: &serde_json::Value) -> String {
+pub fn flow(value: &serde_json::Value) -> String {
     let mut out = String::new();
     for letter in value.to_string().chars() {
         if steers(letter) || matches!(letter, '\u{2028}' | '\u{2029}' | '\u{feff}') {

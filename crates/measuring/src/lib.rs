@@ -12,3 +12,4 @@ pub mod identify;
 pub mod register;
 
 use poseshift_kinematics::{geometry, inverse, model, nearest, printable};
+use poseshift_profile as profile;

@@ -21,3 +21,4 @@ pub mod program;
 pub mod xml;
 
 use poseshift_kinematics::{geometry, inverse, model, nearest, printable};
+use poseshift_profile as profile;

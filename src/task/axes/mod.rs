@@ -349,6 +349,7 @@ fn read(profile: &Profile, source: &Source, only: Option<&str>) -> Result<Sweeps
             sweeps.push((Sweep { joint, rows }, vec![row.line]));
         }
     }
+    table.refuse_misspelt()?;
     let several = |plate: bool| points.iter().filter(|(own, _)| *own == plate).count() > 1;
     if several(true) || several(false) {
         let names: Vec<_> = points.into_iter().map(|(_, name)| name).collect();

@@ -138,7 +138,9 @@ pub fn given(source: &Source, profile: &Profile) -> Result<(Vec<[f64; 6]>, Vec<S
     }
     table.require(&columns)?;
     let stands = table.rows().map(|row| stand(profile, &row));
-    Ok((joints, stands.collect::<Result<_, _>>()?))
+    let stands = stands.collect::<Result<_, _>>()?;
+    table.refuse_misspelt()?;
+    Ok((joints, stands))
 }
 
 /// Chooses configurations by observability; `read` reads meshes, `hear` is called with how many of

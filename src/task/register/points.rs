@@ -104,10 +104,12 @@ impl Points {
                 datum: filled("datum").then(|| datum(&row)),
             });
         }
+        let has_ids = table.has("id");
+        table.refuse_misspelt()?;
         Ok(Self {
             name: source.name.clone(),
             rows,
-            has_ids: table.has("id"),
+            has_ids,
         })
     }
 

@@ -4,9 +4,9 @@ use super::branch::Branch;
 use super::closed_form::Stance;
 use super::outcome::{Landed, Method, Methods, Outcome, Spent, Status};
 use super::pose_shift::{Inverse, step, within};
-use crate::geometry::{Pose, Separation};
+use crate::geometry::{Four, Pose, Separation, WIDTH};
 use crate::model::Model;
-use crate::model::batch::{Four, WIDTH, side_by_side};
+use crate::model::batch::side_by_side;
 use pulp::Arch;
 
 /// Steps after which the targets of a group that have not converged are left to the slow way.

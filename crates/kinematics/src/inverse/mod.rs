@@ -9,7 +9,8 @@
 //!
 //! ```
 //! use poseshift_kinematics::inverse::{Arm, Inverse, Status};
-//! use poseshift_kinematics::model::{Conditions, profile::{Mounted, Profile}};
+//! use poseshift_kinematics::model::Conditions;
+//! use poseshift_profile::{Mounted, Profile};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
 //! let (tool, conditions) = (Mounted::flange(), Conditions::default());

@@ -339,15 +339,27 @@ fn stepped(q: &[f64; 6], here: &Linearized, lambda: f64) -> [f64; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::profile::Profile;
+    use crate::model::effects::{Effect, Kind, Site};
+    use crate::model::{Model, example};
 
     #[test]
     fn jacobian_agrees_with_central_differences() {
-        let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))
-            .expect("a shipped profile");
-        let tool = profile.tool("artifact").expect("its tool");
         let conditions = Conditions::default();
-        let real = profile.real_model(&tool, &conditions);
+        let effect = |kind, index, parameters: [f64; 2]| Effect {
+            kind,
+            site: Site {
+                index,
+                ..Site::default()
+            },
+            parameters: [parameters[0], parameters[1], 0.0, 0.0, 0.0, 0.0],
+        };
+        let effects = [
+            effect(Kind::JointCompliance, 1, [3.2e-5, 0.0]),
+            effect(Kind::JointCompliance, 4, [4.19e-4, 0.0]),
+            effect(Kind::LinkGeometry, 2, [1e-3, 2e-4]),
+        ];
+        let (geometry, mechanism) = (example::geometry(), example::mechanism());
+        let real = Model::build(&geometry, &mechanism, &effects, &conditions);
         let q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8];
         let wanted = real.forward(&q, &conditions);
         let here = linearize(&real.cast(), &conditions, &wanted, &q);

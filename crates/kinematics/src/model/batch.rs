@@ -1,13 +1,8 @@
 //! Many postures at once, four side by side in vector registers.
 
 use super::{Conditions, Model};
-use crate::geometry::{Lanes, Pose, Scalar};
+use crate::geometry::{Four, Pose, Scalar, WIDTH};
 use pulp::Arch;
-
-/// Postures or targets side by side.
-pub const WIDTH: usize = 4;
-/// That many numbers.
-pub type Four = Lanes<WIDTH>;
 
 /// [`Model::forward`] of many postures, with the widest vector instructions that this processor
 /// has.

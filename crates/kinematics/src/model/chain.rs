@@ -429,20 +429,17 @@ impl Loads {
 mod tests {
     use super::*;
     use crate::geometry::dot;
-    use crate::model::profile::Profile;
+    use crate::model::example;
 
     /// Rounding of moments of some hundred newton metres.
     const TOLERANCE_N_M: f64 = 1e-11;
 
     #[test]
     fn torques_and_moments_are_those_of_every_mass_about_every_origin() {
-        let text = include_str!("../../../../tests/data/forward/hanging_compliance.profile.yaml");
-        let profile = Profile::from_yaml(text).expect("a profile of the oracle");
-        let name = profile.tools.keys().next().expect("it has a tool");
-        let tool = profile.tool(name).expect("its own tool");
-        let geometry = profile.geometry(&tool);
-        let mechanism = &profile.mechanism;
-        let chain = Chain::of(&geometry, mechanism);
+        let (mut geometry, mechanism) = (example::geometry(), example::mechanism());
+        // hangs from a ceiling that is not level
+        geometry.world_from_base = Pose::from_xyz_rxryrz([1.2345, -0.321, 2.5, 3.1, 0.05, -0.4]);
+        let chain = Chain::of(&geometry, &mechanism);
         let loads = Loads::of(&geometry, &chain);
         let force = [30.0, -20.0, 50.0];
         for k in 0..100_i32 {

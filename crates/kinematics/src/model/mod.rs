@@ -1,14 +1,15 @@
 //! Where a robot's tool is: the nominal chain, and every physical cause that makes the real one
 //! differ.
 //!
-//! The data flow: a [`profile::Profile`] gives the nominal [`Geometry`] and a list of [`effects`];
+//! The data flow: a profile (`poseshift_profile::Profile`) gives the nominal [`Geometry`] and a list of [`effects`];
 //! [`Model::build`] applies the effects that change the geometry once, and [`Model::forward`]
 //! evaluates the ones that depend on the posture for each set of commanded joint angles.
 //!
 //! # Example
 //!
 //! ```
-//! use poseshift_kinematics::model::{Conditions, profile::{Mounted, Profile}};
+//! use poseshift_kinematics::model::Conditions;
+//! use poseshift_profile::{Mounted, Profile};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
 //! let (tool, conditions) = (Mounted::flange(), Conditions::default());
@@ -16,7 +17,7 @@
 //! let nominal = profile.controller_model(&tool).forward(&q, &conditions);
 //! let real = profile.real_model(&tool, &conditions).forward(&q, &conditions);
 //! assert!(real.separation(&nominal).distance_m > 1e-4);
-//! # Ok::<(), poseshift_kinematics::model::profile::ProfileError>(())
+//! # Ok::<(), poseshift_profile::ProfileError>(())
 //! ```
 
 pub mod batch;
@@ -24,9 +25,10 @@ mod chain;
 mod classic;
 mod conditions;
 pub mod effects;
+#[cfg(test)]
+pub(crate) mod example;
 pub mod external;
 mod geometry;
-pub mod profile;
 mod real;
 mod rows;
 mod sensitivity;

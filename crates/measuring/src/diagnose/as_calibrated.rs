@@ -18,7 +18,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::misses;
 use crate::identify::validation::{Refit, Validation};
 use crate::model::Slot;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde_json::Value;
 use std::sync::Arc;

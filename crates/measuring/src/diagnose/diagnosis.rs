@@ -17,7 +17,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
 use crate::identify::{IdentifyError, Line};
 use crate::model::effects::{Effect, Seen};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// A calibration of unknown worth is taken to be worth as much as these measurements.
 const DEFAULT_G: f64 = 1.0;

@@ -19,7 +19,8 @@
 //! ```
 //! use poseshift_measuring::diagnose::{Options, Verdict, diagnose};
 //! use poseshift_measuring::identify::measurements::Measurements;
-//! use poseshift_kinematics::model::{Conditions, profile::Profile};
+//! use poseshift_kinematics::model::Conditions;
+//! use poseshift_profile::Profile;
 //!
 //! let text = include_str!("../../../../robots/abb_irb120_thesis.yaml");
 //! let profile = Profile::from_yaml(text)?;

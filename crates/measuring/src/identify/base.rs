@@ -8,7 +8,7 @@ use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::effects::Kind;
-use crate::model::profile::{DevicePlace, Profile};
+use crate::profile::{DevicePlace, Profile};
 use std::f64::consts::TAU;
 
 /// The profile's base is believed to be in the device's frame where the measured one is nearer than

@@ -19,7 +19,7 @@ use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
 use crate::model::effects::Kind;
-use crate::model::profile::{DevicePlace, Profile};
+use crate::profile::{DevicePlace, Profile};
 
 /// A row is an outlier whose residual is beyond this many times the limit of normal ones.
 pub const OUTLIER: f64 = 1.6;

@@ -3,8 +3,8 @@
 use super::error::IdentifyError;
 use super::random::Random;
 use crate::geometry::{Pose, Vector, dot, norm, sub};
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

@@ -203,7 +203,7 @@ mod tests {
     use crate::identify::solver::solve;
     use crate::identify::uncertainty::Uncertainty;
     use crate::model::external::Stand;
-    use crate::model::profile::Profile;
+    use crate::profile::Profile;
 
     const PLACES: [[f64; 3]; 3] = [[0.0, 0.0, 0.05], [0.06, -0.02, 0.08], [-0.04, 0.07, 0.06]];
 

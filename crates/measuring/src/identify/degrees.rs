@@ -10,7 +10,7 @@ use super::calibration::{Calibration, Options, identify};
 use super::measurements::{Measurements, Purpose};
 use super::parameters::{Level, Selection};
 use super::pick::Pick;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use rayon::prelude::*;
 
 /// Parts of the rows that are left out in turn.

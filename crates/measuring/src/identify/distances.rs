@@ -3,8 +3,8 @@
 use super::measurements::{Measurements, Observed};
 use super::start::{Start, align, carried, deviation, spreads};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 use nalgebra::Matrix4;
 
 /// The least rotation between two directions.

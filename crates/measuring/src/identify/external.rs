@@ -4,8 +4,8 @@ use super::error::IdentifyError;
 use super::measurements::{EXTERNAL_DEG_COLUMNS, EXTERNAL_MM_COLUMNS, Measurement, Measurements};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::model::external::{ExternalAxes, Listed};
-use crate::model::profile::Profile;
 use crate::nearest;
+use crate::profile::Profile;
 
 /// How far beyond its limits an axis may stand: controllers round. Metres and radians.
 const BORDER: f64 = 1e-6;

@@ -6,7 +6,7 @@ use super::input_checks::screening;
 use super::measurements::Measurements;
 use crate::geometry::units::DEG;
 use crate::geometry::{dot, norm, scale};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// Gravity along the device's z is tried where that is tilted from the profile's by so much,
 /// radians.

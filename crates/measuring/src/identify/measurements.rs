@@ -9,7 +9,7 @@ use crate::geometry::{Pose, Vector};
 use crate::model::Conditions;
 use crate::model::effects::MOST_EXTERNAL_AXES;
 use crate::model::external::Stand;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use std::borrow::Cow;
 use std::collections::HashMap;
 

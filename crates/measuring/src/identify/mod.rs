@@ -14,7 +14,8 @@
 //! ```
 //! use poseshift_measuring::identify::measurements::Measurements;
 //! use poseshift_measuring::identify::{Options, calibrate};
-//! use poseshift_kinematics::model::{Conditions, profile::{Mounted, Profile}};
+//! use poseshift_kinematics::model::Conditions;
+//! use poseshift_profile::{Mounted, Profile};
 //!
 //! let robot = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
 //! let nominal = Profile::from_yaml(include_str!("../../../../robots/abb_irb120.yaml"))?;

@@ -7,7 +7,7 @@ use super::pick::Pick;
 use super::problem::{Problem, Row};
 use crate::model::Conditions;
 use crate::model::effects::{Effect, List, Need};
-use crate::model::profile::{Mounted, Profile, is_of_profile};
+use crate::profile::{Mounted, Profile, is_of_profile};
 
 /// A joint's torque must change by this part of the largest change to tell its compliance.
 const TORQUE_PART: f64 = 1e-3;

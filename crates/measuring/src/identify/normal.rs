@@ -7,8 +7,8 @@ use super::observation::{MOST_NUMBERS, Observation};
 use super::parameters::{Parameter, Subject};
 use super::problem::{Estimate, Problem, Row};
 use super::robust::Loss;
-use crate::geometry::{Pose, Scalar};
-use crate::model::batch::{Four, WIDTH, lane_of, side_by_side};
+use crate::geometry::{Four, Pose, Scalar, WIDTH};
+use crate::model::batch::{lane_of, side_by_side};
 use crate::model::{FourMotions, Motion};
 use nalgebra::{DMatrix, DVector};
 use pulp::Arch;
@@ -322,7 +322,7 @@ mod tests {
     use crate::identify::random::Random;
     use crate::identify::simulate::{Command, Session, simulate};
     use crate::model::external::Stand;
-    use crate::model::profile::Profile;
+    use crate::profile::Profile;
     use std::sync::Arc;
 
     #[test]

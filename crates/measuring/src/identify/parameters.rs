@@ -3,8 +3,8 @@
 
 use super::pick::Pick;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site, Unit};
-use crate::model::profile::Profile;
 use crate::model::{JOINTS, Slot};
+use crate::profile::Profile;
 
 /// Axes are parallel where the sine of the angle between them is below this: there β stands for the
 /// d it makes redundant.

@@ -2,7 +2,7 @@
 
 use super::error::SelectionError;
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey, Unit};
-use crate::model::profile::{Profile, is_of_profile};
+use crate::profile::{Profile, is_of_profile};
 
 /// The number that the base has among joints.
 const BASE_NUMBER: u32 = 7;

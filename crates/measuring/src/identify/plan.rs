@@ -13,7 +13,7 @@ use super::parameters::{Parameter, Selection};
 use super::problem::DEFAULT_SIGMA_M;
 use super::random::Random;
 use crate::model::external::Stand;
-use crate::model::profile::{Mounted, Profile};
+use crate::profile::{Mounted, Profile};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::ops::Range;

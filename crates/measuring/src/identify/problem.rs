@@ -12,8 +12,8 @@ use super::plates::PlateRows;
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::{Effect, Need};
 use crate::model::external::Stand;
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Geometry, Mechanism, Sensitivity, Slot};
+use crate::profile::{Mounted, Profile};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@ use super::parameters::{Parameter, Subject};
 use super::problem::{Estimate, Problem};
 use crate::model::Motion;
 use crate::model::effects::Kind;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// The residuals of a calibration's rows as a function of its parameters, in SI units.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use super::measurements::{Measurement, Observed, last_moves};
 use super::random::Random;
 use crate::geometry::{Pose, Rotation, Vector, add, norm, sub};
 use crate::model::external::Stand;
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 
 /// What the imagined device gives.
 #[derive(Clone, Debug, PartialEq)]

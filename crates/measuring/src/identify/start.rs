@@ -5,8 +5,8 @@ use super::measurements::{Measurements, Observed};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, dot, norm, scale, sub};
 use crate::model::effects::Kind;
 use crate::model::external::Stand;
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix4};
 
 /// Rounds of improving points and base in alternation.

@@ -19,7 +19,7 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, norm, sub};
 use crate::model::effects::Kind;
 use crate::model::external::Listed;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

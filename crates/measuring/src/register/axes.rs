@@ -14,7 +14,7 @@ use super::frames::propagate;
 use super::linear;
 use super::uncertainty::PoseCovariance;
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use nalgebra::{DMatrix, DVector};
 
 pub mod outliers;

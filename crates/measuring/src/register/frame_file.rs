@@ -16,8 +16,8 @@
 use super::uncertainty::PoseCovariance;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::profile::{Number, PoseFile, ProfileError, check_angles, file};
 use crate::printable::quoted;
+use crate::profile::{Number, PoseFile, ProfileError, check_angles, file};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::Spanned;
@@ -159,7 +159,7 @@ impl Frame {
             rotation_rad: [s.rx_deg, s.ry_deg, s.rz_deg].map(|n| n.0 * DEG),
         });
         Ok(Self {
-            to_from_from: crate::model::profile::pose(&file.pose)?,
+            to_from_from: crate::profile::pose(&file.pose)?,
             sigma,
             rmsd_m: file.rmsd_mm.map(|n| n.0 * 1e-3),
             points: file.points,

@@ -2,10 +2,10 @@
 
 use crate::geometry::units::m_from_mm;
 use crate::model::external::ExternalAxes;
-use crate::model::profile::file::{self, Number};
-use crate::model::profile::{Fault, ProfileError};
 use crate::model::shape::{Form, Shape};
-use poseshift_kinematics::with_shape;
+use crate::profile::file::{self, Number};
+use crate::profile::{Fault, ProfileError};
+use poseshift_profile::with_shape;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::{Location, Spanned};

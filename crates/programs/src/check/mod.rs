@@ -16,7 +16,7 @@
 //!
 //! ```
 //! use poseshift_programs::check::{Options, Scene, Subject, check};
-//! use poseshift_kinematics::model::profile::Profile;
+//! use poseshift_profile::Profile;
 //! use poseshift_programs::program::{Source, language_of};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
@@ -62,8 +62,8 @@ use crate::compensate::CompensateError;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Separation};
-use crate::model::profile::Profile;
 use crate::motion::{Given, setting};
+use crate::profile::Profile;
 use crate::program::{Language, Move, Program, Source, SpeedZone};
 use collision::Clearance;
 use deviation::PathError;

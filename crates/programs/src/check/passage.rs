@@ -6,9 +6,9 @@ use super::walk::{Arms, Which};
 use crate::geometry::units::MM;
 use crate::inverse::Unsupported;
 use crate::model::Conditions;
-use crate::model::profile::{Mounted, Profile};
 use crate::motion::arms::Equipped;
 use crate::motion::course::{Course, Leg};
+use crate::profile::{Mounted, Profile};
 
 /// Bodies farther apart than this beyond what is required are only known to be, metres.
 const HORIZON_M: f64 = 1.0 * MM;

@@ -5,9 +5,9 @@ use super::mesh::Mesh;
 use super::query::{Body, Triangles};
 use crate::finding::Finding;
 use crate::geometry::{Pose, Vector};
-use crate::model::profile::Profile;
 use crate::model::shape::{Form, Shape};
 use crate::motion::course::Leg;
+use crate::profile::Profile;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Meshes by the name that a profile or cell file gives them.

@@ -6,8 +6,8 @@ use super::cell::{Cell, LINKS};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{norm, sub};
-use crate::model::profile::{Mounted, Profile};
 use crate::model::shape::{Form, Shape};
+use crate::profile::{Mounted, Profile};
 
 /// A body this many times smaller than another one is in another unit, unless somebody says its
 /// unit.

@@ -2,8 +2,8 @@
 //! through the model.
 
 use crate::geometry::{Vector, dot, sub};
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 use serde_json::Value;
 
 /// Part of a parameter's standard deviation by which it is moved to see what it does.

@@ -28,7 +28,7 @@
 //!
 //! ```
 //! use poseshift_programs::compensate::{Options, compensate};
-//! use poseshift_kinematics::model::profile::Profile;
+//! use poseshift_profile::Profile;
 //! use poseshift_programs::program::{Source, language_of};
 //!
 //! let profile = Profile::from_yaml(include_str!("../../../../robots/abb_irb120_thesis.yaml"))?;
@@ -70,11 +70,11 @@ use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 pub use crate::inverse::Methods;
 use crate::inverse::{Outcome, Unsupported};
-use crate::model::profile::Profile;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{external, plausibility, setting};
+use crate::profile::Profile;
 pub use crate::program::meaning;
 use crate::program::{Edits, Language, Move, ReadError, Source, sha256};
 use rayon::prelude::*;

@@ -6,7 +6,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::Rotation;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use std::collections::BTreeSet;
 
 /// Where fewer targets than this are all out of reach, each is reported on its own; and another

@@ -3,8 +3,8 @@
 use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Status, Unsupported};
 use crate::model::effects::Need;
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 
 /// An arm with one of the program's tools.
 pub(crate) struct Equipped {

@@ -13,7 +13,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::model::effects::Effect;
 use crate::model::external::{ExternalAxes, Follows, Listed};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::program::{
     Before, ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape,
     Source, Stand,

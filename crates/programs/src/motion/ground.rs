@@ -9,7 +9,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Unsupported};
 use crate::model::Conditions;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::program::{
     Configuration, Displacement, FrameId, Language, Move, Program, Settings, Shape, Source,
     TargetId, ToolId, Value,

@@ -3,7 +3,7 @@
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::Effect;
 use crate::model::external::At;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::program::Frame;
 
 /// Where the real base and the nominal one are in the world, from where they are at home, on a work

@@ -6,8 +6,8 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::model::Conditions;
 use crate::model::effects::{Effect, same_tool};
-use crate::model::profile::{ToolOfProfile, is_tiny};
 use crate::nearest;
+use crate::profile::{ToolOfProfile, is_tiny};
 use crate::program::Move;
 
 /// The way out where a number is not finite.

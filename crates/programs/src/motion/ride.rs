@@ -4,7 +4,7 @@
 use crate::geometry::{Pose, Rotation, Scalar, Vector};
 use crate::model::effects::Effect;
 use crate::model::external::{At, ExternalAxes};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::program::Stand;
 use std::sync::Arc;
 

@@ -4,8 +4,8 @@ use super::placed::Placed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::model::profile::{Mounted, Profile};
 use crate::printable::shell_word;
+use crate::profile::{Mounted, Profile};
 use crate::program::{Frame, FrameId, Language, Move, Program, Source, Tool, ToolId};
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use super::{Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, SiteKey, of_arm};
 use crate::geometry::{Dual, Pose, Scalar};
-use crate::model::profile::Profile;
+use crate::model::example;
 use crate::model::{Conditions, Model, Motion, Sensitivity, Slot};
 
 /// Postures, away from singularities and limits.
@@ -11,11 +11,6 @@ const POSTURES: [[f64; 6]; 3] = [
     [-1.1, 0.7, -0.6, 1.9, 0.9, -2.5],
     [2.0, 0.2, -0.9, -1.4, 0.5, 4.0],
 ];
-
-fn profile() -> Profile {
-    Profile::from_yaml(include_str!("../../../../../robots/abb_irb120.yaml"))
-        .expect("a shipped profile")
-}
 
 fn conditions() -> Conditions {
     Conditions {
@@ -31,15 +26,15 @@ fn conditions() -> Conditions {
 }
 
 fn pose_with(kind: Kind, parameters: [f64; MOST_PARAMETERS], q: &[f64; 6]) -> Pose {
-    let (profile, conditions) = (profile(), conditions());
+    let conditions = conditions();
     let effect = Effect {
         kind,
         site: site(kind),
         parameters,
     };
     Model::build(
-        &profile.geometry(&tool()),
-        &profile.mechanism,
+        &example::geometry(),
+        &example::mechanism(),
         &[compliance(), effect],
         &conditions,
     )
@@ -58,15 +53,6 @@ fn site(kind: Kind) -> Site {
         on: 4,
         order: 2 * place.one(),
         tool: None,
-    }
-}
-
-fn tool() -> crate::model::profile::Mounted {
-    let flange_from_tool = Pose::from_xyz_rxryrz([0.05, 0.02, 0.13, 0.1, -0.2, 0.3]);
-    crate::model::profile::Mounted {
-        name: "t".into(),
-        flange_from_tool,
-        load: Some((2.0, [0.02, 0.01, 0.08])),
     }
 }
 
@@ -122,8 +108,8 @@ fn names_and_keys_are_unique_and_keys_end_in_their_units() {
 fn zero_parameters_change_nothing() {
     for q in &POSTURES {
         let nominal = Model::build(
-            &profile().geometry(&tool()),
-            &profile().mechanism,
+            &example::geometry(),
+            &example::mechanism(),
             &[compliance()],
             &conditions(),
         )
@@ -199,8 +185,8 @@ fn dual_derivatives_agree_with_central_differences() {
                 parameters: values,
             };
             let model = Model::build(
-                &profile().geometry(&tool()),
-                &profile().mechanism,
+                &example::geometry(),
+                &example::mechanism(),
                 &[compliance(), effect],
                 &conditions,
             );
@@ -306,8 +292,8 @@ fn all_effects() -> Vec<Effect> {
 
 #[test]
 fn fast_derivatives_agree_with_full_duals() {
-    let (profile, conditions) = (profile(), conditions());
-    let mut geometry = profile.geometry(&tool());
+    let (mechanism, conditions) = (example::mechanism(), conditions());
+    let mut geometry = example::geometry();
     geometry.world_from_base = Pose::from_xyz_rxryrz([2.0, -1.0, 0.5, 0.7, -0.4, 2.0]);
     let everything = all_effects();
     // effects that bend take another way through the derivatives: each with the plain ones, and the
@@ -323,14 +309,14 @@ fn fast_derivatives_agree_with_full_duals() {
             let count = e.definition().parameters.len();
             slots.extend((0..count).map(|parameter| Slot { effect, parameter }));
         }
-        let fast = Sensitivity::build(&geometry, &profile.mechanism, effects, &slots, &conditions);
+        let fast = Sensitivity::build(&geometry, &mechanism, effects, &slots, &conditions);
         let mut motions = vec![Motion::default(); slots.len()];
         for q in &POSTURES {
             let pose = fast.evaluate(q, &conditions, &mut motions);
             for (slot, motion) in slots.iter().zip(&motions) {
                 let mut dual: Vec<Effect<Dual<1>>> = effects.iter().map(Effect::cast).collect();
                 dual[slot.effect].parameters[slot.parameter].slope = [1.0];
-                let model = Model::build(&geometry, &profile.mechanism, &dual, &conditions);
+                let model = Model::build(&geometry, &mechanism, &dual, &conditions);
                 let full = model.forward(
                     &q.map(|q| Dual {
                         value: q,

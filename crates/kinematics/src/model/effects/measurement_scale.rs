@@ -54,13 +54,10 @@ impl Equation for MeasurementScale {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::profile::{Mounted, Profile};
-    use crate::model::{Conditions, Model};
+    use crate::model::{Conditions, Model, example};
 
     #[test]
     fn lengths_are_too_long_from_the_device() {
-        let profile = Profile::from_yaml(include_str!("../../../../../robots/abb_irb120.yaml"))
-            .expect("a shipped profile");
         let effect = Effect {
             kind: Kind::MeasurementScale,
             site: Site::default(),
@@ -69,8 +66,8 @@ mod tests {
         let q = [0.3, -0.4, 0.5, 0.6, -0.7, 0.8];
         let seen = |effects: &[Effect], device_m| {
             let conditions = Conditions { device_m, ..Conditions::default() };
-            let geometry = profile.geometry(&Mounted::flange());
-            let model = Model::build(&geometry, &profile.mechanism, effects, &conditions);
+            let (geometry, mechanism) = (example::geometry(), example::mechanism());
+            let model = Model::build(&geometry, &mechanism, effects, &conditions);
             model.forward(&q, &conditions).translation
         };
         let place = seen(&[], [0.0; 3]);

@@ -1,8 +1,9 @@
 //! The same derivatives, four postures side by side.
 
 use super::{Sensitivity, Torques};
-use crate::geometry::{AxisRotation, Dual, Pose, Scalar, Vector, add, constant, cross, scale, sub};
-use crate::model::batch::{Four, WIDTH};
+use crate::geometry::{
+    AxisRotation, Dual, Four, Pose, Scalar, Vector, WIDTH, add, constant, cross, scale, sub,
+};
 use crate::model::effects::{Deflection, Need, State};
 use crate::model::{Conditions, Model};
 

@@ -9,7 +9,7 @@ use crate::diagnose::search::candidates::{least, parameter};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use nalgebra::DMatrix;
 
 /// Rounds of Gauss–Newton.

@@ -19,7 +19,7 @@ use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::model::effects::{Effect, Kind, SiteKey};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// A function outside the registry is better than an effect where it gains this much more.
 const UNKNOWN_BETTER: f64 = 14.0;

@@ -26,7 +26,7 @@ use crate::identify::problem::Estimate;
 use crate::identify::robust::limit;
 use crate::identify::statistics::Spread;
 use crate::model::effects::{Effect, Kind, Seen, of_arm};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use rayon::prelude::*;
 
 /// Another effect explains the data nearly as well where it is worse by no more than this, twice a

@@ -5,7 +5,7 @@ use crate::identify::IdentifyError;
 use crate::identify::plan::{Constraints, candidates};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Conditions;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// Random configurations to choose from.
 const DRAWS: usize = 3000;

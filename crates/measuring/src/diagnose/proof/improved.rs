@@ -8,7 +8,7 @@ use crate::geometry::Pose;
 use crate::identify::problem::Estimate;
 use crate::model::Conditions;
 use crate::model::effects::{Deflection, Effect, Kind, MOST_PARAMETERS, REGISTRY, Site, State};
-use crate::model::profile::{DevicePlace, Mounted, Profile};
+use crate::profile::{DevicePlace, Mounted, Profile};
 
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;

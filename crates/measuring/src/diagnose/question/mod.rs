@@ -21,7 +21,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::start::{self, base_gap};
 use crate::model::effects::{Effect, Kind};
-use crate::model::profile::{ControllerModel, Profile};
+use crate::profile::{ControllerModel, Profile};
 
 /// Numbers beyond the parameters that an estimate of the noise takes.
 const SPARE: usize = 10;

@@ -11,8 +11,8 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
     BASE, Effect, Kind, List, MOST_PARAMETERS, Need, Sets, Site, SiteKey, shown_by_tool,
 };
-use crate::model::profile::Mounted;
 use crate::model::{JOINTS, Slot};
+use crate::profile::Mounted;
 use rayon::prelude::*;
 
 /// Harmonics are sought up to this many periods a revolution.

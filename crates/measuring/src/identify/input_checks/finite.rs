@@ -3,8 +3,8 @@
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
 use crate::identify::problem::tool_of;
-use crate::model::profile::Profile;
 use crate::model::{Conditions, Model};
+use crate::profile::Profile;
 
 /// Refuses a profile whose arm has no finite pose at a row, or torques whose squares are not
 /// finite: its compliances are found by these.

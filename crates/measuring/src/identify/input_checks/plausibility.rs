@@ -11,7 +11,7 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::{Miss, quantile};
 use crate::model::Slot;
 use crate::model::effects::{Kind, Unit};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use std::collections::BTreeSet;
 
 /// A fit that misses by more is not of this robot, metres.

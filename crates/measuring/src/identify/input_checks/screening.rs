@@ -11,7 +11,7 @@ use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::problem::Problem;
 use crate::identify::start::{self, Start, spreads};
 use crate::identify::statistics::quantile;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// A first guess that misses by less is not questioned, metres, if it is also less than
 /// [`GOOD_PART`].

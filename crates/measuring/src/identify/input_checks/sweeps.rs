@@ -11,7 +11,7 @@ use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::start;
 use crate::model::Conditions;
 use crate::model::external::Stand;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::register::axes::relations::relations;
 use crate::register::axes::{Axis, Sweep};
 

@@ -7,7 +7,7 @@ use crate::identify::measurements::Measurements;
 use crate::identify::start;
 use crate::identify::statistics::Quality;
 use crate::identify::validation::Refit;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// The real model is worse than the nominal arm with fitted frames by this factor where something
 /// was moved.

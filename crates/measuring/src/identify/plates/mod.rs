@@ -25,7 +25,7 @@ use crate::identify::start::Start;
 use crate::identify::statistics::{Quality, misses};
 use crate::identify::uncertainty::Uncertainty;
 use crate::model::effects::{Effect, Kind};
-use crate::model::profile::{Profile, is_of_profile};
+use crate::profile::{Profile, is_of_profile};
 use std::ops::Range;
 
 mod plan;

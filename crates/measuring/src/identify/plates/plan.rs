@@ -11,7 +11,7 @@ use crate::identify::plan::{Plan, Request, select};
 use crate::identify::random::Random;
 use crate::model::Conditions;
 use crate::model::external::{Listed, Stand};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// A seed of its own.
 const SEED: u64 = 0x91a7;

@@ -8,7 +8,7 @@ use crate::identify::problem::{Estimate, PointRef, Problem};
 use crate::identify::robust::Shape;
 use crate::identify::solver::solve;
 use crate::identify::validation::{Judged, Refit, Validation, controller_profile, judged, parts};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// Compares points on plates with a profile's positioners.
 ///

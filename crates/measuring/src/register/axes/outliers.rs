@@ -2,7 +2,7 @@
 
 use super::{AxesError, Axis, Sweep, angles, fitted, mechanical, wrap};
 use crate::geometry::{Vector, add, dot, norm, scale, sub};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use crate::register::features;
 
 /// Sweeps with fewer rows keep all: the others could not tell which one is wrong.

@@ -3,7 +3,7 @@
 
 use super::{Axis, Line, Sweep, nominal};
 use crate::geometry::{Vector, add, cross, dot, norm, scale, sub};
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 
 /// Two axes, measured and nominal.
 #[derive(Clone, Copy, Debug, PartialEq)]

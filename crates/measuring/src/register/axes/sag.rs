@@ -4,8 +4,8 @@
 use super::{AxesError, Construction, Placed, Sweep, base_of, points_of, tool_of};
 use crate::geometry::{Pose, Vector, sub};
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
-use crate::model::profile::{Mounted, Profile};
 use crate::model::{Conditions, Model};
+use crate::profile::{Mounted, Profile};
 use crate::register::uncertainty::PoseCovariance;
 use nalgebra::{Matrix6, Vector6};
 

@@ -5,7 +5,7 @@ use super::{Design, HexapodError, Lengths};
 use crate::geometry::{Pose, Vector};
 use crate::inverse::{Arm, Branch, Unsupported};
 use crate::model::Conditions;
-use crate::model::profile::{Mounted, Profile};
+use crate::profile::{Mounted, Profile};
 
 /// The device at its nominal lengths, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::*;
 use crate::compensate::{Compensation, Given, Options, compensate};
 use crate::model::Conditions;
-use crate::model::profile::{Mounted, Profile, SHIPPED};
+use crate::profile::{Mounted, Profile, SHIPPED};
 
 /// An R-2000iC/165F that differs a little from its drawing, the differences made up.
 fn profile() -> Profile {

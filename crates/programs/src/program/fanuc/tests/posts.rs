@@ -7,7 +7,7 @@
 use super::*;
 use crate::compensate::{Given, Options, compensate};
 use crate::inverse::Arm;
-use crate::model::profile::{Mounted, Profile};
+use crate::profile::{Mounted, Profile};
 
 /// The arm of the trajectory, with joint 5 in FANUC's sense.
 fn profile() -> Profile {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::inverse::Arm;
-use crate::model::profile::Profile;
+use crate::profile::Profile;
 use std::path::{Path, PathBuf};
 
 /// Outputs of post-processors with known joints; kept next to the project.

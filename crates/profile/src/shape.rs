@@ -5,7 +5,8 @@ use super::reading::{check_angles, metres, pose};
 use super::{Fault, ProfileError, TINY_M};
 use crate::geometry::units::{m_from_mm, mm_from_m};
 use crate::geometry::{Pose, norm, scale, sub};
-use crate::model::shape::{Form, Shape};
+use crate::model::shape::Form;
+pub use crate::model::shape::Shape;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_yaml::{Location, Spanned};
@@ -22,29 +23,29 @@ macro_rules! with_shape {
             $($(#[$field_meta])* pub $field: $type,)*
             /// All points within a radius of a segment.
             #[serde(default)]
-            pub capsule_mm: Option<$crate::model::profile::shape::CapsuleFile>,
+            pub capsule_mm: Option<$crate::shape::CapsuleFile>,
             /// Full edge lengths of a box about the origin.
             #[serde(default)]
-            pub box_mm: Option<[$crate::model::profile::file::Number; 3]>,
+            pub box_mm: Option<[$crate::file::Number; 3]>,
             /// A ball about the origin.
             #[serde(default)]
-            pub sphere_mm: Option<$crate::model::profile::shape::SphereFile>,
+            pub sphere_mm: Option<$crate::shape::SphereFile>,
             /// A cylinder about z, centred on the origin.
             #[serde(default)]
-            pub cylinder_mm: Option<$crate::model::profile::shape::CylinderFile>,
+            pub cylinder_mm: Option<$crate::shape::CylinderFile>,
             /// All below a plane.
             #[serde(default)]
-            pub plane: Option<$crate::model::profile::shape::PlaneFile>,
+            pub plane: Option<$crate::shape::PlaneFile>,
             /// A mesh file: STL, OBJ, DAE or glTF, relative to this file.
             #[serde(default)]
             pub mesh: Option<String>,
             /// Millimetres of one unit of the mesh file (default 1; DAE and glTF, in metres by their own unit, 1000).
             #[serde(default)]
-            pub scale: Option<$crate::model::profile::file::Number>,
+            pub scale: Option<$crate::file::Number>,
             /// Where the shape is in its frame.
             #[serde(default)]
-            #[schemars(with = "Option<crate::model::profile::file::PoseFile>")]
-            pub at: Option<serde_yaml::Spanned<$crate::model::profile::file::PoseFile>>,
+            #[schemars(with = "Option<poseshift_profile::file::PoseFile>")]
+            pub at: Option<serde_yaml::Spanned<$crate::file::PoseFile>>,
         }
 
         impl $name {
@@ -52,8 +53,8 @@ macro_rules! with_shape {
             pub(crate) fn shape(
                 &self,
                 place: serde_yaml::Location,
-            ) -> Result<$crate::model::shape::Shape, $crate::model::profile::ProfileError> {
-                $crate::model::profile::shape::Keys {
+            ) -> Result<$crate::shape::Shape, $crate::ProfileError> {
+                $crate::shape::Keys {
                     capsule: self.capsule_mm.as_ref(),
                     size: self.box_mm.as_ref(),
                     sphere: self.sphere_mm.as_ref(),

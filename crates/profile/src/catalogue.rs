@@ -17,7 +17,7 @@ use crate::model::{Coupling, JointSense, Link, Mechanism};
 use serde::Deserialize;
 
 /// The table, a part of the program; it is read where it is asked for.
-const TABLE: &str = include_str!("../../../../../robots/catalogue.csv");
+const TABLE: &str = include_str!("../../../robots/catalogue.csv");
 
 /// One arm of the catalogue, as its row has it.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]

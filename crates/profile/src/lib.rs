@@ -1,4 +1,12 @@
-//! A robot's profile: read strictly, and made into models.
+//! A robot's profile: read strictly, written, and made into models.
+//!
+//! It is a crate of its own because reading files into structures is much code that runs once:
+//! it is compiled for size, next to the kernels of `poseshift_kinematics` on which it stands.
+
+#![forbid(unsafe_code)]
+
+// the macro of shapes names its types the same here and elsewhere
+extern crate self as poseshift_profile;
 
 mod catalogue;
 mod device;
@@ -32,12 +40,13 @@ pub use text::flow_tool;
 pub use text::{Comments, made};
 pub use write::{WriteError, rewritten};
 
-use super::effects::{Effect, Kind, same_tool};
-use super::external::{Carried, ExternalAxes, Stand};
-use super::shape::LinkShape;
-use super::{Body, Conditions, Geometry, Link, Mechanism, Model};
-use crate::geometry::{Pose, Vector};
 pub use file::{Number, PoseFile};
+use geometry::{Pose, Vector};
+use model::effects::{Effect, Kind, same_tool};
+use model::external::{Carried, ExternalAxes, Stand};
+use model::shape::LinkShape;
+use model::{Body, Conditions, Geometry, Link, Mechanism, Model};
+use poseshift_kinematics::{geometry, model, nearest, printable};
 use std::collections::BTreeMap;
 
 /// A tool that is nearer to the flange in each coordinate is in another unit, or none.

@@ -30,7 +30,7 @@ use super::Profile;
 use super::file::Number;
 use crate::geometry::{Pose, Rotation};
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
-use crate::model::rows::{Axes, RowsError};
+use crate::model::{Axes, RowsError};
 use serde::Deserialize;
 
 /// Why a calibration cannot be imported.

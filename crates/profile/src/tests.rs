@@ -3,9 +3,8 @@
 use super::universal_robots::{UrError, link_geometry};
 use super::*;
 
-const UR5: &str = include_str!("../../../../../robots/universal_robots_ur5.yaml");
-const CONF: &str =
-    include_str!("../../../../../tests/data/ur_calibration/ur5_usual.calibration.conf");
+const UR5: &str = include_str!("../../../robots/universal_robots_ur5.yaml");
+const CONF: &str = include_str!("../../../tests/data/ur_calibration/ur5_usual.calibration.conf");
 
 fn ur5(controller: &str, calibration: &str) -> Result<Profile, ProfileError> {
     let text = UR5.replace("{language: urscript, model: nominal}", controller);
@@ -151,7 +150,7 @@ fn what_is_no_calibration_of_this_arm_is_reported() {
         refusal("kinematics:\n  shoulder: {x: 0}\n"),
         UrError::Yaml { line: 2, .. }
     ));
-    let other = Profile::from_yaml(include_str!("../../../../../robots/abb_irb120.yaml"));
+    let other = Profile::from_yaml(include_str!("../../../robots/abb_irb120.yaml"));
     let error = link_geometry(CONF, &other.expect("a shipped profile")).expect_err("an ABB");
     assert!(matches!(error, UrError::NotTheTable { .. }), "{error}");
 }
@@ -311,7 +310,7 @@ fn numbers_of_the_chain_in_other_units_are_faults() {
 
 #[test]
 fn an_arm_in_metres_is_refused() {
-    let mut text = include_str!("../../../../../robots/abb_irb120.yaml").to_owned();
+    let mut text = include_str!("../../../robots/abb_irb120.yaml").to_owned();
     for (mm, metres) in [
         ("d_mm: 290", "d_mm: 0.29"),
         ("a_mm: 270", "a_mm: 0.27"),

@@ -311,7 +311,7 @@ mod tests {
 
     #[test]
     fn comments_and_order_stay_and_the_calibration_is_read_back() {
-        let text = include_str!("../../../../../robots/abb_irb120_thesis.yaml");
+        let text = include_str!("../../../robots/abb_irb120_thesis.yaml");
         let mut profile = Profile::from_yaml(text).expect("a shipped profile");
         profile.world_from_base = Pose::from_xyz_rxryrz([2.5, -1.0, 0.3, 0.2, -0.1, 3.0]);
         profile.points.insert("smr 1".into(), [0.01, -0.02, 0.1]);
@@ -340,7 +340,7 @@ mod tests {
 
     #[test]
     fn a_calibrated_profile_says_so_and_has_no_effect_of_the_data() {
-        let text = include_str!("../../../../../robots/abb_irb120_thesis.yaml");
+        let text = include_str!("../../../robots/abb_irb120_thesis.yaml");
         let mut profile = Profile::from_yaml(text).expect("a shipped profile");
         profile.provenance = Some(json!({"rows": 50}));
         profile.effects[0].parameters[0] += 1e-4;
@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_base_over_several_lines_is_replaced_whole() {
-        let text = include_str!("../../../../../robots/abb_irb120.yaml");
+        let text = include_str!("../../../robots/abb_irb120.yaml");
         let line = text
             .lines()
             .find(|l| l.trim_start().starts_with("base:"))

@@ -1,90 +1,87 @@
-//! Several numbers side by side.
-
-#![allow(
-    clippy::needless_range_loop,
-    reason = "one index runs over several arrays"
-)]
+//! Four numbers side by side.
 
 use super::{Scalar, scalar::elementary};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// `N` numbers on which every operation acts alike; the compiler turns it into vector instructions.
+/// How many numbers stand side by side.
+pub const WIDTH: usize = 4;
+
+/// Four numbers on which every operation acts alike; the compiler turns it into vector
+/// instructions.
+///
+/// The four are written out: a loop over them in every operation would be unrolled to the same
+/// instructions, but the kernels hold thousands of operations, and that took most of the time that
+/// this crate is compiled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
-pub struct Lanes<const N: usize>(pub [f64; N]);
+pub struct Four(pub [f64; WIDTH]);
 
-impl<const N: usize> Lanes<N> {
+impl Four {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for i in 0..N {
-            out[i] = f(self.0[i], other.0[i]);
-        }
-        Self(out)
+        let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (self.0, other.0);
+        Self([f(a0, b0), f(a1, b1), f(a2, b2), f(a3, b3)])
     }
 
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut out = [0.0; N];
-        for i in 0..N {
-            out[i] = f(self.0[i]);
-        }
-        Self(out)
+        let [a, b, c, d] = self.0;
+        Self([f(a), f(b), f(c), f(d)])
     }
 }
 
-impl<const N: usize> Add for Lanes<N> {
+impl Add for Four {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         self.zip(other, |a, b| a + b)
     }
 }
-impl<const N: usize> Sub for Lanes<N> {
+impl Sub for Four {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self.zip(other, |a, b| a - b)
     }
 }
-impl<const N: usize> Mul for Lanes<N> {
+impl Mul for Four {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
     }
 }
-impl<const N: usize> Div for Lanes<N> {
+impl Div for Four {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         self.zip(other, |a, b| a / b)
     }
 }
-impl<const N: usize> Neg for Lanes<N> {
+impl Neg for Four {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
         self.map(|a| -a)
     }
 }
-impl<const N: usize> AddAssign for Lanes<N> {
+impl AddAssign for Four {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
-impl<const N: usize> SubAssign for Lanes<N> {
+impl SubAssign for Four {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl<const N: usize> Scalar for Lanes<N> {
+impl Scalar for Four {
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        Self([value; N])
+        Self([value; WIDTH])
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -96,11 +93,13 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
-        for i in 0..N {
-            (sines[i], cosines[i]) = elementary::sin_cos(self.0[i]);
-        }
-        (Self(sines), Self(cosines))
+        let [a, b, c, d] = self.0;
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (elementary::sin_cos(a), elementary::sin_cos(b));
+        let ((sin_c, cos_c), (sin_d, cos_d)) = (elementary::sin_cos(c), elementary::sin_cos(d));
+        (
+            Self([sin_a, sin_b, sin_c, sin_d]),
+            Self([cos_a, cos_b, cos_c, cos_d]),
+        )
     }
     #[inline(always)]
     fn atan2(self, other: Self) -> Self {
@@ -108,21 +107,21 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
     #[inline(always)]
     fn choose_less(self, limit: Self, then: Self, otherwise: Self) -> Self {
-        let mut out = [0.0; N];
-        for i in 0..N {
-            out[i] = if self.0[i] < limit.0[i] {
+        let lane = |i: usize| {
+            if self.0[i] < limit.0[i] {
                 then.0[i]
             } else {
                 otherwise.0[i]
-            };
-        }
-        Self(out)
+            }
+        };
+        Self([lane(0), lane(1), lane(2), lane(3)])
     }
     #[inline(always)]
     fn every_below(self, limit: f64) -> bool {
         // all lanes without a branch
         #[allow(clippy::needless_bitwise_bool)]
-        let below = self.0.iter().fold(true, |all, x| all & (*x < limit));
+        let [a, b, c, d] = self.0;
+        let below = (a < limit) & (b < limit) & (c < limit) & (d < limit);
         below
     }
     #[inline(always)]

@@ -1,0 +1,61 @@
+//! The profiles that come with the program.
+
+/// Name and text of every shipped profile, by name.
+pub const SHIPPED: &[(&str, &str)] = &[
+    (
+        "abb_irb120",
+        include_str!("../../../robots/abb_irb120.yaml"),
+    ),
+    (
+        "abb_irb120_thesis",
+        include_str!("../../../robots/abb_irb120_thesis.yaml"),
+    ),
+    (
+        "abb_irb1600_6_145",
+        include_str!("../../../robots/abb_irb1600_6_145.yaml"),
+    ),
+    (
+        "abb_irb2600_12_165",
+        include_str!("../../../robots/abb_irb2600_12_165.yaml"),
+    ),
+    (
+        "abb_irb2600_12_185",
+        include_str!("../../../robots/abb_irb2600_12_185.yaml"),
+    ),
+    (
+        "abb_irb2600_20_165",
+        include_str!("../../../robots/abb_irb2600_20_165.yaml"),
+    ),
+    (
+        "fanuc_lrmate200ic",
+        include_str!("../../../robots/fanuc_lrmate200ic.yaml"),
+    ),
+    (
+        "fanuc_r2000ic_165f",
+        include_str!("../../../robots/fanuc_r2000ic_165f.yaml"),
+    ),
+    (
+        "kuka_kr210_r2700",
+        include_str!("../../../robots/kuka_kr210_r2700.yaml"),
+    ),
+    (
+        "kuka_kr6_r900",
+        include_str!("../../../robots/kuka_kr6_r900.yaml"),
+    ),
+    (
+        "staubli_tx2_90l",
+        include_str!("../../../robots/staubli_tx2_90l.yaml"),
+    ),
+    (
+        "universal_robots_ur10",
+        include_str!("../../../robots/universal_robots_ur10.yaml"),
+    ),
+    (
+        "universal_robots_ur5",
+        include_str!("../../../robots/universal_robots_ur5.yaml"),
+    ),
+    (
+        "yaskawa_ma1400",
+        include_str!("../../../robots/yaskawa_ma1400.yaml"),
+    ),
+];
