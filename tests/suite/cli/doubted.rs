@@ -225,6 +225,55 @@ fn columns_of_which_some_are_there_are_never_left_aside() {
 }
 
 #[test]
+fn a_misspelt_column_does_not_count_as_none() {
+    let folder = world();
+    let at = folder.path();
+    let joints = |column: &str, cell: &str| {
+        write(
+            at,
+            "j.csv",
+            &format!("{JOINTS},{column}\n0,0,0,0,30,0,{cell}\n"),
+        );
+    };
+    let pose = "400,0,500,0.7071068,0,0.7071068,0";
+    let poses = |column: &str, cell: &str| {
+        let header = "x_mm,y_mm,z_mm,qw,qx,qy,qz,branch";
+        write(
+            at,
+            "x.csv",
+            &format!("{header},{column}\n{pose},0,{cell}\n"),
+        );
+    };
+    let refuses = |command: &str, column: &str, meant: &str| {
+        let said = [
+            format!("the column `{column}` is not read"),
+            format!("is `{meant}` meant? rename the column, or leave it out"),
+        ];
+        refused(at, command, &said.each_ref().map(String::as_str));
+    };
+    for (column, meant) in [
+        ("temperature", "temperature_c"),
+        ("tempreature_c", "temperature_c"),
+        ("Time_s", "time_s"),
+    ] {
+        joints(column, "30");
+        refuses("fk --profile p.yaml --joints j.csv", column, meant);
+        refuses("simulate --profile p.yaml --joints j.csv", column, meant);
+        poses(column, "30");
+        refuses("ik --profile p.yaml --poses x.csv", column, meant);
+    }
+    let probed = text("docs/measuring/probed.csv");
+    let rows = probed.lines().map(|line| format!("{line},0.05\n"));
+    let rows: String = rows.collect();
+    write(at, "probed.csv", &rows.replacen(",0.05\n", ",sigma\n", 1));
+    refuses("register nominal.csv probed.csv", "sigma", "sigma_mm");
+    // other columns of a logger are left aside
+    joints("operator", "7");
+    let (status, ..) = run(at, "fk --profile p.yaml --joints j.csv");
+    assert_eq!(status, Some(0));
+}
+
+#[test]
 fn lengths_of_a_ballbar_are_doubted_where_balls_would_have_moved() {
     let folder = world();
     let at = folder.path();

@@ -446,3 +446,36 @@ fn an_accepted_target_gets_the_numbers_that_miss_least() {
     let landed = super::landings(&[BACKLASH, PLAIN], &[(name, after[0].as_str())], &files);
     assert!(landed < 0.8 * before, "{landed} of {before} mm");
 }
+
+#[test]
+fn a_part_that_is_written_of_data_that_the_files_do_not_declare_is_not_left_out() {
+    let run = |write: &str, more: &str, used: &str| {
+        let text = format!(
+            "MODULE t\nVAR num x;\nPROC main()\n{write}\nMoveJ [[430,0,400],{P},v100,fine,{used};\n\
+             ENDPROC\n{more}\nENDMODULE\n"
+        );
+        errors(&done(&[PLAIN], &[("t.mod", &text)]))
+    };
+    let set = "PROC place(INOUT wobjdata w)\nw.oframe.trans.x := 5;\nENDPROC";
+    for (write, more, used) in [
+        ("w1.oframe.trans.x := -20;", "", "tool0\\WObj:=w1"),
+        ("w1.oframe.trans := [x,0,0];", "", "tool0\\WObj:=w1"),
+        ("w1.uframe := [[0,0,0],[1,0,0,0]];", "", "tool0\\WObj:=w1"),
+        ("w1.ufprog := FALSE;", "", "tool0\\WObj:=w1"),
+        ("place w1;", set, "tool0\\WObj:=w1"),
+        ("t1.tframe.trans.z := 150;", "", "t1"),
+        ("t1.tload.mass := 3;", "", "t1"),
+    ] {
+        let errors = run(write, more, used);
+        assert_eq!(errors, ["frame-assigned-at-run-time"], "{write}");
+    }
+    // a routine that is not in the files may write what it is given
+    assert_eq!(
+        run("setw w1;", "", "tool0\\WObj:=w1"),
+        ["frame-passed-to-routine"]
+    );
+    // what is written as a whole is known
+    let whole = "w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[5,0,0],[1,0,0,0]]];";
+    assert_eq!(run(whole, "", "tool0\\WObj:=w1"), [""; 0]);
+    assert_eq!(run("", "", "tool0\\WObj:=w1"), [""; 0]);
+}

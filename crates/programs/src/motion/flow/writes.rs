@@ -127,9 +127,12 @@ impl Flow<'_> {
                 }
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
-                    None => self
-                        .with_parts(value, first, parts.clone())
-                        .map_or(atom, Atom::Value),
+                    None => match self.with_parts(value, first, parts.clone()) {
+                        Some(record) => Atom::Value(record),
+                        // one whose parts nobody knows
+                        None if matches!(self.value(value), Held::Frame(_)) => Atom::Anything,
+                        None => atom,
+                    },
                 },
                 other => other,
             };

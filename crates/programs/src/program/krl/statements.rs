@@ -20,15 +20,22 @@ pub(super) fn is_motion(word: &[u8]) -> bool {
 
 /// Functions that give the tool of the FDAT, or the orientation of the LDAT, that is their argument.
 fn only_reads(name: &[u8]) -> bool {
-    let mut known = [&b"STOOL"[..], b"STOOL2", b"SORI_TYP"].into_iter();
-    known.any(|known| name.eq_ignore_ascii_case(known))
+    is_any(name, &[b"STOOL", b"STOOL2", b"SORI_TYP"])
+}
+
+fn is_any(name: &[u8], known: &[&[u8]]) -> bool {
+    known.iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
 /// Which element `name[..].part=` writes, behind the name; `None` where it is no assignment.
 fn written(mut cursor: Cursor) -> Option<Index> {
     let at = cursor.brackets().ok()?;
     while cursor.take(b'.') {
-        cursor.next();
+        let part = cursor.next();
+        // of an FDAT what says nothing of tool and frame
+        if is_any(cursor.text(part), &[b"TQ_STATE", b"POINT2"]) {
+            return None;
+        }
         cursor.brackets().ok()?;
     }
     cursor.take(b'=').then(|| Index::of(at, &cursor))

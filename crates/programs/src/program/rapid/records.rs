@@ -59,6 +59,10 @@ impl Parts<'_> {
         }
     }
 
+    fn are_missing(&self, mut all: std::ops::Range<usize>) -> bool {
+        all.all(|at| self.value(at) == PartValue::Missing)
+    }
+
     fn is(&self, at: usize, truth: bool) -> bool {
         self.value(at) == PartValue::Flag(truth)
     }
@@ -75,19 +79,18 @@ impl Parts<'_> {
         fault.in_source(&self.sources[place.file as usize])
     }
 
-    /// The pose whose seven parts start at `first`; `None` where one is missing.
+    /// The pose whose seven parts start at `first`; `None` where they are missing. Of data that the
+    /// files do not declare, the program may write some: what the others are then nobody knows.
     fn pose(&self, first: usize) -> Result<Result<Option<Pose>, Remark>, ReadError> {
-        let mut values = [0.0; 7];
-        let mut computed = false;
-        for (value, at) in values.iter_mut().zip(first..) {
-            match self.value(at) {
-                PartValue::Missing => return Ok(Ok(None)),
-                PartValue::Number(number) => *value = number,
-                _ => computed = true,
-            }
+        if self.are_missing(first..first + 7) {
+            return Ok(Ok(None));
         }
-        if computed {
-            return Ok(Err(assigned()));
+        let mut values = [0.0; 7];
+        for (value, at) in values.iter_mut().zip(first..) {
+            let Some(number) = self.number(at) else {
+                return Ok(Err(assigned()));
+            };
+            *value = number;
         }
         let [x, y, z, quaternion @ ..] = values;
         let far = [x, y, z].iter().position(|v| v.abs() >= LARGEST);
@@ -205,9 +208,12 @@ fn tool(name: &str, parts: &Parts) -> Found {
         )));
     }
     let load = TOOL_LOAD..TOOL_LOAD + 4;
+    // of a tool that the files do not declare, a part of the load alone is no load
+    let is_declared = !parts.are_missing(1..TOOL_LOAD);
     if load
-        .into_iter()
+        .clone()
         .any(|at| parts.value(at) == PartValue::Computed)
+        || !is_declared && !parts.are_missing(load)
     {
         return Ok(Err(assigned()));
     }
@@ -240,10 +246,11 @@ fn work_object(name: &str, parts: &Parts, carried: bool) -> Found {
         // the user frame is that of the unit: what the file has in its place is not used
         return Ok(Ok(object));
     }
-    Ok(Ok(match (user, object) {
-        (Some(user), Some(object)) => Some(user * object),
-        _ => name.eq_ignore_ascii_case("wobj0").then(Pose::identity),
-    }))
+    Ok(match (user, object) {
+        (Some(user), Some(object)) => Ok(Some(user * object)),
+        (None, None) => Ok(name.eq_ignore_ascii_case("wobj0").then(Pose::identity)),
+        _ => Err(assigned()),
+    })
 }
 
 /// The load of leaves of a loaddata.

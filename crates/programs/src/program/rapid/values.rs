@@ -13,8 +13,8 @@ use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place,
-    Remark, RemarkId, Variable, VariableId, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, OVERWRITTEN, Place, Remark,
+    RemarkId, Variable, VariableId, short,
 };
 use crate::program::{Displacement, Shift, Stride};
 
@@ -349,17 +349,18 @@ impl Translator<'_> {
             return Expr::Value(known);
         }
         let name = element_name(self.resolved.spelling(name), place);
-        let value = if let Entity::Declared(datum) = entity
+        let parts = if let Entity::Declared(datum) = entity
             && let datum = *self.resolved.datum(datum)
             && let Some(leaves) = of_row(datum.value, place)
         {
-            Held::Record {
-                name: name.into(),
-                parts: self.record_parts(leaves, datum.place),
-                on: Box::default(),
-            }
+            self.record_parts(leaves, datum.place)
         } else {
-            Held::Frame(NamedFrame::still(name, None))
+            0..0
+        };
+        let value = Held::Record {
+            name: name.into(),
+            parts,
+            on: Box::default(),
         };
         let value = self.builder.script.value(value);
         self.frame_elements.insert((entity, place), value);
