@@ -81,9 +81,9 @@ pub(super) struct Check {
     /// Take an error, by its id, everywhere or at one place
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
-    /// Joints of the robot when a program starts, degrees: they tell the first posture and
-    /// direction
-    #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
+    /// Joints of the robot when a program starts, degrees, and its external axes, mm or degrees:
+    /// they tell the first posture and direction
+    #[arg(long, value_name = "Q1,…,Q6[,E1,…]", allow_hyphen_values = true)]
     start_joints: Option<String>,
     /// Language of the programs (default: by file name and content)
     #[arg(long, value_name = "ID")]
@@ -198,6 +198,7 @@ impl Check {
 
     fn options(&self, profile: &Profile) -> Result<Options, Failure> {
         let given = values::given(&self.tools, &self.frames, profile)?;
+        let start = values::start(self.start_joints.as_deref(), profile)?;
         Ok(Options {
             given,
             turning: match self.orientation {
@@ -207,11 +208,8 @@ impl Check {
             max_path_error_m: self.max_path_error.map(|mm| mm * MM),
             horizon_m: self.horizon * MM,
             limit_margin_rad: self.limit_margin * DEG,
-            start_joints: self
-                .start_joints
-                .as_deref()
-                .map(values::joints)
-                .transpose()?,
+            start_joints: start.joints_rad,
+            start_external: start.external,
             ..Options::default()
         })
     }

@@ -96,9 +96,9 @@ pub(super) struct Compensate {
     /// declares it elsewhere is refused
     #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
     wobjs: Vec<String>,
-    /// Joints of the robot when a program starts, degrees: they tell the first posture and
-    /// direction
-    #[arg(long, value_name = "Q1,…,Q6", allow_hyphen_values = true)]
+    /// Joints of the robot when a program starts, degrees, and its external axes, mm or degrees:
+    /// they tell the first posture and direction
+    #[arg(long, value_name = "Q1,…,Q6[,E1,…]", allow_hyphen_values = true)]
     start_joints: Option<String>,
     /// How far points that the running program derives from a target may land off their own wanted
     /// pose, mm
@@ -261,6 +261,7 @@ impl Compensate {
     fn options(&self, files: &Files, profile: &Profile, each: bool) -> Result<Options, Failure> {
         values::check_size("--max-derived-error", self.max_derived_error, 0.0)?;
         let mut given = values::given(&self.tools, &self.frames, profile)?;
+        let start = values::start(self.start_joints.as_deref(), profile)?;
         for text in &self.wobjs {
             let (name, file) = values::named(text);
             let name = name.ok_or_else(|| {
@@ -280,11 +281,8 @@ impl Compensate {
             decimals: self.decimals.map(usize::from),
             summary_only: !each,
             max_derived_error_m: Some(m_from_mm(self.max_derived_error)),
-            start_joints: self
-                .start_joints
-                .as_deref()
-                .map(values::joints)
-                .transpose()?,
+            start_joints: start.joints_rad,
+            start_external: start.external,
             max_shift: self
                 .max_shift
                 .as_deref()

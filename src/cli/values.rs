@@ -2,6 +2,8 @@
 
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, Separation, Vector};
+use crate::identify::external::from_files;
+use crate::model::external::Listed;
 use crate::model::profile::{Mounted, Profile};
 use crate::motion::Given;
 use crate::nearest;
@@ -76,27 +78,61 @@ pub(super) fn pose(text: &str) -> Option<Pose> {
     ]))
 }
 
-/// Joints `q1,…,q6` in degrees, as radians.
-pub(super) fn joints(text: &str) -> Result<[f64; 6], Failure> {
+/// Where the robot stands when a program starts.
+#[derive(Debug, Default)]
+pub(super) struct Start {
+    pub joints_rad: Option<[f64; 6]>,
+    /// The external axes that the profile lists, metres and radians; empty where they are not said.
+    pub external: Vec<f64>,
+}
+
+/// `q1,…,q6[,e1,…]`: joints in degrees, then the external axes of the profile, in millimetres and
+/// degrees.
+pub(super) fn start(text: Option<&str>, profile: &Profile) -> Result<Start, Failure> {
+    let Some(text) = text else {
+        return Ok(Start::default());
+    };
     let numbers: Option<Vec<f64>> = text
         .split(',')
         .map(|n| n.trim().parse().ok().filter(|n: &f64| n.is_finite()))
         .collect();
     let numbers = numbers.unwrap_or_default();
-    if numbers.len() > 6 {
+    let Some((joints, external)) = numbers.split_first_chunk::<6>() else {
         return Err(Failure::with_hint(
-            format!("--start-joints {text}: more than six joints"),
-            "the profile describes no external axes",
-        ));
-    }
-    let joints: Result<[f64; 6], _> = numbers.try_into();
-    let joints = joints.map_err(|_| {
-        Failure::with_hint(
             format!("--start-joints {text}: these are not six finite numbers"),
             "give the controller's joints in degrees: --start-joints 0,-90,90,0,90,0",
-        )
-    })?;
-    Ok(joints.map(|q| q * DEG))
+        ));
+    };
+    let axes: Vec<Listed> = profile.external.listed().collect();
+    if !external.is_empty() && external.len() != axes.len() {
+        let units = axes.iter().map(|axis| {
+            let unit = if axis.is_linear() { "mm" } else { "deg" };
+            format!("{} ({unit})", axis.name())
+        });
+        let hint = if axes.is_empty() {
+            "the profile describes no external axes: give six numbers".to_owned()
+        } else {
+            let units: Vec<String> = units.collect();
+            format!(
+                "behind the joints come {}, or none of them",
+                units.join(", ")
+            )
+        };
+        let message = format!(
+            "--start-joints {text}: {} numbers behind the six joints; external axes in the \
+             profile: {}",
+            external.len(),
+            axes.len()
+        );
+        return Err(Failure::with_hint(message, hint));
+    }
+    let places = axes.iter().zip(external);
+    Ok(Start {
+        joints_rad: Some(joints.map(|q| q * DEG)),
+        external: places
+            .map(|(axis, &place)| from_files(axis, place))
+            .collect(),
+    })
 }
 
 /// `[NAME=]VALUE`: the name, if there is one, and the value's text.

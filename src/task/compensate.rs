@@ -120,6 +120,7 @@ fn keep_path(
     let checked = crate::check::Options {
         given: request.options.given.clone(),
         start_joints: request.options.start_joints,
+        start_external: request.options.start_external.clone(),
         ..crate::check::Options::default()
     };
     let decimals = request.options.decimals;

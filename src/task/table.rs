@@ -61,7 +61,7 @@ impl<'a> Table<'a> {
             };
             Failure::at(source, line, 1, None, message, "")
         };
-        let header = reader
+        let header: Vec<String> = reader
             .headers()
             .map_err(|error| failure(&error))?
             .iter()

@@ -5,7 +5,9 @@
 //! and has no other error: at a value e along x everything lands (e − 1000)/1000 farther along x, so
 //! the correction of a target is that by hand.
 
-use super::{errors, profile, rapid, run, written};
+use super::checked::tooldata;
+use super::{errors, profile, profile_text, rapid, run, written};
+use crate::support::{poseshift, scratch};
 
 const SCALE: &str = "{effect: track_scale, axis: 1, ratio: 0.001}";
 
@@ -171,4 +173,46 @@ fn variables_of_the_base_that_a_job_writes_are_not_known() {
             assert!(said.any(|f| f.message.contains("BP001")), "{before}");
         }
     }
+}
+
+#[test]
+fn where_external_axes_stand_at_the_start_tells_from_which_side_they_come() {
+    let folder = scratch();
+    let robot = profile_text(
+        &rail("eax_a"),
+        &["{effect: track_backlash, axis: 1, width_mm: 0.2}"],
+    );
+    let data = format!("{POINT}\n{}", tooldata());
+    let [program, profile] = ["t.mod", "p.yaml"].map(|name| folder.path().join(name));
+    std::fs::write(&program, rapid(&data, "MoveJ p1,v100,fine,t;\n")).expect("scratch");
+    std::fs::write(&profile, robot).expect("scratch");
+    let out = folder.path().join("out.mod");
+    let run = |start: Option<&str>| {
+        let mut command = poseshift();
+        command.arg("compensate").arg(&program).arg("--profile");
+        command.arg(&profile).arg("-o").arg(&out);
+        let start = start.map(|start| format!("--start-joints={start}"));
+        let done = command.args(start).output().expect("the program starts");
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        (done.status.code(), said)
+    };
+    let x = || {
+        let text = std::fs::read_to_string(&out).expect("written");
+        let (_, behind) = text.split_once("p1:=[[").expect("the target");
+        let x = behind.split(',').next().expect("a number");
+        x.parse::<f64>().expect("a number")
+    };
+    // half the width against the way of the rail: from 0 to 100 mm, and from 500 back
+    for (start, expected) in [("0,0,10,0,60,0,0", 639.9), ("0,0,10,0,60,0,500", 640.1)] {
+        let (status, said) = run(Some(start));
+        assert_eq!(status, Some(0), "{said}");
+        assert!((x() - expected).abs() < 1e-3, "{start}: {}", x());
+    }
+    let (status, said) = run(Some("0,0,10,0,60,0"));
+    assert_eq!(status, Some(0), "{said}");
+    assert!((x() - 640.0).abs() < 1e-3, "{}", x());
+    let (status, said) = run(Some("0,0,10,0,60,0,0,0"));
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("external axes in the profile: 1"), "{said}");
+    assert!(said.contains("eax_a (mm)"), "{said}");
 }

@@ -1,7 +1,7 @@
 //! What the user decides: accepted errors, targets split, ways past a singularity, files for their
 //! declarations only, good programs next to refused ones.
 
-use super::{BACKLASH, P, PLAIN, errors, given, message, profile, rapid, try_with};
+use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile, rapid, try_with};
 use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};
 use poseshift::finding::Severity;
 use poseshift::geometry::{Pose, Separation};

@@ -277,9 +277,11 @@ impl One {
                 seen.len() - 1
             })
         });
+        let stops: Vec<usize> = stops.collect();
         Self {
-            stops: stops.collect(),
-            layout: Layout::of(&problem),
+            // reflectors that are measured at one stop share what moves the plate there
+            layout: Layout::of(&problem).by_configuration(&stops),
+            stops,
             problem,
             estimate,
             residual,

@@ -94,6 +94,9 @@ pub struct Options {
     pub singularity_rad: f64,
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
+    /// Where the external axes that the profile lists stand then, metres and radians; empty where
+    /// that is not said.
+    pub start_external: Vec<f64>,
 }
 
 impl Default for Options {
@@ -106,6 +109,7 @@ impl Default for Options {
             limit_margin_rad: 1.0 * DEG,
             singularity_rad: 1.0 * DEG,
             start_joints: None,
+            start_external: Vec::new(),
         }
     }
 }

@@ -172,6 +172,7 @@ impl Walk {
             &mut program,
             sources,
             (profile, plates),
+            &options.start_external,
             &mut findings,
         );
         let has_numbers = |motion: &Move| {

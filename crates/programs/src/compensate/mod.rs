@@ -118,6 +118,9 @@ pub struct Options {
     pub each_for_itself: bool,
     /// The joints in which the robot stands when a program starts, radians.
     pub start_joints: Option<[f64; 6]>,
+    /// Where the external axes that the profile lists stand then, metres and radians; empty where
+    /// that is not said.
+    pub start_external: Vec<f64>,
     /// Which methods may search the joints of the real arm.
     pub methods: Methods,
     /// How far a correction may shift a target; without it ten times what the profile's effects
@@ -319,6 +322,7 @@ fn with(
         &mut program,
         sources,
         (profile, &[]),
+        &options.start_external,
         &mut findings,
     );
     setting::check_measured(&program, &options.given)?;

@@ -87,7 +87,7 @@ impl Known {
     }
 }
 
-/// Gives moves the stand of external axes, and blocks targets of which it is not known, or beyond
+/// Gives moves the stand of external axes, which begin at `start` where that is said, and blocks targets of which it is not known, or beyond
 /// limits: of the track, of what carries their work frames, and of the positioners next to the
 /// profile, by index.
 pub(crate) fn settle(
@@ -95,8 +95,10 @@ pub(crate) fn settle(
     program: &mut Program,
     sources: &[Source],
     (profile, positioners): (&Profile, &[usize]),
+    start: &[f64],
     findings: &mut Vec<Finding>,
 ) {
+    program.stands_at_start = start.iter().copied().map(Some).collect();
     let axes: Vec<Listed> = profile.external.listed().collect();
     if axes.is_empty() && !program.frames.iter().any(Frame::is_carried) {
         return;
@@ -226,19 +228,23 @@ fn followed(
                 let here = at * count + k;
                 let (mut value, mut direction) = (Known::Open, Known::Open);
                 for before in program.before(motion) {
-                    let from = match before {
-                        Before::One(before) => *before as usize * count + k,
-                        Before::Start | Before::Anywhere | Before::Several(_) => {
-                            (value, direction) = (Known::Unknown, Known::Unknown);
-                            continue;
+                    let (from, moved) = match before {
+                        Before::One(before) => {
+                            let from = *before as usize * count + k;
+                            (values[from], directions[from])
                         }
+                        Before::Start => match program.stands_at_start.get(k) {
+                            Some(Some(start)) => (Known::Is(*start), Known::Unknown),
+                            _ => (Known::Unknown, Known::Unknown),
+                        },
+                        Before::Anywhere | Before::Several(_) => (Known::Unknown, Known::Unknown),
                     };
-                    value = value.and(values[from]);
-                    direction = direction.and(match (values[from], values[here]) {
+                    value = value.and(from);
+                    direction = direction.and(match (from, values[here]) {
                         (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
                             Known::Is((to - from).signum())
                         }
-                        (Known::Is(_), Known::Is(_)) => directions[from],
+                        (Known::Is(_), Known::Is(_)) => moved,
                         (Known::Open, _) | (_, Known::Open) => Known::Open,
                         _ => Known::Unknown,
                     });

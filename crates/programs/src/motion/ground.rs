@@ -11,7 +11,7 @@ use crate::inverse::{Arm, Branch, Unsupported};
 use crate::model::Conditions;
 use crate::profile::Profile;
 use crate::program::{
-    Configuration, Displacement, FrameId, Language, Move, Program, Settings, Shape, Source,
+    Before, Configuration, Displacement, FrameId, Language, Move, Program, Settings, Shape, Source,
     TargetId, ToolId, Value,
 };
 use std::sync::Arc;
@@ -125,9 +125,15 @@ impl<'a> Ground<'a> {
         carried && frame.stand.is_none()
     }
 
-    /// What external axes do on the way from the end of one move to that of another.
+    /// What external axes do on the way to the end of a move from that of another one; from where
+    /// the program starts, where there is none.
     pub(crate) fn ride(&self, from: Option<u32>, to: &Move) -> Option<Arc<Ride>> {
-        let from = from.map_or(&[][..], |from| self.program.stands_at(from as usize));
+        let starts = || self.program.before(to).contains(&Before::Start);
+        let from = match from {
+            Some(from) => self.program.stands_at(from as usize),
+            None if starts() => &self.program.stands_at_start,
+            None => &[],
+        };
         let stand = self.program.frames[to.frame].stand.as_ref();
         stand.map(|to| Ride::of(self.profile, from, to))
     }
@@ -208,6 +214,7 @@ impl<'a> Ground<'a> {
             configuration: *configuration,
             honoured: true,
             start: None,
+            elsewhere: None,
         };
         posture::choose(self, &asked, findings).map(|posture| (posture.branch, posture.q))
     }

@@ -6,6 +6,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Ambiguous, Answer, Arm, Branch};
+use crate::model::JointSense;
 use crate::program::{Configuration, TargetId};
 
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both
@@ -37,6 +38,20 @@ pub(super) struct Asked<'a> {
     pub honoured: bool,
     /// The joints from which the robot comes, or from which its inverse starts.
     pub start: Option<[f64; 6]>,
+    /// Joints near which another move names its posture at this target: looked at where it is not
+    /// known from where the robot comes.
+    pub elsewhere: Option<[f64; 6]>,
+}
+
+impl Asked<'_> {
+    /// The joints to which the posture is nearest where nothing else decides.
+    fn near(&self) -> [f64; 6] {
+        let middle = |joint: &JointSense| 0.0_f64.clamp(joint.min_rad, joint.max_rad);
+        let joints = &self.arm.mechanism().joints;
+        self.start
+            .or(self.elsewhere)
+            .unwrap_or_else(|| joints.each_ref().map(middle))
+    }
 }
 
 /// The posture that configuration data and the joints before ask for; `None` where there is none,
@@ -57,6 +72,7 @@ pub(super) fn choose(
         configuration,
         honoured,
         start,
+        ..
     } = asked;
     if arm.has_offset_wrist() {
         match on_track(asked) {
@@ -76,11 +92,7 @@ pub(super) fn choose(
             return Some(same);
         }
     }
-    let middle = arm
-        .mechanism()
-        .joints
-        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
-    let near = start.unwrap_or(middle);
+    let near = asked.near();
     let postures: Vec<Posture> = Branch::ALL
         .iter()
         .filter_map(|&branch| on_branch(arm, wanted, branch, &near, configuration))
@@ -184,10 +196,6 @@ fn with_kept(asked: &Asked) -> Configuration {
 /// posture before where several have it. `None` where none has it.
 fn on_track(asked: &Asked) -> Result<Option<Posture>, Ambiguous> {
     let (arm, wanted) = (asked.arm, &asked.wanted);
-    let middle = arm
-        .mechanism()
-        .joints
-        .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
     let before = asked.start.as_ref();
     // a robot that does not honour its configuration goes on as it came
     let free = !asked.honoured && before.is_some();
@@ -198,7 +206,7 @@ fn on_track(asked: &Asked) -> Result<Option<Posture>, Ambiguous> {
             return Ok(Some(posture));
         }
     }
-    let near = asked.start.unwrap_or(middle);
+    let near = asked.near();
     let posture = |answer: &Answer| configured(arm, answer.branch, answer.q, &asked.configuration);
     let is_meant = |answer: &Answer| posture(answer).as_ref().is_some_and(fits);
     let chosen = arm.choose(wanted, &near, before, is_meant)?;

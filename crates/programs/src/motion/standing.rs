@@ -50,8 +50,12 @@ impl Walker<'_, '_> {
             configuration: *configuration,
             honoured: motion.configured && near.is_none(),
             start: near.or(start),
+            elsewhere: self.named.get(&target).copied(),
         };
         let posture = posture::choose(ground, &asked, self.findings)?;
+        if near.is_some() {
+            self.named.insert(target, posture.q);
+        }
         self.carried(motion, target, wanted, posture)
     }
 
@@ -90,6 +94,7 @@ impl Walker<'_, '_> {
             configuration: any,
             honoured: false,
             start: Some(posture.q),
+            elsewhere: None,
         };
         posture::choose(ground, &asked, self.findings)
     }
@@ -188,6 +193,7 @@ impl Walker<'_, '_> {
             configuration: *configuration,
             honoured: true,
             start: Some(*q),
+            elsewhere: None,
         };
         let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
         let meant = posture.configured.then_some(posture)?;

@@ -16,7 +16,7 @@ use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashMap};
 
 /// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
@@ -157,6 +157,7 @@ pub(crate) fn walk(
         },
         open: BinaryHeap::new(),
         many: false,
+        named: HashMap::new(),
     };
     let behind = Behind::of(ground);
     for at in 0..count {
@@ -227,6 +228,8 @@ pub(super) struct Walker<'a, 'f> {
     /// Moves to arrive at, and from which arrival: the first of the text first.
     open: BinaryHeap<Reverse<(u32, u32)>>,
     many: bool,
+    /// Where a move says itself near which joints it comes to a target: its posture there.
+    pub(super) named: HashMap<TargetId, [f64; 6]>,
 }
 
 impl Walker<'_, '_> {

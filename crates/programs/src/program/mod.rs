@@ -445,6 +445,8 @@ pub struct Program {
     /// Where each listed external axis stands at the end of each move, see
     /// [`Program::stands_at`].
     pub stands: Vec<Option<f64>>,
+    /// Where they stand when the program starts, where that is said.
+    pub stands_at_start: Vec<Option<f64>>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }
