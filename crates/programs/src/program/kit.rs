@@ -184,3 +184,11 @@ pub(super) fn load_chosen(id: &'static str, hint: &'static str) -> Remark {
         hint,
     }
 }
+
+/// The name of a label as a number: FNV-1a. Two names of one routine with the same would be one
+/// label; at 64 bits there are none.
+pub(super) fn label_key(name: &[u8]) -> u64 {
+    name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

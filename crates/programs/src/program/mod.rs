@@ -123,6 +123,14 @@ pub struct Layout {
     pub variant: u8,
 }
 
+impl Layout {
+    /// The first form of a shape.
+    #[must_use]
+    pub const fn of(shape: Shape) -> Self {
+        Self { shape, variant: 0 }
+    }
+}
+
 /// What a language must know besides the files.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Settings {
@@ -450,6 +458,26 @@ pub struct Program {
 }
 
 impl Target {
+    /// One without a name and, so far, without numbers, from a place up to a byte.
+    #[must_use]
+    pub fn new(place: Place, end: u32, layout: Layout) -> Self {
+        Self {
+            name: None,
+            file: place.file,
+            offset: place.offset,
+            end,
+            layout,
+            numbers: 0..0,
+            blocked: false,
+        }
+    }
+
+    /// Where it begins.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        Place::new(self.file, self.offset)
+    }
+
     /// Its bytes in its file.
     #[must_use]
     pub fn span(&self) -> Range<usize> {

@@ -107,10 +107,7 @@ impl Reader<'_> {
                 _ => Motion::Linear,
             };
             // what is more than a move to its points cannot be repeated
-            let target_span = is_repeatable.then(|| Span {
-                start: short(start + span.start),
-                end: short(start + span.end),
-            });
+            let target_span = is_repeatable.then(|| Span::of(start + span.start..start + span.end));
             self.go_to(
                 named,
                 &Instruction {

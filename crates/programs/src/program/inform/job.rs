@@ -327,10 +327,7 @@ impl<'a> Positions<'a> {
             let first = counts.split(|&b| b == b',' || b == b' ').next();
             let first = first.unwrap_or_default();
             let at = line.start + line.text.len() - counts.len();
-            let span = Span {
-                start: short(at),
-                end: short(at + first.len()),
-            };
+            let span = Span::of(at..at + first.len());
             job.announced = number::whole(first).map(|count| (count, span));
             return Ok(());
         }

@@ -22,17 +22,9 @@ impl Reader<'_> {
         self.builder.script.findings.push(finding);
     }
 
-    fn place_of(&self, target: TargetId) -> Place {
-        let target = &self.positions.targets[target];
-        Place {
-            file: target.file,
-            offset: target.offset,
-        }
-    }
-
     /// The target has to stay as it is; `because` is where the files say so.
     fn refuse(&mut self, target: TargetId, cause: Cause, because: Option<Place>) {
-        let place = self.place_of(target);
+        let place = self.positions.targets[target].place();
         let (id, wrong, hint) = cause.words();
         let see = because.map_or_else(String::new, |because| {
             let source = &self.sources[because.file as usize];
@@ -72,13 +64,13 @@ impl Reader<'_> {
                 } else if point.letter == Letter::P
                     && let Some(&first) = differing.get(&point.number)
                 {
-                    let because = self.place_of(first);
+                    let because = self.positions.targets[first].place();
                     self.refuse(target, Cause::Ambiguous, Some(because));
                 }
             }
             if let Some(target) = unknown_pulses {
                 let (id, wrong, hint) = Cause::Pulses.words();
-                let place = self.place_of(target);
+                let place = self.positions.targets[target].place();
                 self.say(id, Severity::Warning, place, wrong.to_owned(), hint);
             }
             if variables > 0 {
@@ -88,10 +80,7 @@ impl Reader<'_> {
                 );
                 let hint = "make sure that only the jobs given here set them";
                 let job = &self.positions.jobs[at];
-                let place = Place {
-                    file: job.file,
-                    offset: job.offset,
-                };
+                let place = Place::new(job.file, job.offset);
                 self.say("position-variable", Severity::Note, place, message, hint);
             }
             self.check_count(at, positions);
@@ -131,10 +120,7 @@ impl Reader<'_> {
             return;
         };
         if count != announced as usize {
-            let place = Place {
-                file: job.file,
-                offset: span.start,
-            };
+            let place = Place::new(job.file, span.start);
             let message = format!(
                 "the header announces {announced} C positions (NPOS), and there are {count}"
             );

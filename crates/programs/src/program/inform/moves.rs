@@ -60,10 +60,7 @@ impl<'a> Words<'a> {
         }
         let operand = Operand::of(word).filter(|_| self.robot.is_none());
         if let Some(operand) = operand {
-            let span = Span {
-                start: short(at),
-                end: short(end),
-            };
+            let span = Span::of(at..end);
             self.robot = Some((operand, span));
         }
         *is_plain &= operand.is_some() || PLAIN.iter().any(|tag| word.starts_with(tag));

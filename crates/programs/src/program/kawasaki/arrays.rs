@@ -2,7 +2,7 @@
 
 use super::calls::{Handed, stem_of};
 use super::reader::Reader;
-use super::remarks::{Cause, unfollowed};
+use super::remarks::{COMPUTED, UNFOLLOWED};
 use super::targets::Name;
 use crate::program::script::{Argument, Expr, RoutineId};
 use foldhash::HashMap;
@@ -86,11 +86,7 @@ impl Reader<'_> {
         let keys = keys.unwrap_or_default();
         for key in keys.iter().filter(|_| callees.is_empty()) {
             let variable = self.element(name, key);
-            arguments.push(Argument {
-                parameter: None,
-                value: Expr::Variable(variable),
-                back: None,
-            });
+            arguments.push(Argument::new(None, Expr::Variable(variable), None));
         }
         for &callee in callees {
             let Some(parameter) = self.parameters[callee as usize].get(number) else {
@@ -103,13 +99,10 @@ impl Reader<'_> {
                 let value = match variable {
                     Some(variable) => Expr::Variable(variable),
                     // what another call gave is there no more
-                    None => self.unknown(Cause::Computed.remark()),
+                    None => self.unknown(COMPUTED),
                 };
-                arguments.push(Argument {
-                    parameter: Some(self.parameter(callee, stem.clone(), key)),
-                    value,
-                    back: variable,
-                });
+                let parameter = self.parameter(callee, stem.clone(), key);
+                arguments.push(Argument::new(Some(parameter), value, variable));
             }
         }
         true
@@ -126,12 +119,6 @@ impl Reader<'_> {
         let Some(table) = self.table(name) else {
             return;
         };
-        let script = &mut self.builder.script;
-        let remark = script.remark(unfollowed());
-        for variable in script.tables[table as usize].entries.values() {
-            if let Expr::Target(target) = script.variables[*variable as usize].declared {
-                script.refused.push((target, remark));
-            }
-        }
+        self.builder.script.refuse_all(table, UNFOLLOWED);
     }
 }

@@ -4,7 +4,7 @@ use super::keywords::begins_with;
 use super::reader::Reader;
 use super::targets::Name;
 use crate::program::Source;
-use crate::program::script::{Argument, Call, Expr, RoutineId, Start, VariableId};
+use crate::program::script::{Argument, Call, RoutineId, Start, VariableId};
 use crate::program::words::{Kind, Words};
 
 /// A name that a program hands to another, which may write it.
@@ -160,14 +160,10 @@ impl<'a> Reader<'a> {
             self.any.push((any, made));
             made
         };
-        let call = Call {
-            place,
-            callees: [routine].into(),
+        self.put_call(Call {
             foreign: true,
-            name: Source::text(part.whole()).into(),
-            arguments: 0..0,
-        };
-        self.put_call(call);
+            ..Call::of(place, [routine].into(), Source::text(part.whole()), 0..0)
+        });
     }
 
     /// What stands for any program: a routine that calls one of them.
@@ -181,13 +177,8 @@ impl<'a> Reader<'a> {
             self.builder.begin_choice();
             for callee in callees {
                 self.builder.next_branch(false);
-                self.builder.call(Call {
-                    place,
-                    callees: [callee].into(),
-                    foreign: false,
-                    name: "any program".into(),
-                    arguments: 0..0,
-                });
+                let call = Call::of(place, [callee].into(), "any program", 0..0);
+                self.builder.call(call);
             }
             self.builder.end_choice();
             self.builder.close();
@@ -199,13 +190,9 @@ impl<'a> Reader<'a> {
         let own = self.here.routine;
         self.called
             .extend(callees.iter().filter(|callee| **callee != own));
-        Call {
-            place: self.place(self.here.at),
-            foreign: callees.is_empty(),
-            callees,
-            name: Source::text(name).into(),
-            arguments: self.builder.script.give(given),
-        }
+        let arguments = self.builder.script.give(given);
+        let place = self.place(self.here.at);
+        Call::of(place, callees, Source::text(name), arguments)
     }
 
     /// What a call does to the flow, where it stands.
@@ -244,25 +231,15 @@ impl<'a> Reader<'a> {
         let position = self.position(given);
         let value = self.expr(&position);
         if callees.is_empty() {
-            arguments.push(Argument {
-                parameter: None,
-                value,
-                back: None,
-            });
+            arguments.push(Argument::new(None, value, None));
         }
         for &callee in callees {
             let Some(parameter) = self.parameters[callee as usize].get(number) else {
                 continue;
             };
             let stem = stem_of(parameter, &name);
-            arguments.push(Argument {
-                parameter: Some(self.parameter(callee, stem, Vec::new())),
-                value,
-                back: match value {
-                    Expr::Variable(variable) => Some(variable),
-                    _ => None,
-                },
-            });
+            let parameter = self.parameter(callee, stem, Vec::new());
+            arguments.push(Argument::new(Some(parameter), value, value.variable()));
         }
     }
 

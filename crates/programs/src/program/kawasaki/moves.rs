@@ -2,11 +2,11 @@
 
 use super::keywords::begins_with;
 use super::reader::Reader;
-use super::remarks::Cause;
+use super::remarks::{ARC_CHAIN, RELATIVE, SEARCH};
 use super::targets::{Position, literals};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM};
-use crate::program::script::{Expr, Held, Instruction, Modal, Span, Variable, short};
+use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
 
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
                 let target = self.expr(&found);
                 let mut modal = self.modal_of(motion, Some(&found));
                 if is_chain {
-                    modal.guards = self.reason(Cause::ArcChain);
+                    modal.guards = self.reason(ARC_CHAIN);
                 }
                 self.put(part, Some(first), target, motion, false, modal);
                 self.here.last = Some(found);
@@ -136,7 +136,7 @@ impl<'a> Reader<'a> {
             Verb::Search => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
                 let found = self.position(first.part(0..till));
-                let guards = self.reason(Cause::Search);
+                let guards = self.reason(SEARCH);
                 let target = self.expr(&found);
                 let modal = Modal {
                     guards,
@@ -170,20 +170,19 @@ impl<'a> Reader<'a> {
         if let Some(known) = to.filter(|to| to.by.is_some()) {
             return self.go(part, None, known, motion, false);
         }
-        let unknown = self.unknown(Cause::Relative.remark());
+        let unknown = self.unknown(RELATIVE);
         let modal = self.modal_of(motion, None);
         self.put(part, None, unknown, motion, false, modal);
         self.here.last = None;
     }
 
-    fn reason(&mut self, cause: Cause) -> u32 {
-        let remark = self.builder.script.remark(cause.remark());
+    fn reason(&mut self, remark: Remark) -> u32 {
+        let remark = self.builder.script.remark(remark);
         let value = self.builder.script.held(Held::Remark(remark));
         let place = self.place(self.here.at);
         let script = &mut self.builder.script;
         let reason = script.variable(Variable::new("move", place, value));
-        script.guards.push([reason].into());
-        short(script.guards.len() - 1)
+        script.guard([reason])
     }
 
     fn go(
@@ -234,10 +233,7 @@ impl<'a> Reader<'a> {
             motion,
             free_orientation: is_free,
             target,
-            target_span: Span {
-                start: short(named.start),
-                end: short(named.end),
-            },
+            target_span: Span::of(named),
             ..Instruction::at(self.place(whole.start))
         };
         self.builder.go(instruction, modal);

@@ -5,7 +5,7 @@ use super::keywords::begins_with;
 use super::moves::Verb;
 use super::pose_of;
 use super::reader::{Reader, behind_label};
-use super::remarks::Cause;
+use super::remarks::ASSIGNED;
 use super::sections::{Sections, lines};
 use super::targets::Name;
 use crate::geometry::Pose;
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
         for (name, pose) in found {
             let text = name.text();
             let value = self.frame_value(&format!("BASE+{text}"), start.map(|base| base * pose));
-            let place = Place { file: 0, offset: 0 };
+            let place = Place::NOWHERE;
             let frame = Variable::new(text.as_str(), place, value);
             let frame = self.builder.script.variable(frame);
             self.plates.insert(name, Plate { text, pose, frame });
@@ -195,17 +195,18 @@ impl<'a> Reader<'a> {
         (numbers.len() == 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
-    /// The plate that a sum begins with, its object, and the words of that.
+    /// The plate that a sum begins with (the work frame, and where that is on the base), its object,
+    /// and the words of that.
     pub(super) fn on_plate<'w>(
         &self,
         position: Words<'a, 'w>,
-    ) -> Option<(&Plate, Object, Words<'a, 'w>)> {
+    ) -> Option<((VariableId, Pose), Object, Words<'a, 'w>)> {
         if self.plates.is_empty() {
             return None;
         }
         let (plate, object, words) = sum(position)?;
         let plate = self.plates.get(&plate)?;
-        Some((plate, object, words))
+        Some(((plate.frame, plate.pose), object, words))
     }
 
     /// The base is another: so are the plates on it.
@@ -235,7 +236,7 @@ impl<'a> Reader<'a> {
                     let name = format!("{name}+{}", plate.text);
                     self.frame_value(&name, pose.map(|base| base * plate.pose))
                 }
-                None => self.unknown(Cause::Assigned.remark()),
+                None => self.unknown(ASSIGNED),
             };
             self.write(Written::One(plate.frame), How::Whole(value));
         }

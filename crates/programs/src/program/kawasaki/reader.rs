@@ -5,15 +5,16 @@ use super::calls::{Any, Handed};
 use super::keywords::{begins_with, find};
 use super::moves::Verb;
 use super::plates::Plates;
-use super::remarks::Cause;
+use super::remarks::{COMPUTED, SAVED, SWITCHED};
 use super::sections::{Entry, Program, Sections, lines};
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
+use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
     Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
-    Write, Written, short,
+    Written, short,
 };
 use crate::program::words::{Kind, Words};
 use crate::program::{Number, Source, SpeedZone};
@@ -39,6 +40,7 @@ pub(super) struct Here {
     watched: Vec<Watch>,
 }
 
+#[derive(Default)]
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
     pub builder: Builder,
@@ -74,21 +76,19 @@ pub(super) struct Reader<'a> {
     pub here: Here,
 }
 
-const NOWHERE: Place = Place { file: 0, offset: 0 };
-
 /// The statements of all files.
 pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     let mut builder = Builder::default();
     let honoured = builder.script.value(Held::Flag(true));
     let off = builder.script.held(Held::Flag(false));
     let state = |builder: &mut Builder, name: &str, declared: Expr| {
-        let made = Variable::new(name, NOWHERE, declared);
+        let made = Variable::new(name, Place::NOWHERE, declared);
         builder.script.variable(made)
     };
     let switched = state(&mut builder, "configuration", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
     let saved = starts.map(|pose| {
-        let remark = builder.script.remark(Cause::Saved.remark());
+        let remark = builder.script.remark(SAVED);
         let reason = builder.script.held(Held::Remark(remark));
         state(
             &mut builder,
@@ -96,30 +96,14 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             if pose.is_some() { reason } else { off },
         )
     });
-    builder
-        .script
-        .guards
-        .push([switched, saved[0], saved[1]].into());
     let mut reader = Reader {
         sources,
-        switches: short(builder.script.guards.len() - 1),
-        tool: 0,
-        base: 0,
+        switches: builder.script.guard([switched, saved[0], saved[1]]),
         saved,
         builder,
-        names: HashMap::new(),
-        locals: HashMap::new(),
-        assigned: HashSet::new(),
-        written: HashSet::new(),
-        programs: HashMap::new(),
-        parameters: Vec::new(),
-        plates: Plates::default(),
-        given: Given::default(),
-        called: HashSet::new(),
-        any: Vec::new(),
         switched,
         honoured,
-        here: Here::default(),
+        ..Reader::default()
     };
     let [tool, base] = [("TOOL", starts[0]), ("BASE", starts[1])].map(|(name, pose)| {
         let before = reader.frame_value(name, pose);
@@ -132,10 +116,7 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             reader.declare(entry, short(file));
         }
         for program in &of.programs {
-            let place = Place {
-                file: short(file),
-                offset: program.at,
-            };
+            let place = Place::new(short(file), program.at);
             let name = Source::text(program.name);
             let routine = reader.builder.declare(name, place, Start::Called);
             let name = program.name.to_ascii_lowercase();
@@ -173,21 +154,14 @@ fn start(sections: &[Sections], name: &[u8]) -> Option<Pose> {
     all.all(is_same).then(|| super::pose_of(first))
 }
 
-/// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits
-/// there are none.
+/// A label as a number, in any case.
 pub(super) fn key(label: &[u8]) -> u64 {
-    let first = 0xcbf2_9ce4_8422_2325_u64;
-    label.iter().fold(first, |hash, byte| {
-        (hash ^ u64::from(byte.to_ascii_lowercase())).wrapping_mul(0x0100_0000_01b3)
-    })
+    label_key(&label.to_ascii_lowercase())
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn place(&self, offset: usize) -> Place {
-        Place {
-            file: self.here.file,
-            offset: short(offset),
-        }
+        Place::new(self.here.file, short(offset))
     }
 
     /// Notes the names that a program writes, whenever it runs, and those that it hands to others.
@@ -340,7 +314,7 @@ impl<'a> Reader<'a> {
         } else if is(b"HERE") {
             if let Some((name, is_sum)) = Name::defined(rest) {
                 let here = if is_sum {
-                    self.unknown(Cause::Computed.remark())
+                    self.unknown(COMPUTED)
                 } else {
                     self.builder.script.held(Held::Actual)
                 };
@@ -358,7 +332,7 @@ impl<'a> Reader<'a> {
                 self.call(part.behind(at + 1), true);
             }
         } else if SWITCHES.iter().any(|word| is(word)) {
-            let remark = self.builder.script.remark(Cause::Switched.remark());
+            let remark = self.builder.script.remark(SWITCHED);
             self.switch(Held::Remark(remark));
         }
     }
@@ -371,11 +345,7 @@ impl<'a> Reader<'a> {
 
     pub(super) fn write(&mut self, variable: Written, how: How) {
         let place = self.place(self.here.at);
-        self.builder.write(Write {
-            place,
-            variable,
-            how,
-        });
+        self.builder.write(place, variable, how);
     }
 
     fn write_name(&mut self, name: &Name, how: How) {
@@ -398,13 +368,13 @@ impl<'a> Reader<'a> {
         };
         let value = part.behind(defined.len() + 1);
         if is_partial {
-            let remark = self.builder.script.remark(Cause::Computed.remark());
+            let remark = self.builder.script.remark(COMPUTED);
             let is_own = is_sum || mentions(value.whole(), defined.whole());
             let how = How::part(is_own, false, remark);
             return self.write_name(&name, how);
         }
         if is_sum {
-            let value = self.unknown(Cause::Computed.remark());
+            let value = self.unknown(COMPUTED);
             return self.write_name(&name, How::Whole(value));
         }
         let position = self.position(value);

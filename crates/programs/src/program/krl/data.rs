@@ -125,11 +125,11 @@ impl Reader {
             aggregate.has & WHOLE == WHOLE
         };
         let flaw = if aggregate.computed {
-            Some(remarks::expressions())
+            Some(remarks::EXPRESSIONS)
         } else if is_whole {
             None
         } else {
-            Some(remarks::partial())
+            Some(remarks::PARTIAL)
         };
         let shape = if is_axes { Shape::Joints } else { Shape::Pose };
         let mut variant = 0;
@@ -154,8 +154,7 @@ impl Reader {
             blocked: flaw.is_some(),
         });
         if let Some(flaw) = flaw {
-            let remark = script.remark(flaw);
-            script.refused.push((id, remark));
+            script.refuse(id, flaw);
         }
         for (name, value) in aggregate.driven() {
             match self.external.meaning(name) {

@@ -3,7 +3,7 @@
 use super::data::root_differs;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{accurate, ambiguous, computed, home, passed, unfollowed};
+use super::remarks::{ACCURATE, AMBIGUOUS, COMPUTED, PASSED, UNFOLLOWED, home};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
 use crate::program::names::{Meaning, Symbol};
@@ -59,8 +59,8 @@ impl Reader {
         }
         let remark = match declared.kind {
             DataKind::Axes => home(self.names.symbols.spelling(declared.name)),
-            DataKind::Number | DataKind::Frame => super::remarks::chosen(),
-            _ => computed(),
+            DataKind::Number | DataKind::Frame => super::remarks::CHOSEN,
+            _ => COMPUTED,
         };
         self.unknown(remark)
     }
@@ -77,10 +77,7 @@ impl Reader {
                 (of.name, of.place, of.kept, of.context.routine, declared)
             }
             Owner::Nobody(name) => {
-                let place = Place {
-                    file: self.file,
-                    offset: 0,
-                };
+                let place = Place::new(self.file, 0);
                 let missing = self.not_in_files(name);
                 (name, place, true, None, missing)
             }
@@ -143,7 +140,7 @@ impl Reader {
             return known;
         }
         let Owner::Datum(datum) = owner else {
-            return self.unknown(computed());
+            return self.unknown(COMPUTED);
         };
         let all = self.elements(datum);
         let mut of = Vec::with_capacity(all.len());
@@ -160,7 +157,7 @@ impl Reader {
                 let remark = if is_axes {
                     home(self.names.symbols.spelling(name))
                 } else {
-                    computed()
+                    COMPUTED
                 };
                 self.unknown(remark)
             }
@@ -172,11 +169,10 @@ impl Reader {
 
     /// Refuses all elements of a long array, where which of them a statement concerns is not known;
     /// whether it is one. Those of a short one are followed each.
-    pub(super) fn refuse_array(&mut self, owner: Owner, remark: fn() -> Remark) -> bool {
+    pub(super) fn refuse_array(&mut self, owner: Owner, remark: Remark) -> bool {
         let Owner::Datum(datum) = owner else {
             return false;
         };
-        let remark = remark();
         if self.refused.contains(&(datum, remark.id)) {
             return true;
         }
@@ -204,7 +200,7 @@ impl Reader {
         is_foreign: bool,
     ) -> bool {
         if is_foreign {
-            return !self.refuse_array(Owner::Datum(datum), passed);
+            return !self.refuse_array(Owner::Datum(datum), PASSED);
         }
         let values = self.names.values(datum, Index::Variable);
         if !is_whole && values.len() <= MOST_ELEMENTS {
@@ -213,7 +209,7 @@ impl Reader {
         if self.refused.insert((datum, "given to a routine")) {
             self.unfollowed.push(call);
             let script = &mut self.builder.script;
-            let remark = script.remark(unfollowed());
+            let remark = script.remark(UNFOLLOWED);
             for (_, _, value) in values {
                 if let Stored::Target(target) = value {
                     script.refused.push((*target, remark));
@@ -244,11 +240,11 @@ impl Reader {
             }
         }
         let script = &mut self.builder.script;
-        let remark = script.remark(ambiguous());
+        let remark = script.remark(AMBIGUOUS);
         let refused = refused.into_iter().map(|target| (target, remark));
         script.refused.extend(refused);
         let found = if of.is_empty() {
-            self.unknown(computed())
+            self.unknown(COMPUTED)
         } else {
             self.builder.script.any(of)
         };
@@ -265,7 +261,7 @@ impl Reader {
         let remark = if is_home(spelled) {
             home(spelled)
         } else {
-            Remark::error(
+            Remark::error_about(
                 "target-not-in-files",
                 format!("{spelled} is not declared in the files; this move is not compensated"),
                 "give the .dat file or the $config.dat that declares it, too",
@@ -290,10 +286,7 @@ impl Reader {
             script.findings.push(finding);
         }
         for Place { file, offset } in self.unfollowed {
-            let remark = unfollowed();
-            let (source, message) = (&sources[file as usize], remark.text.into());
-            let (id, severity) = (remark.id, remark.severity);
-            let finding = source.finding(offset as usize, id, severity, message, remark.hint);
+            let finding = UNFOLLOWED.found_in(&sources[file as usize], offset);
             script.findings.push(finding);
         }
         if let Some(base) = &settings.world_from_base {
@@ -320,7 +313,7 @@ impl Reader {
 
 /// Points of absolutely accurate robots; where they are to be rewritten that is said once a file.
 fn accurate_targets(script: &mut Script, kept: &[bool], settings: &Settings, sources: &[Source]) {
-    let remark = script.remark(accurate());
+    let remark = script.remark(ACCURATE);
     let mut reported = None;
     for (id, target) in script.targets.iter().enumerate() {
         let (has_status, _) = status_and_turn(target.layout);

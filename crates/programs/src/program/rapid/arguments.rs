@@ -384,14 +384,11 @@ impl Reader<'_> {
             }
         }
         self.parsed.external_zeros.push(zeros);
+        let place = crate::program::script::Place::new(self.file, offset);
         self.parsed.targets.push(Target {
             name,
-            file: self.file,
-            offset,
-            end: self.behind,
-            layout: Layout { shape, variant: 0 },
             numbers: short(start)..short(self.parsed.numbers.len()),
-            blocked: false,
+            ..Target::new(place, self.behind, Layout::of(shape))
         });
         Written::Base(Base::Target(short(target)))
     }

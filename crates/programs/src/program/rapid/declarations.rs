@@ -58,10 +58,7 @@ impl Reader<'_> {
             value = Stored::Computed;
         }
         self.end_statement()?;
-        let place = Place {
-            file: self.file,
-            offset: start,
-        };
+        let place = Place::new(self.file, start);
         self.parsed.data.push(Datum {
             name,
             kind,
@@ -286,10 +283,7 @@ impl Reader<'_> {
 
     fn parameter(&mut self, kind: Type, token: Token, storage: Storage) {
         let name = self.parsed.symbols.intern(self.text(token));
-        let place = Place {
-            file: self.file,
-            offset: token.start,
-        };
+        let place = Place::new(self.file, token.start);
         self.parsed.data.push(Datum {
             name,
             kind,

@@ -102,7 +102,7 @@ impl Translator<'_> {
             return;
         };
         let holds = self.held_load(own);
-        let place = Place { file: 0, offset: 0 };
+        let place = Place::NOWHERE;
         let held = Variable::new("GripLoad", place, holds);
         let held = self.builder.script.variable(held);
         let tool = Tool {

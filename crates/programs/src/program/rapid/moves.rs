@@ -7,7 +7,7 @@ use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Write, Written};
+use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Written};
 use crate::program::{Motion, Source, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
@@ -336,17 +336,15 @@ impl Translator<'_> {
     fn in_record(&mut self, (start, end): (u32, u32)) -> Expr {
         let bytes = &self.resolved.sources[self.here.file as usize].bytes;
         let name = Source::text(&bytes[start as usize..end as usize]);
-        self.builder.script.unknown(Remark {
-            id: "computed-target",
-            severity: Severity::Warning,
-            text: format!(
+        self.builder.script.unknown(Remark::warning_about(
+            "computed-target",
+            format!(
                 "{}, where this move goes to, is a part of a record: targets inside records are \
                  not followed; the move stays as it is",
                 name.trim()
-            )
-            .into(),
-            hint: "declare the target as data of its own, with numbers",
-        })
+            ),
+            "declare the target as data of its own, with numbers",
+        ))
     }
 
     /// A search writes where the robot was when the signal came.
@@ -412,12 +410,11 @@ impl Translator<'_> {
         let target = if back {
             Expr::Value(self.actual)
         } else {
-            self.builder.script.unknown(Remark {
-                id: "computed-target",
-                severity: Severity::Warning,
-                text: "a sensor tells where this instruction goes to; it stays as it is".into(),
-                hint: "",
-            })
+            self.builder.script.unknown(Remark::warning(
+                "computed-target",
+                "a sensor tells where this instruction goes to; it stays as it is",
+                "",
+            ))
         };
         let instruction = Instruction {
             end,
@@ -447,17 +444,13 @@ impl Translator<'_> {
         for variable in self.written(name, index) {
             let place = self.here;
             let how = how.clone();
-            self.emit_write(Write {
-                place,
-                variable,
-                how,
-            });
+            self.emit_write(place, variable, how);
         }
     }
 
     /// What a variable is a part of which the running program computes.
     pub(super) fn changed(&mut self) -> u32 {
-        let remark = super::records::assigned();
+        let remark = super::records::ASSIGNED;
         self.builder.script.remark(remark)
     }
 

@@ -302,10 +302,7 @@ impl<'a> Reader<'a> {
             });
         }
         self.routine = Some(self.token.start);
-        let place = Place {
-            file: self.file,
-            offset: self.token.start,
-        };
+        let place = Place::new(self.file, self.token.start);
         let (is_function, is_trap) = (self.is_word(b"func"), self.is_word(b"trap"));
         self.advance()?;
         let mut gives = Type::Other;

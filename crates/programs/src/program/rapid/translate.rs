@@ -11,7 +11,7 @@ use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
-    TableId, ValueId, Variable, VariableId, Write, Written,
+    TableId, ValueId, Variable, VariableId, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -73,7 +73,7 @@ pub(super) struct Translator<'a> {
     /// Of each routine whether others move the robot while it writes.
     pub writes_meanwhile: Vec<bool>,
     /// What is written so.
-    pub meanwhile: Vec<Write>,
+    pub meanwhile: Vec<(Place, Written, How)>,
     /// Data of each routine's own that are written in it.
     own: HashMap<u32, Vec<u32>>,
     /// A name in the present expression is declared more than once.
@@ -107,7 +107,7 @@ pub(super) fn translate(
     let script = &mut builder.script;
     let mut translator = Translator {
         resolved,
-        here: Place { file: 0, offset: 0 },
+        here: Place::NOWHERE,
         context: Context {
             module: 0,
             routine: None,
@@ -168,10 +168,7 @@ pub(super) fn translate(
 
 impl Translator<'_> {
     pub(super) fn place(&self, offset: u32) -> Place {
-        Place {
-            offset,
-            ..self.here
-        }
+        Place::new(self.here.file, offset)
     }
 
     pub(super) fn say(
@@ -198,11 +195,10 @@ impl Translator<'_> {
         self.builder.go(instruction, modal);
     }
 
-    pub(super) fn emit_write(&mut self, write: Write) {
+    pub(super) fn emit_write(&mut self, place: Place, variable: Written, how: How) {
         self.may_fail();
-        let variable = write.variable;
-        self.note_meanwhile(&write);
-        self.builder.write(write);
+        self.note_meanwhile(place, variable, &how);
+        self.builder.write(place, variable, how);
         if let Written::One(element) = variable {
             self.gather(element);
         }
@@ -215,12 +211,8 @@ impl Translator<'_> {
         for at in given {
             if let Some(element) = self.builder.script.arguments[at as usize].back {
                 self.gather(element);
-                let (place, how) = (self.here, How::PartSomehow(self.changed()));
-                self.note_meanwhile(&Write {
-                    place,
-                    variable: Written::One(element),
-                    how,
-                });
+                let how = How::PartSomehow(self.changed());
+                self.note_meanwhile(self.here, Written::One(element), &how);
             }
         }
     }
@@ -340,11 +332,7 @@ impl Translator<'_> {
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         let place = self.here;
-        self.emit_write(Write {
-            place,
-            variable: Written::One(variable),
-            how: How::Whole(value),
-        });
+        self.emit_write(place, Written::One(variable), How::Whole(value));
     }
 
     // ---- before the first statement
@@ -483,7 +471,7 @@ impl Translator<'_> {
             let key = (axis + 6 * u8::from(seven), value.to_bits());
             let remark = *known.entry(key).or_insert_with(|| {
                 remarks.push(if seven {
-                    Remark::error(
+                    Remark::error_about(
                         "seven-axis-arm",
                         format!(
                             "{name} is {value} and cfx has hundreds: it is the seventh joint \

@@ -10,7 +10,7 @@ use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::finding::Severity;
 use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
-    Variable, VariableId, Write, Written, short,
+    Variable, VariableId, Written, short,
 };
 use crate::program::{Layout, Shape, Source, Target, TargetId, kit};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -67,7 +67,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         variables: &'m Variables<'n, 'a>,
     ) -> Self {
         let parsed = variables.parsed;
-        let place = Place { file, offset: 0 };
+        let place = Place::new(file, 0);
         let first_routine = short(builder.script.routines.len());
         for (at, function) in parsed.functions.iter().enumerate() {
             let name = function
@@ -80,7 +80,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 (_, false) => Start::Called,
             };
             let offset = function.offset;
-            builder.declare(name, Place { file, offset }, start);
+            builder.declare(name, Place::new(file, offset), start);
         }
         let script = &mut builder.script;
         let unknown = common.no_tool(script);
@@ -114,10 +114,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             vec![tracking, load_remark, stream],
             vec![tracking, load_remark, rotated],
         ]
-        .map(|of| {
-            script.guards.push(of.into());
-            short(script.guards.len() - 1)
-        });
+        .map(|of| script.guard(of));
         let unknown_load = script.unknown(kit::load_chosen(
             "load-chosen-at-run-time",
             "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
@@ -160,10 +157,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     fn at(&self, offset: u32) -> Place {
-        Place {
-            file: self.file,
-            offset,
-        }
+        Place::new(self.file, offset)
     }
 
     // ---- targets and variables
@@ -414,11 +408,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     fn write(&mut self, variable: Option<VariableId>, how: How, offset: u32) {
         let place = self.at(offset);
         if let Some(variable) = variable {
-            self.goals.builder.write(Write {
-                place,
-                variable: Written::One(variable),
-                how,
-            });
+            self.goals.builder.write(place, Written::One(variable), how);
         }
     }
 
@@ -483,11 +473,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             for &(_, value) in parsed.arguments_of(call) {
                 if self.goals.has_target(value, call.function, MOST_STEPS) {
                     let value = self.goals.goal(value, call.function).target;
-                    arguments.push(Argument {
-                        parameter: None,
-                        value,
-                        back: None,
-                    });
+                    arguments.push(Argument::new(None, value, None));
                 }
             }
         }
@@ -502,22 +488,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     let outside = self.goals.common.given_outside();
                     held.map(|held| (held, outside)).into_iter().collect()
                 };
-                arguments.extend(values.into_iter().map(|(parameter, value)| Argument {
-                    parameter: Some(parameter),
-                    value,
-                    back: None,
-                }));
+                let given = |(parameter, value)| Argument::new(Some(parameter), value, None);
+                arguments.extend(values.into_iter().map(given));
             }
         }
         let place = self.at(call.offset);
         let builder = &mut *self.goals.builder;
-        let call = Call {
-            place,
-            callees: callees.iter().map(|f| self.first_routine + f).collect(),
-            foreign: callees.is_empty(),
-            name: parsed.spelling(call.name).into(),
-            arguments: builder.script.give(arguments),
-        };
+        let routines = callees.iter().map(|f| self.first_routine + f).collect();
+        let arguments = builder.script.give(arguments);
+        let call = Call::of(place, routines, parsed.spelling(call.name), arguments);
         let is_thread = |callee: &FunctionId| parsed.functions[*callee as usize].thread;
         if callees.iter().any(is_thread) {
             builder.start(call);

@@ -2,7 +2,7 @@
 //! libraries.
 
 use super::data::{self, Datum, Kind};
-use super::remarks::{declared_again, finding, not_in_project};
+use super::remarks::{declared_again, not_in_project};
 use super::xml::{Node, Nodes};
 use crate::finding::Finding;
 use crate::program::kit::Fault;
@@ -236,7 +236,7 @@ impl<'a> World<'a> {
         let of = &self.projects[project as usize];
         if of.names[list] {
             let remark = not_in_project(&of.path);
-            self.findings.push(finding(remark, source, 0));
+            self.findings.push(remark.found_in(source, 0));
             return None;
         }
         Some(project)
@@ -248,7 +248,7 @@ impl<'a> World<'a> {
             let known = own.insert(datum.name, short(self.data.len()));
             if known.is_some() && datum.kind != Kind::Other {
                 let remark = declared_again(&Source::text(datum.name));
-                self.findings.push(finding(remark, source, datum.at));
+                self.findings.push(remark.found_in(source, datum.at));
             }
             self.data.push(datum);
         }
@@ -261,7 +261,7 @@ impl<'a> World<'a> {
             let known = own.insert(program.name, short(self.programs.len()));
             if known.is_some() {
                 let remark = declared_again(&Source::text(program.name));
-                self.findings.push(finding(remark, source, program.at));
+                self.findings.push(remark.found_in(source, program.at));
             }
             self.programs.push(program);
         }
