@@ -44,13 +44,14 @@ mod source;
 pub mod urscript;
 pub mod val3;
 mod words;
+mod xml;
 
 pub use displacement::{Displacement, Shift, Stride};
 pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use external::{External, ExternalNames, ExternalState, ExternalUse};
-pub use insert::{Between, Inserted, Insertion, Replacements};
+pub use insert::{Between, Inserted, Insertion, Insertions, Replacements};
 pub(crate) use kit::check_bytes;
 pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256, sha256_of};

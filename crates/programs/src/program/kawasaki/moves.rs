@@ -1,11 +1,12 @@
 //! Moves: what goes where with what.
 
-use super::keywords::begins_with;
 use super::reader::Reader;
 use super::remarks::{ARC_CHAIN, RELATIVE, SEARCH};
+use super::sections::Statement;
 use super::targets::{Position, literals};
 use crate::geometry::Pose;
-use crate::geometry::units::{DEG, MM};
+use crate::geometry::units::MM;
+use crate::program::notation::pose_of_turning_angles;
 use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
@@ -32,25 +33,8 @@ pub(super) enum Verb {
 }
 
 impl Verb {
-    /// The move that words begin with.
-    pub(super) fn of(part: Words) -> Option<Self> {
-        const VERBS: &[(&[u8], Verb)] = &[
-            (b"JMOVE", Verb::To(Motion::Joint, false)),
-            (b"LMOVE", Verb::To(Motion::Linear, false)),
-            (b"HMOVE", Verb::To(Motion::Linear, true)),
-            (b"C1MOVE", Verb::Arc(false)),
-            (b"C2MOVE", Verb::Arc(true)),
-            (b"JAPPRO", Verb::Near(Motion::Joint)),
-            (b"LAPPRO", Verb::Near(Motion::Linear)),
-            (b"JDEPART", Verb::Away(Motion::Joint)),
-            (b"LDEPART", Verb::Away(Motion::Linear)),
-            (b"DRAW", Verb::Draw(false)),
-            (b"TDRAW", Verb::Draw(true)),
-            (b"XMOVE", Verb::Search),
-            (b"DRIVE", Verb::Elsewhere),
-            (b"ALIGN", Verb::Elsewhere),
-            (b"HOME", Verb::Elsewhere),
-        ];
+    /// The move that a statement is.
+    pub(super) fn of(statement: &Statement) -> Option<Self> {
         const STEPS: &[(&[u8], Motion)] = &[
             (b"JOINT", Motion::Joint),
             (b"LINEAR", Motion::Linear),
@@ -58,11 +42,26 @@ impl Verb {
             (b"CIR1", Motion::ArcVia),
             (b"CIR2", Motion::ArcEnd),
         ];
-        let known = (VERBS.iter()).find(|(word, _)| begins_with(part, word));
-        let step = STEPS.iter().find(|(word, _)| part.is_word(0, word));
-        let step = step.filter(|_| step_target(part).is_some());
-        let step = step.map(|(_, motion)| Self::Step(*motion));
-        known.map(|(_, verb)| *verb).or(step)
+        Some(match statement.keyword {
+            "JMove" => Self::To(Motion::Joint, false),
+            "LMove" => Self::To(Motion::Linear, false),
+            "HMove" => Self::To(Motion::Linear, true),
+            "C1move" => Self::Arc(false),
+            "C2move" => Self::Arc(true),
+            "JAppro" => Self::Near(Motion::Joint),
+            "LAppro" => Self::Near(Motion::Linear),
+            "JDepart" => Self::Away(Motion::Joint),
+            "LDepart" => Self::Away(Motion::Linear),
+            "DRAw" => Self::Draw(false),
+            "TDraw" => Self::Draw(true),
+            "Xmove" => Self::Search,
+            "DRIve" | "ALign" | "HOme" => Self::Elsewhere,
+            _ => {
+                let words = statement.words;
+                let step = STEPS.iter().find(|(word, _)| words.is_word(0, word))?;
+                step_target(words).map(|_| Self::Step(step.1))?
+            }
+        })
     }
 }
 
@@ -121,14 +120,11 @@ impl<'a> Reader<'a> {
             Verb::Draw(in_tool) => {
                 let given = literals::<6>(&list[..list.len().min(6)]);
                 let found = self.here.last.zip(given).map(|(last, by)| {
-                    let [x, y, z, rx, ry, rz] = by;
+                    let [x, y, z, turned @ ..] = by;
                     if in_tool {
-                        let turned = super::pose_of_turns([rx, ry, rz].map(|angle| angle * DEG));
-                        let moved = Pose::from_translation(x * MM, y * MM, z * MM);
-                        last.in_tool(Some(moved * turned))
+                        last.in_tool(Some(pose_of_turning_angles(by)))
                     } else {
-                        let is_plain = [rx, ry, rz] == [0.0; 3];
-                        last.along(is_plain.then_some([x, y, z]))
+                        last.along((turned == [0.0; 3]).then_some([x, y, z]))
                     }
                 });
                 self.relative(part, found.as_ref(), Motion::Linear);

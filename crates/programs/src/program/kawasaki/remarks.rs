@@ -1,5 +1,6 @@
 //! What is wrong with targets, tools and moves, in words.
 
+use crate::program::kit;
 use crate::program::script::Remark;
 
 /// Against an array that a program is handed.
@@ -11,12 +12,8 @@ pub(super) const UNFOLLOWED: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark = Remark::warning(
-    "computed-target",
-    "the position that this move goes to is known at run time only; the move stays as \
-                 it is",
-    "move to a name of .TRANS or .JOINTS where it must be exact",
-);
+pub(super) const COMPUTED: Remark =
+    kit::computed("move to a name of .TRANS or .JOINTS where it must be exact");
 
 /// A target without all numbers.
 pub(super) const PARTIAL: Remark = Remark::error(
@@ -81,11 +78,7 @@ pub(super) const SAVED: Remark = Remark::warning(
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
-    Remark::error_about(
-        "target-not-in-files",
-        format!("{name} is not declared in the files; this move is not compensated"),
-        "give the file with its .TRANS or .JOINTS too",
-    )
+    kit::not_in_files(name, "give the file with its .TRANS or .JOINTS too")
 }
 
 /// A target whose numbers a statement adds to those of others.

@@ -7,7 +7,9 @@ use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, added_up, not_in_files};
 use super::sections::Entry;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
-use crate::program::script::{Expr, Held, Place, Remark, TableId, Variable, VariableId, short};
+use crate::program::script::{
+    Expr, Held, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
+};
 use crate::program::words::{Kind, Word, Words, six};
 use crate::program::{Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::HashMap;
@@ -153,21 +155,24 @@ impl<'a> Reader<'a> {
     // ---- what is declared
 
     /// A name of `.TRANS` or `.JOINTS`.
-    pub(super) fn declare(&mut self, entry: &Entry, file: u32) {
+    pub(super) fn declare(&mut self, entry: &Entry) {
         let name = Name::of_entry(entry.name);
         let shape = if name.is_joints() {
             Shape::Joints
         } else {
             Shape::Pose
         };
-        let place = Place::new(file, entry.at);
+        let place = entry.place;
         let declared = if let Ok(numbers) = <[Number; 6]>::try_from(&entry.numbers[..]) {
             let target = self.add_target(Some(&name.text()), place, entry.end, shape, numbers);
             Expr::Target(target)
         } else {
             self.unknown(AXES)
         };
-        let known = self.names.get(&name.stem);
+        let known = self
+            .names
+            .get(&None)
+            .and_then(|names| names.get(&name.stem));
         let key = name.key.as_deref().unwrap_or_default();
         if let Some(&variable) = known.and_then(|known| known.variables.get(key)) {
             // each of the files may be the one that was loaded last
@@ -207,18 +212,14 @@ impl<'a> Reader<'a> {
     }
 
     fn add_variable(&mut self, name: &Name, place: Place, declared: Expr) -> VariableId {
-        let is_local = self.is_local(name);
-        let routine = is_local.then_some(self.here.routine);
+        let routine = self.owner(name);
         let script = &mut self.builder.script;
         let made = script.variable(Variable {
-            kept: !is_local,
+            kept: routine.is_none(),
             routine,
             ..Variable::new(name.text(), place, declared)
         });
-        let names = match routine {
-            Some(routine) => self.locals.entry(routine).or_default(),
-            None => &mut self.names,
-        };
+        let names = self.names.entry(routine).or_default();
         let elements = names.entry(name.stem.clone()).or_insert_with(|| Elements {
             table: script.table(name.text()),
             variables: HashMap::default(),
@@ -238,16 +239,18 @@ impl<'a> Reader<'a> {
         self.here.parameters.iter().any(|own| own == name.plain())
     }
 
+    /// The program that a name belongs to; none where it is of all.
+    fn owner(&self, name: &Name) -> Option<RoutineId> {
+        self.is_local(name).then_some(self.here.routine)
+    }
+
     fn elements(&self, name: &Name) -> Option<&Elements> {
-        if self.is_local(name) {
-            return self.locals.get(&self.here.routine)?.get(&name.stem);
-        }
-        self.names.get(&name.stem)
+        self.names.get(&self.owner(name))?.get(&name.stem)
     }
 
     /// Whether a name is one of the files' positions.
     pub(super) fn is_known(&self, name: &Name) -> bool {
-        self.is_local(name) || self.names.contains_key(&name.stem)
+        self.is_local(name) || self.elements(name).is_some()
     }
 
     /// The variable of a name; one that the files do not have is unknown until it is written.

@@ -3,7 +3,7 @@
 use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
-use crate::program::{Displacement, Motion, Move, Shape};
+use crate::program::{Displacement, Motion, Move, Program, Shape};
 
 mod inserted;
 mod robust;

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::remarks::{ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT};
 use super::targets::Owner;
 use crate::geometry::Pose;
+use crate::program::kit;
 use crate::program::names::Symbol;
 use crate::program::notation::{pose_of_angles, write_angles};
 use crate::program::script::{
@@ -359,13 +360,8 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
         });
     }
     if let Some(angle) = numbers[3..6].iter().find(|angle| angle.abs() > MOST_ANGLE) {
-        return Err(Remark {
-            id: "angle-too-large",
-            text: format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE} deg")
-                .into(),
-            hint: "A, B and C are in degrees: write them between -360 and 360",
-            ..FRAME_ASSIGNED
-        });
+        let hint = "A, B and C are in degrees: write them between -360 and 360";
+        return Err(kit::angle_too_large(name, *angle, MOST_ANGLE, hint));
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;
     Ok(NamedFrame {

@@ -52,11 +52,8 @@ pub(super) const ACCURATE: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark = Remark::warning(
-    "computed-target",
-    "the position that this move goes to is known at run time only; the move stays as it is",
-    "write the position with numbers where it must be exact",
-);
+pub(super) const COMPUTED: Remark =
+    kit::computed("write the position with numbers where it must be exact");
 
 /// Against a position whose external axis the program writes.
 pub(super) fn external_written(axis: &str) -> Remark {

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::remarks::{ACCURATE, AMBIGUOUS, COMPUTED, PASSED, UNFOLLOWED, home};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
+use crate::program::kit;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Expr, Place, Remark, Script, Table, Variable, VariableId, short};
 use crate::program::{Settings, Source};
@@ -261,9 +262,8 @@ impl Reader {
         let remark = if is_home(spelled) {
             home(spelled)
         } else {
-            Remark::error_about(
-                "target-not-in-files",
-                format!("{spelled} is not declared in the files; this move is not compensated"),
+            kit::not_in_files(
+                spelled,
                 "give the .dat file or the $config.dat that declares it, too",
             )
         };

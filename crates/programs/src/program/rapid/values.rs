@@ -11,6 +11,7 @@ use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
+use crate::program::kit;
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place,
@@ -43,12 +44,7 @@ impl Translator<'_> {
 
     /// A position that only the running program knows.
     pub(super) fn computed(&mut self) -> Expr {
-        Expr::Unknown(self.builder.script.remark(Remark::warning(
-            "computed-target",
-            "the position that this move goes to is known at run time only; the move stays \
-                as it is",
-            AT_RUN_TIME,
-        )))
+        Expr::Unknown(self.builder.script.remark(kit::computed(AT_RUN_TIME)))
     }
 
     pub(super) fn computed_name(&mut self, name: Symbol) -> Expr {

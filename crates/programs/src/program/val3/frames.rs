@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::remarks::{FRAME_CHOSEN, frame_assigned};
 use super::targets::pose_of;
 use crate::geometry::Pose;
+use crate::program::kit;
 use crate::program::script::{DisplacementId, Expr, Remark, VariableId};
 use crate::program::words::Words;
 use crate::program::{Displacement, Shift, Source};
@@ -237,10 +238,9 @@ fn own_pose(element: &Element, name: &str) -> Result<Pose, Remark> {
     let angles = element.numbers[3..].iter().map(|number| number.value);
     match angles.into_iter().find(|angle| angle.abs() > MOST_ANGLE) {
         None => Ok(pose_of(&element.numbers)),
-        Some(angle) => Err(Remark::error_about(
-            "angle-too-large",
-            format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE} deg"),
-            "rx, ry and rz are in degrees: write them between -360 and 360",
-        )),
+        Some(angle) => {
+            let hint = "rx, ry and rz are in degrees: write them between -360 and 360";
+            Err(kit::angle_too_large(name, angle, MOST_ANGLE, hint))
+        }
     }
 }

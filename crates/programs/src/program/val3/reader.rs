@@ -1,7 +1,7 @@
 //! Programs as statements: blocks, calls, and what they write.
 
 use super::arrays::Arrays;
-use super::code::{Code, Reference, unquoted};
+use super::code::{Code, Reference};
 use super::data::Kind;
 use super::frames::Composed;
 use super::moves::Verb;
@@ -12,9 +12,9 @@ use crate::program::notation::{grown_by, mentions, turned_by};
 use crate::program::script::{
     Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, short,
 };
-use crate::program::words::{self, Words};
+use crate::program::words::{self, Words, unquoted};
 use crate::program::{Source, number};
-use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use foldhash::{HashMap, HashSet};
 
 /// Built-in instructions, and which of their arguments they write.
 ///
@@ -45,6 +45,7 @@ pub(super) struct Here {
     pub file: u32,
 }
 
+#[derive(Default)]
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
     pub world: World<'a>,
@@ -79,12 +80,8 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         world,
         builder,
         variables,
-        assigned: HashSet::new(),
-        copies: HashMap::new(),
-        arrays: Arrays::default(),
         is_settled: !takes_arrays,
-        composed: Vec::new(),
-        here: Here::default(),
+        ..Reader::default()
     };
     for program in &reader.world.programs {
         let place = Place::new(program.file, program.at);

@@ -1,23 +1,19 @@
 //! What is wrong with targets, frames and moves, in words.
 
+use crate::program::kit;
 use crate::program::script::Remark;
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
-    Remark::error_about(
-        "target-not-in-files",
-        format!("{name} is not declared in the files; this move is not compensated"),
+    kit::not_in_files(
+        name,
         "give the whole project with its .dtx, and the libraries that it loads",
     )
 }
 
 /// A target that only the running program knows.
-pub(super) const COMPUTED: Remark = Remark::warning(
-    "computed-target",
-    "the position that this move goes to is known at run time only; the move stays as it \
-         is",
-    "move to a point of the .dtx where it must be exact",
-);
+pub(super) const COMPUTED: Remark =
+    kit::computed("move to a point of the .dtx where it must be exact");
 
 /// Against an array that a program is given.
 pub(super) const UNFOLLOWED: Remark = Remark::error(

@@ -4,7 +4,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Move, Shift, Stride, Value};
+use crate::program::{Displacement, Motion, Move, Program, Shift, Stride, Value};
 
 mod arrays;
 mod projects;
