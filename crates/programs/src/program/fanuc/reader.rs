@@ -386,17 +386,8 @@ impl Reader<'_> {
     }
 
     /// A finding of the reader.
-    pub(super) fn say(
-        &mut self,
-        place: Place,
-        id: &'static str,
-        severity: Severity,
-        text: &str,
-        hint: &str,
-    ) {
-        let source = &self.sources[place.file as usize];
-        let finding = source.finding(place.offset as usize, id, severity, text.to_owned(), hint);
-        self.builder.script.findings.push(finding);
+    pub(super) fn say(&mut self, place: Place, remark: Remark) {
+        self.builder.script.say(self.sources, place, remark);
     }
 
     /// What depends on all programs: what registers hold.
@@ -406,7 +397,7 @@ impl Reader<'_> {
                 let message = "a point is copied into a register here, which nothing in the files \
                     goes to; it takes its correction along";
                 let hint = "look where the register is used, or give those programs too";
-                self.say(place, "target-copied", Severity::Warning, message, hint);
+                self.say(place, Remark::warning("target-copied", message, hint));
             }
         }
         for (write, number) in std::mem::take(&mut self.from_registers) {

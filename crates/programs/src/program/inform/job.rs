@@ -8,7 +8,7 @@
 use super::lines::{Line, Lines, add_numbers, after, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
 use crate::program::kit::Fault;
-use crate::program::script::{Span, short};
+use crate::program::script::{Place, Span, short};
 use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use memchr::memmem;
@@ -392,17 +392,14 @@ impl<'a> Positions<'a> {
             Letter::P => format!("P{number:03}"),
         };
         let numbers = short(start);
+        let place = Place::new(job.file, short(line.start));
+        let (shape, variant) = layout;
+        let layout = Layout { shape, variant };
         self.targets.push(Target {
             name: Some(name.into()),
-            file: job.file,
-            offset: short(line.start),
-            end: short(to),
-            layout: Layout {
-                shape: layout.0,
-                variant: layout.1,
-            },
             numbers: numbers..numbers + if has_six { 6 } else { 0 },
             blocked: !has_six,
+            ..Target::new(place, short(to), layout)
         });
         self.points.push(Point {
             letter,

@@ -260,14 +260,11 @@ impl<'a> Reader<'a> {
         key: Vec<u8>,
     ) -> VariableId {
         let caller = std::mem::replace(&mut self.here.routine, callee);
-        let own = self.parameters[callee as usize].clone();
-        let before = std::mem::replace(&mut self.here.parameters, own);
         let parameter = self.variable(&Name {
             stem,
             key: Some(key),
         });
         self.here.routine = caller;
-        self.here.parameters = before;
         parameter
     }
 }

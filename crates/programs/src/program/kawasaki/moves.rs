@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
                     self.switch(Held::Flag(false));
                 }
                 let found = self.position(first);
-                self.go(part, Some(first), &found, motion, is_free);
+                self.go(part, Some(first), &found, motion, is_free, None);
             }
             Verb::Arc(is_end) => {
                 self.here.arc += 1;
@@ -100,17 +100,12 @@ impl<'a> Reader<'a> {
                 }
                 let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
-                let target = self.expr(&found);
-                let mut modal = self.modal_of(motion, Some(&found));
-                if is_chain {
-                    modal.guards = self.reason(ARC_CHAIN);
-                }
-                self.put(part, Some(first), target, motion, false, modal);
-                self.here.last = Some(found);
+                let modal = is_chain.then(|| self.refused(ARC_CHAIN, motion, &found));
+                self.go(part, Some(first), &found, motion, false, modal);
             }
             Verb::Near(motion) => {
                 let found = self.position(first).in_tool(second.map(back));
-                self.go(part, None, &found, motion, false);
+                self.go(part, None, &found, motion, false, None);
             }
             Verb::Away(motion) => {
                 let found = self.here.last;
@@ -132,13 +127,8 @@ impl<'a> Reader<'a> {
             Verb::Search => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
                 let found = self.position(first.part(0..till));
-                let guards = self.reason(SEARCH);
-                let target = self.expr(&found);
-                let modal = Modal {
-                    guards,
-                    ..self.modal_of(Motion::Linear, Some(&found))
-                };
-                self.put(part, None, target, Motion::Linear, false, modal);
+                let modal = self.refused(SEARCH, Motion::Linear, &found);
+                self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
             }
             Verb::Elsewhere => self.relative(part, None, Motion::Joint),
@@ -151,36 +141,56 @@ impl<'a> Reader<'a> {
                     |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
                 let tool = (0..part.len()).map(|at| part.text(at)).find(is_tool);
                 let found = self.position(target);
-                let mut modal = self.modal_of(motion, None);
+                let mut modal = self.modal_of(motion, &found);
                 if let Some(tool) = tool {
                     modal.tool = self.frame_value(&Source::text(tool), None);
                 }
-                self.put(part, Some(target), found.base, motion, false, modal);
-                self.here.last = Some(found);
+                self.go(part, Some(target), &found, motion, false, Some(modal));
             }
         }
     }
 
     /// A move from where the robot stands.
     fn relative(&mut self, part: Words<'a, '_>, to: Option<&Position>, motion: Motion) {
-        if let Some(known) = to.filter(|to| to.by.is_some()) {
-            return self.go(part, None, known, motion, false);
+        let known = to.filter(|to| to.by.is_some());
+        if let Some(known) = known {
+            return self.go(part, None, known, motion, false, None);
         }
-        let unknown = self.unknown(RELATIVE);
-        let modal = self.modal_of(motion, None);
-        self.put(part, None, unknown, motion, false, modal);
+        let unknown = Position::plain(self.unknown(RELATIVE));
+        self.go(part, None, &unknown, motion, false, None);
         self.here.last = None;
     }
 
-    fn reason(&mut self, remark: Remark) -> u32 {
-        let remark = self.builder.script.remark(remark);
-        let value = self.builder.script.held(Held::Remark(remark));
-        let place = self.place(self.here.at);
-        let script = &mut self.builder.script;
-        let reason = script.variable(Variable::new("move", place, value));
-        script.guard([reason])
+    /// With what a move to a position runs.
+    fn modal_of(&mut self, motion: Motion, to: &Position) -> Modal {
+        let configured = match motion {
+            Motion::Joint => Expr::Value(self.honoured),
+            _ => Expr::Absent,
+        };
+        Modal {
+            tool: Expr::Variable(self.tool),
+            frame: Expr::Variable(to.on.map_or(self.base, |(frame, _)| frame)),
+            configured,
+            guards: self.switches,
+            speed_zone: self.here.next.take().unwrap_or(self.here.always),
+            ..Modal::default()
+        }
     }
 
+    /// Likewise of one that something speaks against.
+    fn refused(&mut self, remark: Remark, motion: Motion, to: &Position) -> Modal {
+        let place = self.place(self.here.at);
+        let script = &mut self.builder.script;
+        let remark = script.remark(remark);
+        let value = script.held(Held::Remark(remark));
+        let reason = script.variable(Variable::new("move", place, value));
+        Modal {
+            guards: script.guard([reason]),
+            ..self.modal_of(motion, to)
+        }
+    }
+
+    /// A move to a position, which stands in the text by itself where it is named.
     fn go(
         &mut self,
         part: Words<'a, '_>,
@@ -188,39 +198,10 @@ impl<'a> Reader<'a> {
         to: &Position,
         motion: Motion,
         is_free: bool,
+        modal: Option<Modal>,
     ) {
         let target = self.expr(to);
-        let modal = self.modal_of(motion, Some(to));
-        self.put(part, named, target, motion, is_free, modal);
-        self.here.last = Some(*to);
-    }
-
-    /// With what a move to a position runs.
-    fn modal_of(&mut self, motion: Motion, to: Option<&Position>) -> Modal {
-        let plate = to.and_then(|to| to.on);
-        Modal {
-            tool: Expr::Variable(self.tool),
-            frame: Expr::Variable(plate.map_or(self.base, |(frame, _)| frame)),
-            configured: if motion == Motion::Joint {
-                Expr::Value(self.honoured)
-            } else {
-                Expr::Absent
-            },
-            guards: self.switches,
-            speed_zone: self.here.next.take().unwrap_or(self.here.always),
-            ..Modal::default()
-        }
-    }
-
-    fn put(
-        &mut self,
-        part: Words<'a, '_>,
-        named: Option<Words<'a, '_>>,
-        target: Expr,
-        motion: Motion,
-        is_free: bool,
-        modal: Modal,
-    ) {
+        let modal = modal.unwrap_or_else(|| self.modal_of(motion, to));
         // on a plate another object may stand in the place of this one
         let named = named.map(|named| self.on_plate(named).map_or(named, |(.., words)| words));
         let (whole, named) = (part.span(), named.map_or(0..0, |named| named.span()));
@@ -233,6 +214,7 @@ impl<'a> Reader<'a> {
             ..Instruction::at(self.place(whole.start))
         };
         self.builder.go(instruction, modal);
+        self.here.last = Some(*to);
     }
 }
 

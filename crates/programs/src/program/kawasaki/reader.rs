@@ -27,8 +27,6 @@ pub(super) struct Here {
     pub routine: RoutineId,
     /// The byte that the statement begins at.
     pub at: usize,
-    /// Names in small letters.
-    pub parameters: Vec<Vec<u8>>,
     /// Where the robot stands, as far as the text before tells.
     pub last: Option<Position>,
     /// Speed and corner of all moves, and of the next one alone.
@@ -180,7 +178,6 @@ impl<'a> Reader<'a> {
         self.here = Here {
             file,
             routine,
-            parameters: self.parameters[routine as usize].clone(),
             watched: watches(bytes, program),
             ..Here::default()
         };

@@ -102,7 +102,7 @@ pub(super) struct Position {
 }
 
 impl Position {
-    fn plain(base: Expr) -> Self {
+    pub(super) fn plain(base: Expr) -> Self {
         Self {
             base,
             by: Some(Shift::none()),
@@ -236,7 +236,8 @@ impl<'a> Reader<'a> {
     }
 
     fn is_parameter(&self, name: &Name) -> bool {
-        self.here.parameters.iter().any(|own| own == name.plain())
+        let own = self.parameters.get(self.here.routine as usize);
+        own.is_some_and(|own| own.iter().any(|own| own == name.plain()))
     }
 
     /// The program that a name belongs to; none where it is of all.

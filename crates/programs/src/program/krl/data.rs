@@ -144,14 +144,12 @@ impl Reader {
                 }
             }
         }
+        let place = Place::new(self.file, short(span.start));
         script.targets.push(Target {
             name,
-            file: self.file,
-            offset: short(span.start),
-            end: short(span.end),
-            layout: Layout { shape, variant },
             numbers: first..short(script.numbers.len()),
             blocked: flaw.is_some(),
+            ..Target::new(place, short(span.end), Layout { shape, variant })
         });
         if let Some(flaw) = flaw {
             script.refuse(id, flaw);

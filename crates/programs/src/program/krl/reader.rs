@@ -161,16 +161,13 @@ impl Reader {
             }
         }
         if let Some(at) = open {
-            return Err(Fault::Unclosed {
-                at,
-                what: "a routine (DEF without END)",
-            });
+            return Err(Fault::unclosed(at as usize, "a routine (DEF without END)"));
         }
         if let Some(at) = self.in_data {
-            return Err(Fault::Unclosed {
-                at,
-                what: "a data list (DEFDAT without ENDDAT)",
-            });
+            return Err(Fault::unclosed(
+                at as usize,
+                "a data list (DEFDAT without ENDDAT)",
+            ));
         }
         Ok(())
     }

@@ -279,15 +279,16 @@ impl Reader {
     pub(super) fn finish(self, sources: &[Source], settings: &Settings) -> Script {
         let names = self.names;
         let mut script = self.builder.finish();
-        for Place { file, offset } in self.stays {
-            let message = "this move goes to where the robot is: it stays there".to_owned();
-            let (source, id) = (&sources[file as usize], "run-time-position");
-            let finding = source.finding(offset as usize, id, Severity::Note, message, "");
-            script.findings.push(finding);
+        for place in self.stays {
+            let message = "this move goes to where the robot is: it stays there";
+            script.say(
+                sources,
+                place,
+                Remark::note("run-time-position", message, ""),
+            );
         }
-        for Place { file, offset } in self.unfollowed {
-            let finding = UNFOLLOWED.found_in(&sources[file as usize], offset);
-            script.findings.push(finding);
+        for place in self.unfollowed {
+            script.say(sources, place, UNFOLLOWED);
         }
         if let Some(base) = &settings.world_from_base {
             let roots = self.declared.roots.iter();

@@ -289,10 +289,7 @@ impl Reader<'_> {
             match self.token.kind {
                 Kind::Sign(b'}') => return self.advance(),
                 Kind::Sign(b';') | Kind::End => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 Kind::Sign(b']' | b')') => return Err(self.unexpected("}")),
                 _ => self.advance()?,

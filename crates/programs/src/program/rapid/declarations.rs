@@ -97,10 +97,7 @@ impl Reader<'_> {
                     self.advance()?;
                 }
                 Kind::End => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 _ => return Err(self.unexpected("}")),
             }
@@ -152,10 +149,7 @@ impl Reader<'_> {
             if !self.token.is(b',') {
                 let ends = self.token.kind == Kind::End || self.token.is(b';');
                 return Err(if ends {
-                    Fault::Unclosed {
-                        at: openers[level - 1],
-                        what: "bracket",
-                    }
+                    Fault::unclosed(openers[level - 1] as usize, "bracket")
                 } else {
                     self.unexpected(",")
                 });
@@ -271,10 +265,7 @@ impl Reader<'_> {
                     }
                 }
                 Kind::End | Kind::Sign(b';') => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 _ => {}
             }

@@ -53,12 +53,8 @@ pub(super) fn switched(resolved: &Resolved, names: &ExternalNames) -> Vec<(Strin
     for statement in &resolved.parsed.statements {
         match statement.kind {
             StatementKind::Text { file, .. } => here = file,
-            StatementKind::Call {
-                verb: Verb::Mode(Mode::Unit, _),
-                arguments,
-                ..
-            } => {
-                let name = unit_name(resolved, here, arguments);
+            StatementKind::Call(call) if matches!(call.verb, Verb::Mode(Mode::Unit, _)) => {
+                let name = unit_name(resolved, here, call.arguments);
                 let axes = names.axes_of_unit(&name);
                 if axes != 0 && !units.iter().any(|(known, _)| *known == name) {
                     units.push((name, axes));

@@ -4,7 +4,6 @@ use super::records::load_of;
 use super::resolved::Entity;
 use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
-use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Written};
@@ -383,8 +382,7 @@ impl Translator<'_> {
             let message = "only the running program knows the load of this move, or it is not in \
                 the files; that of the tool is taken";
             let hint = "write the load with numbers, in the move or in data that nothing writes";
-            let severity = Severity::Warning;
-            self.say("load-chosen-at-run-time", severity, message.into(), hint);
+            self.say(Remark::warning("load-chosen-at-run-time", message, hint));
             return Expr::Absent;
         };
         self.held_load(load)
@@ -394,14 +392,14 @@ impl Translator<'_> {
         if parts.synchronised {
             let message = "this move runs together with one of another robot";
             let hint = "both robots' programs have to be compensated";
-            self.say("sync-move", Severity::Note, message.into(), hint);
+            self.say(Remark::note("sync-move", message, hint));
         }
         if let Some(option) = parts.corrected {
             let message = format!(
                 "a sensor corrects the path here ({option}): the targets are compensated, what the \
                  sensor adds is not"
             );
-            self.say("corrected-by-sensor", Severity::Warning, message, "");
+            self.say(Remark::warning_about("corrected-by-sensor", message, ""));
         }
     }
 

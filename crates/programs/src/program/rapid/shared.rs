@@ -253,12 +253,7 @@ impl Resolved<'_> {
                     (context, file) = (now, in_file);
                     continue;
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => (callee, verb, arguments, false),
+                StatementKind::Call(call) => (call.callee, call.verb, call.arguments, false),
                 StatementKind::Function(function) => {
                     let of = self.parsed.functions[function as usize];
                     (Callee::Named(of.name), Verb::Other, of.arguments, true)

@@ -7,7 +7,6 @@ use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{Index, StatementKind, Storage, Type};
-use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
@@ -171,17 +170,9 @@ impl Translator<'_> {
         Place::new(self.here.file, offset)
     }
 
-    pub(super) fn say(
-        &mut self,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) {
-        let source = &self.resolved.sources[self.here.file as usize];
-        let at = self.here.offset as usize;
-        let finding = source.finding(at, id, severity, message, hint);
-        self.builder.script.findings.push(finding);
+    pub(super) fn say(&mut self, remark: Remark) {
+        let sources = self.resolved.sources;
+        self.builder.script.say(sources, self.here, remark);
     }
 
     pub(super) fn is_dead(&self, target: TargetId) -> bool {
@@ -269,12 +260,9 @@ impl Translator<'_> {
                 component,
                 value,
             } => self.assign(name, index, component, value),
-            StatementKind::Call {
-                callee,
-                verb,
-                arguments,
-                end,
-            } => self.call(callee, verb, arguments, end),
+            StatementKind::Call(call) => {
+                self.call(call.callee, call.verb, call.arguments, call.end);
+            }
             StatementKind::Function(function) => {
                 let next = self.resolved.parsed.statements.get(at + 1);
                 let is_last = !next.is_some_and(|n| matches!(n.kind, StatementKind::Function(_)));
@@ -376,13 +364,8 @@ impl Translator<'_> {
                     self.here.file = file;
                     self.context = context;
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => {
-                    for (name, kind) in self.wants(callee, verb, arguments) {
+                StatementKind::Call(call) => {
+                    for (name, kind) in self.wants(call.callee, call.verb, call.arguments) {
                         if resolved.kind(name, self.context).is_none() {
                             self.wanted.entry(name).or_insert(kind);
                         }

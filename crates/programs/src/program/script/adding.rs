@@ -2,11 +2,11 @@
 
 use super::{
     ACCUMULATED, Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
-    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Remark, RemarkId, Script, Table, TableId, ValueId,
-    Variable, VariableId, short,
+    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId,
+    ValueId, Variable, VariableId, short,
 };
 use crate::geometry::Pose;
-use crate::program::{Displacement, Number, Shift, Target, TargetId};
+use crate::program::{Displacement, Number, Shift, Source, Target, TargetId};
 use std::ops::Range;
 
 /// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
@@ -114,6 +114,12 @@ impl Script {
     pub fn guard(&mut self, of: impl IntoIterator<Item = VariableId>) -> u32 {
         self.guards.push(of.into_iter().collect());
         short(self.guards.len() - 1)
+    }
+
+    /// Adds a finding at a byte of a file.
+    pub fn say(&mut self, sources: &[Source], place: Place, remark: Remark) {
+        let source = &sources[place.file as usize];
+        self.findings.push(remark.found_in(source, place.offset));
     }
 
     /// A target has to stay, should a move go to it.

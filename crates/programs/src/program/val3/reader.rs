@@ -241,9 +241,8 @@ impl<'a> Reader<'a> {
             ),
             None => format!("library {}", Source::text(alias)),
         };
-        let source = &self.sources[place.file as usize];
-        let finding = library(&name).found_in(source, place.offset);
-        self.builder.script.findings.push(finding);
+        let script = &mut self.builder.script;
+        script.say(self.sources, place, library(&name));
     }
 
     /// `name = …`

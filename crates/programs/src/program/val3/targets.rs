@@ -384,11 +384,8 @@ impl<'a> Reader<'a> {
         let of = &self.world.data[datum as usize];
         let first = &script.variables[*first as usize].name;
         let remark = some_not_taught(&Source::text(of.name), first);
-        let source = &self.sources[of.file as usize];
-        self.builder
-            .script
-            .findings
-            .push(remark.found_in(source, of.at));
+        let place = Place::new(of.file, of.at);
+        self.builder.script.say(self.sources, place, remark);
         taught
     }
 
