@@ -2,7 +2,9 @@
 
 use super::written::without_configuration;
 use super::{Added, Compensation};
-use crate::program::{Edits, Insertion, Language, Program, Replacements, Source, number};
+use crate::program::{
+    Edits, Insertion, Insertions, Language, Program, Replacements, Source, number,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Compensation {
@@ -34,7 +36,12 @@ impl Compensation {
         // what cannot be written goes back to what was there before, if anything
         let (spans, elsewhere) = loop {
             let list: Vec<Insertion> = wanted.values().cloned().collect();
-            let text = language.insert(sources, program, file, &list);
+            let text = language.insert(&Insertions {
+                sources,
+                program,
+                file,
+                list: &list,
+            });
             let failed = list
                 .iter()
                 .zip(&text.moves)

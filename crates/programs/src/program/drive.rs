@@ -15,8 +15,28 @@ pub struct Step {
 
 impl Step {
     /// The joints in degrees, as text.
-    pub(super) fn degrees(&self) -> [String; 6] {
+    fn degrees(&self) -> [String; 6] {
         self.q.map(|angle| format!("{:.4}", angle / DEG))
+    }
+}
+
+/// Adds the moves of a program: a comment where a configuration begins, a move in degrees, slow
+/// where the arm is measured, and a pause there.
+pub(super) fn add(
+    out: &mut String,
+    steps: &[Step],
+    comment: &str,
+    pause: &str,
+    go: impl Fn([String; 6], bool) -> String,
+) {
+    for step in steps {
+        if let Some(number) = step.begins {
+            *out += &format!("{comment}configuration {number}\n");
+        }
+        *out += &go(step.degrees(), step.measured);
+        if step.measured {
+            *out += pause;
+        }
     }
 }
 

@@ -31,6 +31,25 @@ impl Insertion {
     pub fn is_split(&self) -> bool {
         self.between.is_empty()
     }
+
+    /// The move is an arc with points on its way.
+    #[must_use]
+    pub fn is_arc(&self) -> bool {
+        self.between.iter().any(|part| part.via.is_some())
+    }
+}
+
+/// All that is put into one file.
+#[derive(Clone, Copy, Debug)]
+pub struct Insertions<'a> {
+    /// The files.
+    pub sources: &'a [Source],
+    /// What was read of them.
+    pub program: &'a Program,
+    /// Index of the file in the sources.
+    pub file: usize,
+    /// What is put into it.
+    pub list: &'a [Insertion],
 }
 
 /// Byte ranges of a file, and what to put in their place.
@@ -128,31 +147,25 @@ pub(super) struct Manner {
 
 impl Manner {
     /// See [`super::Language::insert`].
-    pub(super) fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        Inserted::each(insertions, |one| self.one(sources, program, one))
+    pub(super) fn insert(&self, into: &Insertions) -> Inserted {
+        Inserted::each(into.list, |one| self.one(into, one))
     }
 
     /// The instruction again, with the target of its move written out.
-    fn one(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        insertion: &Insertion,
-    ) -> Option<Replacements> {
+    fn one(&self, into: &Insertions, insertion: &Insertion) -> Option<Replacements> {
+        let Insertions {
+            sources, program, ..
+        } = *into;
         let motion = &program.moves[insertion.motion];
         let target = program.target_of(motion)?;
-        let repeated = Repeated::of(sources, program, insertion, self.longest)?;
+        let repeated = Repeated::of(into, insertion, self.longest)?;
         if !insertion.is_split() {
-            if !(self.repeats)(&repeated.source.bytes[repeated.span.clone()]) {
+            let line = &repeated.lines[0];
+            if !(self.repeats)(&repeated.source.bytes[line.span.clone()]) {
                 return None;
             }
             let mut from = before(program, motion)?;
-            if repeated.via.is_some() {
+            if line.targets.len() > 1 {
                 from = before(program, from)?;
             }
             if let Some(external) = self.external {
@@ -163,7 +176,7 @@ impl Manner {
                 }
             }
         }
-        repeated.insert(insertion, |numbers| {
+        repeated.insert(insertion, |_, numbers| {
             let bytes = &sources[target.file as usize].bytes;
             let own = program.numbers_of(target);
             let mut text = with_numbers(bytes, &target.span(), own, numbers)?;
@@ -207,109 +220,139 @@ pub(super) fn starts_with_word(text: &[u8], words: &[&str]) -> bool {
     words.iter().any(is)
 }
 
-/// An instruction that is written again for every target before its own.
+/// What new moves need at another place: positions of their own.
+#[derive(Debug, Default)]
+pub(super) struct Added {
+    pub text: Vec<u8>,
+    /// How many positions it has.
+    pub count: u32,
+}
+
+impl Added {
+    /// Adds what one insertion needs; nothing where it cannot be done.
+    pub(super) fn attempt<T>(&mut self, add: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let before = (self.text.len(), self.count);
+        let done = add(self);
+        if done.is_none() {
+            self.text.truncate(before.0);
+            self.count = before.1;
+        }
+        done
+    }
+}
+
+/// A line of a move, or of its two an arc has.
+pub(super) struct Line {
+    /// What of it is written again.
+    pub span: Range<usize>,
+    /// Where targets stand in it.
+    pub targets: Vec<Range<usize>>,
+    /// What stands behind each copy.
+    pub behind: Vec<u8>,
+}
+
+/// A move that is written again for every target before its own.
 pub(super) struct Repeated<'a> {
     /// The file it stands in.
-    source: &'a Source,
-    /// Its text.
-    span: Range<usize>,
-    /// The blanks before it.
-    blanks: &'a [u8],
-    /// Where the point on the way of an arc stands in it.
-    via: Option<Range<usize>>,
-    /// Where its target stands in it.
-    end: Range<usize>,
+    pub source: &'a Source,
+    /// What stands before it in its line.
+    pub before: Vec<u8>,
+    /// Its lines with its target; of an arc with the point on its way before that.
+    pub lines: Vec<Line>,
     /// The longest line of the language in bytes.
-    longest: usize,
+    pub longest: usize,
 }
 
 impl<'a> Repeated<'a> {
     /// The instruction of a move that goes to one target, and to that itself, on lines of its own.
-    pub(super) fn of(
-        sources: &'a [Source],
-        program: &Program,
-        insertion: &Insertion,
-        longest: usize,
-    ) -> Option<Self> {
+    pub(super) fn of(into: &Insertions<'a>, insertion: &Insertion, longest: usize) -> Option<Self> {
+        let program = into.program;
         let motion = sole_use(program, insertion.motion)?;
         if motion.displacement != Displacement::None {
             return None;
         }
         let instruction = &program.instructions[motion.instruction as usize];
-        let source = &sources[motion.file as usize];
+        let source = &into.sources[motion.file as usize];
         let span = instruction.span();
-        let is_arc = insertion.between.iter().any(|b| b.via.is_some());
-        let via = if is_arc {
-            Some(via(program, motion.instruction)?.target_span.range()?)
+        let mut targets = Vec::new();
+        if insertion.is_arc() {
+            targets.push(via(program, motion.instruction)?.target_span.range()?);
+        }
+        targets.push(instruction.target_span.range()?);
+        // a split puts nothing before the move
+        let before = if insertion.is_split() {
+            b""
         } else {
-            None
+            indent(&source.bytes, span.start)?
         };
         Some(Self {
             source,
-            // a split puts nothing before the move
-            blanks: if insertion.is_split() {
-                b""
-            } else {
-                indent(&source.bytes, span.start)?
-            },
-            via,
-            end: instruction.target_span.range()?,
+            before: before.to_vec(),
+            lines: vec![Line {
+                span,
+                targets,
+                behind: source.line_end().to_vec(),
+            }],
             longest,
-            span,
         })
     }
 
-    /// The instruction for each target, in lines before it; `written` makes a target of its
-    /// numbers. `None` where one cannot be written, or a line becomes too long.
+    /// Its lines for each target, before it; `written` makes a target of its numbers, one on the
+    /// way of an arc (true) or at the end. `None` where one cannot be written, or a line becomes
+    /// too long.
     pub(super) fn insert(
         &self,
         insertion: &Insertion,
-        mut written: impl FnMut(&[Vec<u8>]) -> Option<Vec<u8>>,
+        mut written: impl FnMut(bool, &[Vec<u8>]) -> Option<Vec<u8>>,
     ) -> Option<Replacements> {
+        let bytes = &self.source.bytes;
+        let places: Vec<_> = self.lines.iter().flat_map(|line| &line.targets).collect();
+        let (first, last) = (places[0], places[places.len() - 1]);
         let (mut text, mut changes) = (Vec::new(), Vec::new());
         for (number, Between { via, end }) in insertion.between.iter().enumerate() {
             let through = match via {
-                Some(numbers) => Some((self.via.clone()?, written(numbers)?)),
+                Some(numbers) => Some(written(true, numbers)?),
                 None => None,
             };
             // the last part of an arc is the move itself with another point
-            if self.via.is_some() && number + 1 == insertion.between.len() {
-                changes.extend(through);
+            if places.len() > 1 && number + 1 == insertion.between.len() {
+                changes.push((first.clone(), through?));
                 continue;
             }
-            let here = written(end)?;
-            let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
-            parts.extend(through.iter().map(|(at, text)| (at.clone(), &text[..])));
-            parts.push((self.end.clone(), &here));
-            let line = spliced(&self.source.bytes, &self.span, &parts);
-            if line.len() + self.blanks.len() > self.longest {
-                return None;
+            let mut targets = through.into_iter().chain([written(false, end)?]);
+            for line in &self.lines {
+                let parts = line.targets.iter().cloned().zip(targets.by_ref());
+                let copy = spliced(bytes, &line.span, parts);
+                if self.before.len() + copy.len() > self.longest {
+                    return None;
+                }
+                text.extend_from_slice(&self.before);
+                text.extend(copy);
+                text.extend_from_slice(&line.behind);
             }
-            text.extend(line);
-            text.extend_from_slice(self.source.line_end());
-            text.extend_from_slice(self.blanks);
         }
         if let Some(numbers) = &insertion.own {
-            changes.push((self.end.clone(), written(numbers)?));
+            changes.push((last.clone(), written(false, numbers)?));
         }
         if !text.is_empty() {
-            changes.push((self.span.start..self.span.start, text));
+            let at = line_start(bytes, self.lines[0].span.start);
+            changes.push((at..at, text));
         }
         Some(changes)
     }
 }
 
 /// A part of a file with parts of it replaced, in the order of the text.
-pub(super) fn spliced(
+fn spliced(
     bytes: &[u8],
     span: &Range<usize>,
-    parts: &[(Range<usize>, &[u8])],
+    parts: impl Iterator<Item = (Range<usize>, Vec<u8>)>,
 ) -> Vec<u8> {
     let mut out = Vec::new();
     let mut done = span.start;
     for (at, with) in parts {
         out.extend_from_slice(&bytes[done..at.start]);
-        out.extend_from_slice(with);
+        out.extend(with);
         done = at.end;
     }
     out.extend_from_slice(&bytes[done..span.end]);

@@ -2,7 +2,6 @@
 
 use super::script::{Remark, short};
 use super::{About, Marker, ReadError, Source};
-use crate::finding::Severity;
 use std::ops::Range;
 
 /// No text has a zero byte, and places are kept in 32 bits.
@@ -172,15 +171,56 @@ pub(super) fn comments(source: &Source, marker: &Marker, sign: &str) -> Vec<u8> 
     lines.iter().flat_map(line).collect()
 }
 
+/// A position that only the running program knows.
+pub(super) const fn computed(hint: &'static str) -> Remark {
+    Remark::warning(
+        "computed-target",
+        "the position that this move goes to is known at run time only; the move stays as it is",
+        hint,
+    )
+}
+
+/// A target that the files do not have.
+pub(super) fn not_in_files(name: &str, hint: &'static str) -> Remark {
+    Remark::error_about(
+        "target-not-in-files",
+        format!("{name} is not declared in the files; this move is not compensated"),
+        hint,
+    )
+}
+
+/// Joints that the files do not have: a move to them needs no correction.
+pub(super) fn joints_not_in_files(name: &str, hint: &'static str) -> Remark {
+    Remark::note_about(
+        "joint-target-not-in-files",
+        format!("{name} has no value in the files; as a joint target it stays"),
+        hint,
+    )
+}
+
+/// A tool or work frame with an angle that none has.
+pub(super) fn angle_too_large(name: &str, angle: f64, limit: f64, hint: &'static str) -> Remark {
+    Remark::error_about(
+        "angle-too-large",
+        format!("`{name}` has an angle of {angle} deg; the limit is {limit} deg"),
+        hint,
+    )
+}
+
 /// A load that the text does not say.
 pub(super) fn load_chosen(id: &'static str, hint: &'static str) -> Remark {
-    Remark {
+    Remark::warning(
         id,
-        severity: Severity::Warning,
-        text:
-            "only the running program knows the load that is set here; moves are taken with that \
-            of the tool"
-                .into(),
+        "only the running program knows the load that is set here; moves are taken with that of \
+         the tool",
         hint,
-    }
+    )
+}
+
+/// The name of a label as a number: FNV-1a. Two names of one routine with the same would be one
+/// label; at 64 bits there are none.
+pub(super) fn label_key(name: &[u8]) -> u64 {
+    name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }

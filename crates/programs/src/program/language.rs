@@ -1,10 +1,10 @@
 //! What every language does.
 
-use super::insert::{Inserted, Insertion};
+use super::insert::{Inserted, Insertions};
 use super::script::{self, Script};
 use super::{
-    Configuration, Decoded, Layout, Marker, Posture, Program, ReadError, Role, Settings, Shape,
-    Source, Step, Value,
+    Configuration, Decoded, Layout, Marker, Posture, ReadError, Role, Settings, Shape, Source,
+    Step, Value,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -215,23 +215,15 @@ pub trait Language: Sync {
 
     /// What stands before and behind the `index`-th number of a target where it is put into a text
     /// that leaves it out.
-    fn around_missing(&self, layout: Layout, index: usize) -> (&'static str, &'static str) {
+    fn around_missing(&self, layout: Layout, index: usize) -> (String, &'static str) {
         let _ = (layout, index);
-        ("", "")
+        (String::new(), "")
     }
 
-    /// Text that puts moves between those of one file, which is the `file`-th of the sources. A
-    /// move that cannot be repeated, because its text does more than go to its target, is
-    /// refused; by default all are.
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        file: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        let _ = (sources, program, file);
-        Inserted::none(insertions)
+    /// Text that puts moves between those of one file. A move that cannot be repeated, because its
+    /// text does more than go to its target, is refused; by default all are.
+    fn insert(&self, into: &Insertions) -> Inserted {
+        Inserted::none(into.list)
     }
 
     /// The names of external axes in the order of their offsets, see

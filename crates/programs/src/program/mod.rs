@@ -44,13 +44,14 @@ mod source;
 pub mod urscript;
 pub mod val3;
 mod words;
+mod xml;
 
 pub use displacement::{Displacement, Shift, Stride};
 pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
 pub use external::{External, ExternalNames, ExternalState, ExternalUse};
-pub use insert::{Between, Inserted, Insertion, Replacements};
+pub use insert::{Between, Inserted, Insertion, Insertions, Replacements};
 pub(crate) use kit::check_bytes;
 pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256, sha256_of};
@@ -121,6 +122,14 @@ pub struct Layout {
     /// Which of the language's own forms: with or without configuration data, Euler angles or
     /// quaternion, degrees or pulses.
     pub variant: u8,
+}
+
+impl Layout {
+    /// The first form of a shape.
+    #[must_use]
+    pub const fn of(shape: Shape) -> Self {
+        Self { shape, variant: 0 }
+    }
 }
 
 /// What a language must know besides the files.
@@ -452,6 +461,26 @@ pub struct Program {
 }
 
 impl Target {
+    /// One without a name and, so far, without numbers, from a place up to a byte.
+    #[must_use]
+    pub fn new(place: Place, end: u32, layout: Layout) -> Self {
+        Self {
+            name: None,
+            file: place.file,
+            offset: place.offset,
+            end,
+            layout,
+            numbers: 0..0,
+            blocked: false,
+        }
+    }
+
+    /// Where it begins.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        Place::new(self.file, self.offset)
+    }
+
     /// Its bytes in its file.
     #[must_use]
     pub fn span(&self) -> Range<usize> {

@@ -91,12 +91,32 @@ pub(super) fn write_angles(pose: &Pose, beyond_deg: f64, n: &mut [f64]) {
 /// revolution, and `beyond_deg` that cannot be seen in the file, where the present one is.
 pub(super) fn nearest_angles(rotation: &Rotation, present: [f64; 3], beyond_deg: f64) -> [f64; 3] {
     let [z, y, x] = rotation.rzryrx(present[0] * DEG).map(|angle| angle / DEG);
-    let near = |angles: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|i| angles[i] + 360.0 * ((present[i] - angles[i]) / 360.0).round())
+    let usual = [x, y, z];
+    let other = [x + 180.0, 180.0 - y, z + 180.0];
+    let other = if present[1].abs() > 90.0 {
+        other
+    } else {
+        usual
     };
+    nearest_of(usual, other, present, beyond_deg)
+}
+
+/// Angles in degrees, each by whole rotations as near to the present ones as can be.
+pub(super) fn near(angles: [f64; 3], present: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| angles[i] + 360.0 * ((present[i] - angles[i]) / 360.0).round())
+}
+
+/// Of two triples of one rotation the one nearer to the present, by whole rotations, but each
+/// angle within a half revolution and `beyond_deg` where the present one is.
+pub(super) fn nearest_of(
+    usual: [f64; 3],
+    other: [f64; 3],
+    present: [f64; 3],
+    beyond_deg: f64,
+) -> [f64; 3] {
     let far = |angles: &[f64; 3]| (0..3).map(|i| (angles[i] - present[i]).abs()).sum::<f64>();
-    let (usual, other) = (near([x, y, z]), near([x + 180.0, 180.0 - y, z + 180.0]));
-    let chosen = if present[1].abs() > 90.0 && far(&other) < far(&usual) {
+    let (usual, other) = (near(usual, present), near(other, present));
+    let chosen = if far(&other) < far(&usual) {
         other
     } else {
         usual

@@ -211,6 +211,12 @@ impl<'a> Words<'a, '_> {
         }
     }
 
+    /// What stands before a sign; all where there is none.
+    pub(super) fn before(&self, sign: u8) -> Self {
+        let at = (0..self.len()).find(|at| self.is(*at, sign));
+        self.part(0..at.unwrap_or(self.len()))
+    }
+
     pub(super) fn behind(&self, at: usize) -> Self {
         self.part(at.min(self.len())..self.len())
     }
@@ -315,6 +321,14 @@ impl<'a> Words<'a, '_> {
         let is_rest = self.closing(open) + 1 == self.len();
         is_rest.then(|| self.inside(open).0.list())
     }
+}
+
+/// A text without its quotes.
+pub(super) fn unquoted(text: &[u8]) -> &[u8] {
+    let text = text.strip_prefix(b"&quot;").unwrap_or(text);
+    let text = text.strip_suffix(b"&quot;").unwrap_or(text);
+    let text = text.strip_prefix(b"\"").unwrap_or(text);
+    text.strip_suffix(b"\"").unwrap_or(text)
 }
 
 /// The six numbers that a list is.

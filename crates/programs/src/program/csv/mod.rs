@@ -164,7 +164,7 @@ impl Reader {
         script.instructions.reserve(rows);
         script.statements.reserve(rows);
         script.numbers.reserve(rows * header.numbers.len());
-        let place = Place { file, offset: 0 };
+        let place = Place::new(file, 0);
         let routine = self.builder.declare("", place, Start::Called);
         self.builder.open(routine);
         while records.next(&mut cells).map_err(unclosed)? {
@@ -227,14 +227,11 @@ impl Reader {
         let frame = self.frame(text(header.frame).unwrap_or_default());
         let end = short(cells.last().expect("a record has a cell").end);
         let script = &mut self.builder.script;
+        let place = Place::new(file, offset);
         script.targets.push(Target {
             name: name.map(Into::into),
-            file,
-            offset,
-            end,
-            layout: header.layout(branch.transpose()?),
             numbers: start..short(script.numbers.len()),
-            blocked: false,
+            ..Target::new(place, end, header.layout(branch.transpose()?))
         });
         let target = script.targets.len() - 1;
         self.external(source, target, header, cells)?;
@@ -247,7 +244,7 @@ impl Reader {
             target: Expr::Target(target),
             near,
             target_span: Span { start: offset, end },
-            ..Instruction::at(Place { file, offset })
+            ..Instruction::at(Place::new(file, offset))
         };
         let modal = Modal {
             tool: Expr::Value(tool),
@@ -295,8 +292,7 @@ impl Reader {
                 None if value != 0.0 => {
                     let unit = if axis.is_linear { "mm" } else { "deg" };
                     let name = format!("e{}_{unit}", u16::from(axis.number) + 1);
-                    let remark = script.remark(Remark::external_unknown(&name, value));
-                    script.refused.push((target, remark));
+                    script.refuse(target, Remark::external_unknown(&name, value));
                 }
                 None => {}
             }

@@ -320,12 +320,11 @@ impl Controller {
                 of.what
             );
             let remark = of.taught.entry(number).or_insert_with(|| {
-                script.remark(Remark {
-                    id: "frame-number-differs",
-                    severity: Severity::Warning,
-                    text: text.into(),
-                    hint: "select the number that the point was taught with",
-                })
+                script.remark(Remark::warning_about(
+                    "frame-number-differs",
+                    text,
+                    "select the number that the point was taught with",
+                ))
             });
             all.push(Expected {
                 variable: of.selected,
@@ -359,8 +358,7 @@ impl Controller {
         *self.guards[bits].get_or_insert_with(|| {
             let refused = self.refusals.iter().zip(against).filter(|(_, is)| *is);
             let all = refused.map(|(variable, _)| *variable).chain(self.modes);
-            script.guards.push(all.collect());
-            short(script.guards.len() - 1)
+            script.guard(all)
         })
     }
 
@@ -407,6 +405,6 @@ fn variable(
     script.variable(Variable {
         kept,
         shared,
-        ..Variable::new(name, Place { file: 0, offset: 0 }, declared)
+        ..Variable::new(name, Place::NOWHERE, declared)
     })
 }

@@ -5,8 +5,8 @@
 
 use super::points::Points;
 use super::sections::{Sections, line_end};
-use crate::program::insert::{line_start, sole_use, spliced, with_numbers};
-use crate::program::{Between, Inserted, Insertion, Motion, Program, Replacements, Source, Target};
+use crate::program::insert::{Added, Line, Repeated, line_start, sole_use, with_numbers};
+use crate::program::{Inserted, Insertion, Insertions, Motion, Program, Replacements, Target};
 use std::ops::Range;
 
 /// Most points of a program.
@@ -39,16 +39,11 @@ fn points(program: &Program, index: usize) -> Option<Vec<Range<usize>>> {
 }
 
 /// What the copies of one move are made of.
-struct Copied {
-    /// Its instruction.
-    span: Range<usize>,
-    /// The points in it.
-    points: Vec<Range<usize>>,
-    /// Text that starts a line of its own.
-    head: Vec<u8>,
-    /// The text of its target below `/POS`, and of that up to behind its name.
-    target: Range<usize>,
-    name: Range<usize>,
+struct Copied<'a> {
+    repeated: Repeated<'a>,
+    target: &'a Target,
+    /// The text of its target below `/POS` behind the name.
+    body: Range<usize>,
 }
 
 /// The text of a target with its semicolon, and its `P[3:"name"]`.
@@ -80,8 +75,9 @@ fn in_field(old: &[u8], new: &[u8]) -> Vec<u8> {
     text
 }
 
-impl Copied {
-    fn of(source: &Source, program: &Program, insertion: &Insertion) -> Option<Self> {
+impl<'a> Copied<'a> {
+    fn of(into: &Insertions<'a>, insertion: &Insertion) -> Option<Self> {
+        let (source, program) = (&into.sources[into.file], into.program);
         let bytes = &source.bytes;
         let motion = sole_use(program, insertion.motion)?;
         let target = program.target_of(motion)?;
@@ -89,17 +85,17 @@ impl Copied {
         let instruction = &program.instructions[index];
         let span = instruction.span();
         let before = head(bytes, span.start)?;
-        let points = if insertion.is_split() {
+        let targets = if insertion.is_split() {
             vec![instruction.target_span.range()?]
         } else {
             points(program, index)?
         };
-        let is_arc = insertion.between.iter().any(|b| b.via.is_some());
-        if is_arc != (points.len() == 2) {
+        if target.file as usize != into.file || insertion.is_arc() != (targets.len() == 2) {
             return None;
         }
         let (held, name) = declared(bytes, target)?;
-        if has_more_axes(&bytes[name.end..held.end]) {
+        let body = name.end..held.end;
+        if has_more_axes(&bytes[body.clone()]) {
             return None;
         }
         // the column of the instruction stays
@@ -110,48 +106,49 @@ impl Copied {
         } else {
             head.resize(width, b' ');
         }
-        Some(Self {
+        let line = Line {
             span,
-            points,
-            head,
-            target: held,
-            name,
+            targets,
+            behind: source.line_end().to_vec(),
+        };
+        Some(Self {
+            repeated: Repeated {
+                source,
+                before: head,
+                lines: vec![line],
+                longest: usize::MAX,
+            },
+            target,
+            body,
         })
     }
-}
 
-/// New points of a file.
-struct NewPoints<'a> {
-    bytes: &'a [u8],
-    end: &'a [u8],
-    next: u32,
-    text: Vec<u8>,
-}
-
-impl NewPoints<'_> {
-    /// A point like that of a move with other numbers; its name in moves.
-    fn add(
-        &mut self,
+    /// The text of the move with new points, the first of this number.
+    fn repeat(
+        &self,
         program: &Program,
-        target: &Target,
-        copied: &Copied,
-        numbers: &[Vec<u8>],
-    ) -> Option<Vec<u8>> {
-        let body = copied.name.end..copied.target.end;
-        let own = program.numbers_of(target);
-        let fields = own.iter().zip(numbers);
-        let fields = fields.map(|(old, new)| in_field(old.text(self.bytes), new));
-        let fields: Vec<Vec<u8>> = fields.collect();
-        let body = with_numbers(self.bytes, &body, own, &fields)?;
-        if self.next > MOST_POINTS {
-            return None;
-        }
-        let name = format!("P[{}]", self.next).into_bytes();
-        self.next += 1;
-        self.text.extend_from_slice(&name);
-        self.text.extend(body);
-        self.text.extend_from_slice(self.end);
-        Some(name)
+        insertion: &Insertion,
+        first: u32,
+        points: &mut Added,
+    ) -> Option<Replacements> {
+        let source = self.repeated.source;
+        let own = program.numbers_of(self.target);
+        self.repeated.insert(insertion, |_, numbers| {
+            let fields = own.iter().zip(numbers);
+            let fields = fields.map(|(old, new)| in_field(old.text(&source.bytes), new));
+            let fields: Vec<Vec<u8>> = fields.collect();
+            let body = with_numbers(&source.bytes, &self.body, own, &fields)?;
+            let number = first + points.count;
+            if number > MOST_POINTS {
+                return None;
+            }
+            let name = format!("P[{number}]").into_bytes();
+            points.count += 1;
+            points.text.extend_from_slice(&name);
+            points.text.extend(body);
+            points.text.extend_from_slice(source.line_end());
+            Some(name)
+        })
     }
 }
 
@@ -167,89 +164,29 @@ fn points_of(bytes: &[u8], sections: &Sections) -> (u32, usize) {
 }
 
 /// See [`crate::program::Language::insert`].
-pub(super) fn insert(
-    source: &Source,
-    program: &Program,
-    file: usize,
-    insertions: &[Insertion],
-) -> Inserted {
-    let bytes = &source.bytes;
+pub(super) fn insert(into: &Insertions) -> Inserted {
+    let bytes = &into.sources[into.file].bytes;
     let Some(sections) = Sections::of(bytes) else {
-        return Inserted::none(insertions);
+        return Inserted::none(into.list);
     };
     let (highest, behind_points) = points_of(bytes, &sections);
-    let mut points = NewPoints {
-        bytes,
-        end: source.line_end(),
-        next: highest + 1,
-        text: Vec::new(),
-    };
-    let mut inserted = Inserted::default();
-    for insertion in insertions {
-        let motion = &program.moves[insertion.motion];
-        let target = &program.targets[motion.target.expect("inserted moves have a target")];
-        let own = target.file as usize == file;
-        let copied = Copied::of(source, program, insertion).filter(|_| own);
-        let (next, length) = (points.next, points.text.len());
-        let done =
-            copied.and_then(|copied| repeat(program, target, &copied, insertion, &mut points));
-        if done.is_none() {
-            points.next = next;
-            points.text.truncate(length);
-        }
-        inserted.moves.push(done);
-    }
-    if !points.text.is_empty() {
-        inserted
-            .rest
-            .push((behind_points..behind_points, points.text));
+    let mut points = Added::default();
+    let mut inserted = Inserted::each(into.list, |one| {
+        let copied = Copied::of(into, one)?;
+        points.attempt(|points| copied.repeat(into.program, one, highest + 1, points))
+    });
+    if points.count > 0 {
+        let at = behind_points..behind_points;
+        inserted.rest.push((at, points.text));
     }
     inserted
-}
-
-fn repeat(
-    program: &Program,
-    target: &Target,
-    copied: &Copied,
-    insertion: &Insertion,
-    points: &mut NewPoints,
-) -> Option<Replacements> {
-    let is_arc = copied.points.len() == 2;
-    let (mut text, mut changes) = (Vec::new(), Vec::new());
-    for (number, Between { via, end }) in insertion.between.iter().enumerate() {
-        let via = match via {
-            Some(numbers) => Some(points.add(program, target, copied, numbers)?),
-            None => None,
-        };
-        // the last part of an arc is the move itself with another point
-        if is_arc && number + 1 == insertion.between.len() {
-            changes.push((copied.points[0].clone(), via?));
-            continue;
-        }
-        let here = points.add(program, target, copied, end)?;
-        let mut parts: Vec<(Range<usize>, &[u8])> = Vec::new();
-        parts.extend(via.iter().map(|name| (copied.points[0].clone(), &name[..])));
-        parts.push((copied.points[copied.points.len() - 1].clone(), &here));
-        text.extend_from_slice(&copied.head);
-        text.extend(spliced(points.bytes, &copied.span, &parts));
-        text.extend_from_slice(points.end);
-    }
-    if let Some(numbers) = &insertion.own {
-        let name = points.add(program, target, copied, numbers)?;
-        changes.push((copied.points[copied.points.len() - 1].clone(), name));
-    }
-    if !text.is_empty() {
-        let at = line_start(points.bytes, copied.span.start);
-        changes.push((at..at, text));
-    }
-    Some(changes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::Fanuc;
     use super::*;
-    use crate::program::Settings;
+    use crate::program::{Between, Settings, Source};
 
     #[test]
     fn new_points_have_the_fields_of_the_old_one_whatever_its_name() {
@@ -268,7 +205,12 @@ mod tests {
             }],
             own: None,
         };
-        let inserted = insert(&source, &program, 0, &[insertion]);
+        let inserted = insert(&Insertions {
+            sources,
+            program: &program,
+            file: 0,
+            list: &[insertion],
+        });
         assert!(inserted.moves[0].is_some());
         assert_eq!(
             Source::text(&inserted.rest[0].1),

@@ -55,8 +55,8 @@ mod words;
 
 use super::notation;
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Script, Settings, Source, Step,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
+    Script, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use sections::Sections;
@@ -165,14 +165,8 @@ impl Language for Fanuc {
         config::write(index - PLAIN, value, old, out);
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        file: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::insert(&sources[file], program, file, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::insert(into)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {

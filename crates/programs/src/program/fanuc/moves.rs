@@ -4,10 +4,9 @@ use super::controller::{Kind, Why, kinds};
 use super::lines::Line;
 use super::reader::Reader;
 use super::words::{Named, position, word_length};
-use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, Instruction, Modal, NOT_DISPLACED, Span, short,
+    DISPLACED_SOMEHOW, Expr, Instruction, Modal, NOT_DISPLACED, Remark, Span, short,
 };
 use crate::program::{Motion, SpeedZone, number};
 use std::ops::Range;
@@ -107,10 +106,7 @@ impl Reader<'_> {
                 _ => Motion::Linear,
             };
             // what is more than a move to its points cannot be repeated
-            let target_span = is_repeatable.then(|| Span {
-                start: short(start + span.start),
-                end: short(start + span.end),
-            });
+            let target_span = is_repeatable.then(|| Span::of(start + span.start..start + span.end));
             self.go_to(
                 named,
                 &Instruction {
@@ -251,7 +247,7 @@ impl Reader<'_> {
         let Some(target) = point.target else {
             if !std::mem::replace(&mut self.listing.reported_group, true) {
                 let message = "the point has no group 1: it is one of another group and stays";
-                self.say(self.place, "other-group", Severity::Note, message, "");
+                self.say(self.place, Remark::note("other-group", message, ""));
             }
             return None;
         };

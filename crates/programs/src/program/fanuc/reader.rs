@@ -137,7 +137,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         listing: Listing::default(),
         bytes: &[],
         state: State::default(),
-        place: Place { file: 0, offset: 0 },
+        place: Place::NOWHERE,
         controller,
         by_name,
         arguments: HashMap::new(),
@@ -183,7 +183,7 @@ fn listing(
     let name = program_name(&bytes[sections.name.clone()]);
     let offset = short(sections.name.start);
     let mut listing = Listing {
-        routine: builder.declare(name, Place { file, offset }, Start::Called),
+        routine: builder.declare(name, Place::new(file, offset), Start::Called),
         file,
         lines: sections.lines.clone(),
         tracks_line: tracks_line(&bytes[sections.head.clone()]),
@@ -227,7 +227,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         });
         let target = script.targets.len() - 1;
         if let Some(trouble) = trouble {
-            refuse(script, target, trouble);
+            script.refuse(target, trouble.remark());
         }
         // of a point that stays nothing else is said
         let external = if trouble.is_none() {
@@ -243,8 +243,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
                 }
                 // a user frame that stands still does not feel other groups
                 ExternalUse::Unknown if *value != 0.0 && !name.starts_with('G') => {
-                    let remark = script.remark(Remark::external_unknown(name, *value));
-                    script.refused.push((target, remark));
+                    script.refuse(target, Remark::external_unknown(name, *value));
                 }
                 _ => {}
             }
@@ -255,7 +254,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
     if let Some(twin) = twin {
         let both = [listing.points[twin as usize].target, target];
         for target in both.into_iter().flatten() {
-            refuse(script, target, Why::Ambiguous);
+            script.refuse(target, Why::Ambiguous.remark());
         }
     }
     listing.uses_active |= point.tool.is_none() || point.frame.is_none();
@@ -266,11 +265,6 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         is_joints: point.content == Some(Content::Joints),
         twin,
     });
-}
-
-fn refuse(script: &mut Script, target: TargetId, why: Why) {
-    let remark = script.remark(why.remark());
-    script.refused.push((target, remark));
 }
 
 /// The first word behind `/PROG`, in capitals.
@@ -307,7 +301,7 @@ impl Reader<'_> {
         self.builder.open(self.listing.routine);
         for line in Lines::new(self.bytes, self.listing.lines.clone()) {
             let offset = short(line.text.start);
-            self.place = Place { file, offset };
+            self.place = Place::new(file, offset);
             self.line(&line);
         }
         self.end();
@@ -357,16 +351,11 @@ impl Reader<'_> {
     pub(super) fn written(&mut self, target: TargetId) -> VariableId {
         let script = &mut self.builder.script;
         *self.listing.written.entry(target).or_insert_with(|| {
-            let Target {
-                name, file, offset, ..
-            } = script.targets[target].clone();
+            let Target { name, .. } = script.targets[target].clone();
+            let place = script.targets[target].place();
             script.variable(Variable {
                 kept: true,
-                ..Variable::new(
-                    name.unwrap_or_default(),
-                    Place { file, offset },
-                    Expr::Target(target),
-                )
+                ..Variable::new(name.unwrap_or_default(), place, Expr::Target(target))
             })
         })
     }
@@ -397,17 +386,8 @@ impl Reader<'_> {
     }
 
     /// A finding of the reader.
-    pub(super) fn say(
-        &mut self,
-        place: Place,
-        id: &'static str,
-        severity: Severity,
-        text: &str,
-        hint: &str,
-    ) {
-        let source = &self.sources[place.file as usize];
-        let finding = source.finding(place.offset as usize, id, severity, text.to_owned(), hint);
-        self.builder.script.findings.push(finding);
+    pub(super) fn say(&mut self, place: Place, remark: Remark) {
+        self.builder.script.say(self.sources, place, remark);
     }
 
     /// What depends on all programs: what registers hold.
@@ -417,7 +397,7 @@ impl Reader<'_> {
                 let message = "a point is copied into a register here, which nothing in the files \
                     goes to; it takes its correction along";
                 let hint = "look where the register is used, or give those programs too";
-                self.say(place, "target-copied", Severity::Warning, message, hint);
+                self.say(place, Remark::warning("target-copied", message, hint));
             }
         }
         for (write, number) in std::mem::take(&mut self.from_registers) {

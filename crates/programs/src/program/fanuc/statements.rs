@@ -13,7 +13,7 @@ use super::words::{
 use crate::program::notation::grown_by;
 use crate::program::number;
 use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Write, Written, short,
+    Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Written, short,
 };
 use std::collections::BTreeSet;
 
@@ -189,21 +189,17 @@ impl Reader<'_> {
                 self.give(parameter, value);
             }
         }
-        self.builder.call(Call {
-            place: self.place,
-            foreign: callees.is_empty(),
-            callees: callees.iter().map(|(routine, _)| *routine).collect(),
-            name,
-            arguments: first..short(self.builder.script.arguments.len()),
-        });
+        let callees = callees.iter().map(|(routine, _)| *routine).collect();
+        let arguments = first..short(self.builder.script.arguments.len());
+        self.builder
+            .call(Call::of(self.place, callees, name, arguments));
     }
 
     fn give(&mut self, parameter: Option<VariableId>, value: Expr) {
-        self.builder.script.arguments.push(Argument {
-            parameter,
-            value,
-            back: None,
-        });
+        self.builder
+            .script
+            .arguments
+            .push(Argument::new(parameter, value, None));
     }
 
     /// `RUN PROGRAM`: it runs concurrently with this one.
@@ -244,11 +240,7 @@ impl Reader<'_> {
 
     fn write(&mut self, variable: Written, how: How) {
         let place = self.place;
-        self.builder.write(Write {
-            place,
-            variable,
-            how,
-        });
+        self.builder.write(place, variable, how);
     }
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {

@@ -10,7 +10,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::number::{Fraction, Style};
-use crate::program::{Displacement, Motion, Shape, Shift, Stride, Value};
+use crate::program::{Displacement, Motion, Program, Shape, Shift, Stride, Value};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,

@@ -1,10 +1,10 @@
 //! Moves between those of a job: the line again, to a new `C` position.
 
 use super::job::{HEADERS, Job, Letter, Positions};
-use crate::program::insert::{indent, sole_use, spliced, with_numbers};
+use crate::program::insert::{Added, Line, Repeated, indent, sole_use, with_numbers};
 use crate::program::kit::line_behind;
 use crate::program::script::Instruction;
-use crate::program::{Between, Inserted, Insertion, Program, Replacements, Source, Target};
+use crate::program::{Inserted, Insertion, Insertions, Move, Program, Replacements, Target};
 use std::ops::Range;
 
 /// Highest number of a position.
@@ -15,13 +15,8 @@ type Above<'a> = [Option<&'a [u8]>; HEADERS];
 
 /// What the copies of one move are made of.
 struct Copied<'a> {
-    /// The line without its blanks, and the blanks.
-    span: Range<usize>,
-    blanks: &'a [u8],
-    /// The name of the position in it.
-    operand: Range<usize>,
-    /// Of an arc: the line and the position of the point on the way.
-    via: Option<(Range<usize>, Range<usize>)>,
+    repeated: Repeated<'a>,
+    target: &'a Target,
     above: Above<'a>,
     /// The line of its position behind the `=`.
     body: Range<usize>,
@@ -45,14 +40,11 @@ fn plain_move(
 }
 
 impl<'a> Copied<'a> {
-    fn of(
-        bytes: &'a [u8],
-        program: &Program,
-        positions: &Positions<'a>,
-        insertion: &Insertion,
-    ) -> Option<Self> {
+    fn of(into: &Insertions<'a>, positions: &Positions<'a>, insertion: &Insertion) -> Option<Self> {
+        let (source, program) = (&into.sources[into.file], into.program);
+        let bytes = &source.bytes;
         let motion = sole_use(program, insertion.motion)?;
-        let is_arc = insertion.between.iter().any(|b| b.via.is_some());
+        let is_arc = insertion.is_arc();
         let verbs: &[&[u8]] = if insertion.is_split() {
             &[b"MOVJ ", b"MOVL ", b"MOVC ", b"MOVS "]
         } else if is_arc {
@@ -60,77 +52,76 @@ impl<'a> Copied<'a> {
         } else {
             &[b"MOVJ ", b"MOVL "]
         };
-        let instruction =
-            |of: &crate::program::Move| &program.instructions[of.instruction as usize];
-        let (span, operand) = plain_move(bytes, instruction(motion), verbs)?;
-        let mut via = None;
+        let line = |of: &Move| {
+            let instruction = &program.instructions[of.instruction as usize];
+            let (span, name) = plain_move(bytes, instruction, verbs)?;
+            Some(Line {
+                span,
+                targets: vec![name],
+                behind: source.line_end().to_vec(),
+            })
+        };
+        let mut lines = Vec::new();
         if is_arc {
-            let through = &program.moves[insertion.motion.checked_sub(1)?];
-            via = Some(plain_move(bytes, instruction(through), verbs)?);
+            lines.push(line(&program.moves[insertion.motion.checked_sub(1)?])?);
         }
-        let at = program.targets[motion.target?].offset;
+        lines.push(line(motion)?);
+        let target = program.target_of(motion)?;
         let own = positions
             .targets
-            .binary_search_by_key(&at, |target| target.offset);
+            .binary_search_by_key(&target.offset, |target| target.offset);
         let own = own.ok()?;
         let Range { start, end } = positions.targets[own].span();
         let equals = start + memchr::memchr(b'=', &bytes[start..end])?;
+        let before = indent(bytes, lines.last()?.span.start)?.to_vec();
         Some(Self {
-            blanks: indent(bytes, span.start)?,
-            span,
-            operand,
-            via,
+            repeated: Repeated {
+                source,
+                before,
+                lines,
+                longest: usize::MAX,
+            },
+            target,
             above: positions.header(own).lines,
             body: equals..end,
         })
     }
-}
 
-/// New positions of a job.
-struct NewPositions<'a> {
-    source: &'a Source,
-    digits: usize,
-    next: u32,
-    /// Header lines above the next new position.
-    above: Above<'a>,
-    text: Vec<u8>,
-    count: u32,
-}
-
-impl<'a> NewPositions<'a> {
-    /// Header lines where they are not those above.
-    fn put_headers(&mut self, above: &Above<'a>) {
-        for which in 0..HEADERS {
-            if let Some(line) = above[which].filter(|line| self.above[which] != Some(line)) {
-                self.text.extend_from_slice(line);
-                self.text.extend_from_slice(self.source.line_end());
-            }
-        }
-        self.above = *above;
-    }
-
-    /// A position like that of a move with other numbers; its name.
-    fn add(
-        &mut self,
+    /// The text of the move with new positions behind the last of a job.
+    fn repeat(
+        &self,
         program: &Program,
-        target: &Target,
-        copied: &Copied<'a>,
-        numbers: &[Vec<u8>],
-    ) -> Option<Vec<u8>> {
-        if self.next > MOST_POSITIONS {
-            return None;
+        insertion: &Insertion,
+        (job, above): (&Own<'a>, &mut Above<'a>),
+        new: &mut Added,
+    ) -> Option<Replacements> {
+        let source = self.repeated.source;
+        let own = program.numbers_of(self.target);
+        self.repeated.insert(insertion, |_, numbers| {
+            let number = job.highest + 1 + new.count;
+            if number > MOST_POSITIONS {
+                return None;
+            }
+            let body = with_numbers(&source.bytes, &self.body, own, numbers)?;
+            let name = format!("C{number:0width$}", width = job.digits).into_bytes();
+            put_headers(&mut new.text, above, &self.above, source.line_end());
+            new.count += 1;
+            new.text.extend_from_slice(&name);
+            new.text.extend(body);
+            new.text.extend_from_slice(source.line_end());
+            Some(name)
+        })
+    }
+}
+
+/// Header lines where they are not those above.
+fn put_headers<'a>(text: &mut Vec<u8>, above: &mut Above<'a>, wanted: &Above<'a>, end: &[u8]) {
+    for (above, wanted) in above.iter_mut().zip(wanted) {
+        if let Some(line) = wanted.filter(|line| *above != Some(line)) {
+            text.extend_from_slice(line);
+            text.extend_from_slice(end);
         }
-        let bytes = &self.source.bytes;
-        let own = program.numbers_of(target);
-        let body = with_numbers(bytes, &copied.body, own, numbers)?;
-        let name = format!("C{:0width$}", self.next, width = self.digits).into_bytes();
-        self.put_headers(&copied.above);
-        self.text.extend_from_slice(&name);
-        self.text.extend(body);
-        self.text.extend_from_slice(self.source.line_end());
-        self.next += 1;
-        self.count += 1;
-        Some(name)
+        *above = *wanted;
     }
 }
 
@@ -171,48 +162,38 @@ impl<'a> Own<'a> {
 }
 
 /// See [`crate::program::Language::insert`].
-pub(super) fn insert(
-    source: &Source,
-    program: &Program,
-    file: usize,
-    insertions: &[Insertion],
-) -> Inserted {
-    let bytes = &source.bytes;
-    let mut inserted = Inserted::none(insertions);
+pub(super) fn insert(into: &Insertions) -> Inserted {
+    let source = &into.sources[into.file];
+    let mut inserted = Inserted::none(into.list);
     let mut positions = Positions::default();
     if positions.read(source, 0).is_err() {
         return inserted;
     }
     for job in &positions.jobs {
-        let Some(own) = Own::of(bytes, &positions, job) else {
+        let Some(own) = Own::of(&source.bytes, &positions, job) else {
             continue;
         };
-        let mut new = NewPositions {
-            source,
-            digits: own.digits,
-            next: own.highest + 1,
-            above: own.above,
-            text: Vec::new(),
-            count: 0,
-        };
-        for (insertion, done) in insertions.iter().zip(&mut inserted.moves) {
-            let motion = &program.moves[insertion.motion];
-            let target = &program.targets[motion.target.expect("inserted moves have a target")];
-            let is_own = target.file as usize == file && own.range.contains(&target.offset);
+        let (mut new, mut above) = (Added::default(), own.above);
+        for (insertion, done) in into.list.iter().zip(&mut inserted.moves) {
+            let motion = &into.program.moves[insertion.motion];
+            let target = into.program.target_of(motion);
+            let target = target.expect("inserted moves have a target");
+            let is_own = target.file as usize == into.file && own.range.contains(&target.offset);
             if !is_own || !own.range.contains(&motion.offset) {
                 continue;
             }
-            let before = (new.next, new.count, new.text.len(), new.above);
-            *done = Copied::of(bytes, program, &positions, insertion)
-                .and_then(|copied| repeat(program, target, &copied, insertion, &mut new));
+            let before = above;
+            *done = Copied::of(into, &positions, insertion).and_then(|copied| {
+                let job = (&own, &mut above);
+                new.attempt(|new| copied.repeat(into.program, insertion, job, new))
+            });
             if done.is_none() {
-                new.text.truncate(before.2);
-                (new.next, new.count, new.above) = (before.0, before.1, before.3);
+                above = before;
             }
         }
         if new.count > 0 {
             if own.goes_on {
-                new.put_headers(&own.above);
+                put_headers(&mut new.text, &mut above, &own.above, source.line_end());
             }
             inserted.rest.push((own.behind..own.behind, new.text));
             if let Some((count, span)) = job.announced {
@@ -224,51 +205,4 @@ pub(super) fn insert(
         }
     }
     inserted
-}
-
-fn repeat<'a>(
-    program: &Program,
-    target: &Target,
-    copied: &Copied<'a>,
-    insertion: &Insertion,
-    new: &mut NewPositions<'a>,
-) -> Option<Replacements> {
-    let source = new.source;
-    let (bytes, end) = (&source.bytes, source.line_end());
-    let (mut text, mut changes) = (Vec::new(), Vec::new());
-    for (number, Between { via, end: here }) in insertion.between.iter().enumerate() {
-        let via = match (via, &copied.via) {
-            (Some(numbers), Some(place)) => {
-                Some((new.add(program, target, copied, numbers)?, place))
-            }
-            _ => None,
-        };
-        // the last part of an arc is the move itself with another point
-        if let Some((name, (_, operand))) = &via
-            && number + 1 == insertion.between.len()
-        {
-            changes.push((operand.clone(), name.clone()));
-            continue;
-        }
-        let here = new.add(program, target, copied, here)?;
-        let mut line = |span: &Range<usize>, operand: &Range<usize>, name: &[u8]| {
-            text.extend(spliced(bytes, span, &[(operand.clone(), name)]));
-            text.extend_from_slice(end);
-            text.extend_from_slice(copied.blanks);
-        };
-        if let Some((name, (span, operand))) = &via {
-            line(span, operand, name);
-        }
-        line(&copied.span, &copied.operand, &here);
-    }
-    if let Some(numbers) = &insertion.own {
-        let name = new.add(program, target, copied, numbers)?;
-        changes.push((copied.operand.clone(), name));
-    }
-    if !text.is_empty() {
-        // an arc's parts stand before its first line
-        let first = copied.via.as_ref().map_or(&copied.span, |(span, _)| span);
-        changes.push((first.start..first.start, text));
-    }
-    Some(changes)
 }

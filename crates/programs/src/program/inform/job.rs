@@ -8,7 +8,7 @@
 use super::lines::{Line, Lines, add_numbers, after, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
 use crate::program::kit::Fault;
-use crate::program::script::{Span, short};
+use crate::program::script::{Place, Span, short};
 use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use memchr::memmem;
@@ -327,10 +327,7 @@ impl<'a> Positions<'a> {
             let first = counts.split(|&b| b == b',' || b == b' ').next();
             let first = first.unwrap_or_default();
             let at = line.start + line.text.len() - counts.len();
-            let span = Span {
-                start: short(at),
-                end: short(at + first.len()),
-            };
+            let span = Span::of(at..at + first.len());
             job.announced = number::whole(first).map(|count| (count, span));
             return Ok(());
         }
@@ -395,17 +392,14 @@ impl<'a> Positions<'a> {
             Letter::P => format!("P{number:03}"),
         };
         let numbers = short(start);
+        let place = Place::new(job.file, short(line.start));
+        let (shape, variant) = layout;
+        let layout = Layout { shape, variant };
         self.targets.push(Target {
             name: Some(name.into()),
-            file: job.file,
-            offset: short(line.start),
-            end: short(to),
-            layout: Layout {
-                shape: layout.0,
-                variant: layout.1,
-            },
             numbers: numbers..numbers + if has_six { 6 } else { 0 },
             blocked: !has_six,
+            ..Target::new(place, short(to), layout)
         });
         self.points.push(Point {
             letter,

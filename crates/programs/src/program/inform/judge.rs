@@ -3,36 +3,18 @@
 use super::job::{Coordinates, Letter};
 use super::reader::Reader;
 use super::remarks::Cause;
-use crate::finding::Severity;
 use crate::program::TargetId;
-use crate::program::script::Place;
+use crate::program::script::{Place, Remark};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
 impl Reader<'_> {
-    pub(super) fn say(
-        &mut self,
-        id: &'static str,
-        severity: Severity,
-        place: Place,
-        message: String,
-        hint: &str,
-    ) {
-        let source = &self.sources[place.file as usize];
-        let finding = source.finding(place.offset as usize, id, severity, message, hint);
-        self.builder.script.findings.push(finding);
-    }
-
-    fn place_of(&self, target: TargetId) -> Place {
-        let target = &self.positions.targets[target];
-        Place {
-            file: target.file,
-            offset: target.offset,
-        }
+    pub(super) fn say(&mut self, place: Place, remark: Remark) {
+        self.builder.script.say(self.sources, place, remark);
     }
 
     /// The target has to stay as it is; `because` is where the files say so.
     fn refuse(&mut self, target: TargetId, cause: Cause, because: Option<Place>) {
-        let place = self.place_of(target);
+        let place = self.positions.targets[target].place();
         let (id, wrong, hint) = cause.words();
         let see = because.map_or_else(String::new, |because| {
             let source = &self.sources[because.file as usize];
@@ -43,7 +25,7 @@ impl Reader<'_> {
         target.blocked = true;
         let name = target.name.as_deref().unwrap_or("target");
         let message = format!("{name}: {wrong}{see}");
-        self.say(id, Severity::Error, place, message, hint);
+        self.say(place, Remark::error_about(id, message, hint));
     }
 
     /// Positions that moves name and that cannot be understood, and what each job has of them.
@@ -72,14 +54,14 @@ impl Reader<'_> {
                 } else if point.letter == Letter::P
                     && let Some(&first) = differing.get(&point.number)
                 {
-                    let because = self.place_of(first);
+                    let because = self.positions.targets[first].place();
                     self.refuse(target, Cause::Ambiguous, Some(because));
                 }
             }
             if let Some(target) = unknown_pulses {
                 let (id, wrong, hint) = Cause::Pulses.words();
-                let place = self.place_of(target);
-                self.say(id, Severity::Warning, place, wrong.to_owned(), hint);
+                let place = self.positions.targets[target].place();
+                self.say(place, Remark::warning(id, wrong, hint));
             }
             if variables > 0 {
                 let message = format!(
@@ -88,11 +70,11 @@ impl Reader<'_> {
                 );
                 let hint = "make sure that only the jobs given here set them";
                 let job = &self.positions.jobs[at];
-                let place = Place {
-                    file: job.file,
-                    offset: job.offset,
-                };
-                self.say("position-variable", Severity::Note, place, message, hint);
+                let place = Place::new(job.file, job.offset);
+                self.say(
+                    place,
+                    Remark::note_about("position-variable", message, hint),
+                );
             }
             self.check_count(at, positions);
         }
@@ -131,15 +113,15 @@ impl Reader<'_> {
             return;
         };
         if count != announced as usize {
-            let place = Place {
-                file: job.file,
-                offset: span.start,
-            };
+            let place = Place::new(job.file, span.start);
             let message = format!(
                 "the header announces {announced} C positions (NPOS), and there are {count}"
             );
             let hint = "is the file complete?";
-            self.say("position-count", Severity::Warning, place, message, hint);
+            self.say(
+                place,
+                Remark::warning_about("position-count", message, hint),
+            );
         }
     }
 
@@ -154,8 +136,7 @@ impl Reader<'_> {
                 wrist: the solution with the \
                            joints nearest to zero is taken";
             let hint = "start with a joint position (PULSE or ANGLE)";
-            let severity = Severity::Warning;
-            self.say("wrist-not-told", severity, place, message.to_owned(), hint);
+            self.say(place, Remark::warning("wrist-not-told", message, hint));
         }
     }
 
@@ -173,7 +154,7 @@ impl Reader<'_> {
                      moves"
                 );
                 let hint = "look where the new position is used";
-                self.say("target-copied", Severity::Warning, place, message, hint);
+                self.say(place, Remark::warning_about("target-copied", message, hint));
             }
         }
     }

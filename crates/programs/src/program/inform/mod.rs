@@ -44,7 +44,7 @@ use super::kit::{line_behind, not_this_language};
 use super::notation;
 use super::script::{Script, short};
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Program, ReadError, Role,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, ReadError, Role,
     Settings, Source, Step,
 };
 use crate::geometry::Pose;
@@ -149,14 +149,8 @@ impl Language for Inform {
         rconf::configuration(layout.variant)
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        file: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::insert(&sources[file], program, file, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::insert(into)
     }
 
     fn external_names(&self) -> [&'static str; 6] {

@@ -6,9 +6,10 @@ use super::lines::{Line, placed_words};
 use super::rconf;
 use super::reader::{Arc, Reader};
 use super::remarks::Cause;
-use crate::finding::Severity;
 use crate::geometry::units::MM;
-use crate::program::script::{Expr, Instruction, Modal, Script, Span, VariableId, Written, short};
+use crate::program::script::{
+    Expr, Instruction, Modal, Remark, Script, Span, VariableId, Written, short,
+};
 use crate::program::{Motion, Place, Shape, SpeedZone, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet};
 
@@ -60,10 +61,7 @@ impl<'a> Words<'a> {
         }
         let operand = Operand::of(word).filter(|_| self.robot.is_none());
         if let Some(operand) = operand {
-            let span = Span {
-                start: short(at),
-                end: short(end),
-            };
+            let span = Span::of(at..end);
             self.robot = Some((operand, span));
         }
         *is_plain &= operand.is_some() || PLAIN.iter().any(|tag| word.starts_with(tag));
@@ -304,13 +302,7 @@ impl<'a> Reader<'a> {
             let message =
                 "the post that wrote this job mixes the fields of RCONF up: it is not used";
             let hint = "check the configuration of the joint moves on the robot";
-            self.say(
-                "rconf-of-post",
-                Severity::Warning,
-                place,
-                message.into(),
-                hint,
-            );
+            self.say(place, Remark::warning("rconf-of-post", message, hint));
         }
     }
 

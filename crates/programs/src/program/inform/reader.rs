@@ -7,10 +7,11 @@ use super::lines::{Line, Lines, words};
 use super::relative::{Frames, Given, given, is_relative};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
+use crate::program::kit::label_key;
 use crate::program::number::{self, whole};
 use crate::program::script::{
     Argument, Builder, Call, Expr, Held, How, Place, Remark, RemarkId, RoutineId, Script, Start,
-    TableId, ValueId, VariableId, Write, Written, short,
+    TableId, ValueId, VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -52,10 +53,7 @@ pub(super) fn script<'a>(
         positions,
     };
     for job in &reader.positions.jobs {
-        let place = Place {
-            file: job.file,
-            offset: job.offset,
-        };
+        let place = Place::new(job.file, job.offset);
         let name = Source::text(job.name);
         let routine = reader.builder.declare(name, place, Start::Called);
         reader.names.entry(job.name).or_default().push(routine);
@@ -168,7 +166,7 @@ impl<'a> Reader<'a> {
         for line in Lines::from(&source.bytes[..range.end], range.start) {
             match line.text {
                 [] | [b'\'' | b'/', ..] => {}
-                [b'*', name @ ..] => self.builder.label(key(first_word(name))),
+                [b'*', name @ ..] => self.builder.label(label_key(first_word(name))),
                 _ => self.line(line),
             }
         }
@@ -181,10 +179,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn place(&self, offset: usize) -> Place {
-        Place {
-            file: self.here.file,
-            offset: short(offset),
-        }
+        Place::new(self.here.file, short(offset))
     }
 
     fn line(&mut self, line: Line<'a>) {
@@ -220,9 +215,9 @@ impl<'a> Reader<'a> {
         let second = words(line.text).nth(1).unwrap_or_default();
         if let (b"JUMP", [b'*', name @ ..]) = (first, second) {
             if conditional {
-                self.builder.may_go_to(key(name));
+                self.builder.may_go_to(label_key(name));
             } else {
-                self.builder.go_to(key(name));
+                self.builder.go_to(label_key(name));
             }
             return;
         }
@@ -273,11 +268,7 @@ impl<'a> Reader<'a> {
 
     fn write(&mut self, line: Line, variable: Written, how: How) {
         let place = self.place(line.start);
-        self.builder.write(Write {
-            place,
-            variable,
-            how,
-        });
+        self.builder.write(place, variable, how);
     }
 
     // ---- calls
@@ -316,21 +307,18 @@ impl<'a> Reader<'a> {
                 let builder = &mut self.builder;
                 let parameter = self.variables.parameter(builder, callee, number, place);
                 self.note_copy(Written::One(parameter), value);
-                let argument = given_to(Some(parameter), value);
+                let argument = Argument::new(Some(parameter), value, None);
                 self.builder.script.arguments.push(argument);
             }
             if callees.is_empty() && operand.is_some() {
-                self.builder.script.arguments.push(given_to(None, value));
+                self.builder
+                    .script
+                    .arguments
+                    .push(Argument::new(None, value, None));
             }
         }
         let end = short(self.builder.script.arguments.len());
-        Call {
-            place,
-            foreign: callees.is_empty(),
-            callees,
-            name: Source::text(name).into(),
-            arguments: first..end,
-        }
+        Call::of(place, callees, Source::text(name), first..end)
     }
 
     // ---- writes
@@ -510,7 +498,7 @@ impl<'a> Reader<'a> {
                 format!("only the running program knows where the {what} stands ({shown})")
             }
         };
-        let remark = Remark::error(
+        let remark = Remark::error_about(
             "external-axis-unknown",
             text,
             "describe the axis under `external_axes` of the profile (BC1…, EC1…), or write the \
@@ -545,23 +533,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Arguments are given by value.
-fn given_to(parameter: Option<VariableId>, value: Expr) -> Argument {
-    Argument {
-        parameter,
-        value,
-        back: None,
-    }
-}
-
 fn first_word(text: &[u8]) -> &[u8] {
     words(text).next().unwrap_or_default()
-}
-
-/// A label's name as a number: FNV-1a. Two names of one job with the same would be one label; at 64
-/// bits there are none.
-fn key(name: &[u8]) -> u64 {
-    name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -29,10 +29,7 @@ pub(super) fn given<'a>(sources: &'a [Source], positions: &Positions) -> Vec<Giv
             let name = words.next().filter(|_| is_call);
             let frame = words.find(|word| word.starts_with(b"UF#"));
             if let (Some(name), Some(frame)) = (name, frame) {
-                let place = Place {
-                    file: job.file,
-                    offset: short(line.start),
-                };
+                let place = Place::new(job.file, short(line.start));
                 found.push(Given {
                     job: name.strip_prefix(b"JOB:"),
                     frame: numbered(frame, b"UF#"),
@@ -68,7 +65,7 @@ impl Frames {
                 || "a user frame (UF#) that only the running program knows".to_owned(),
                 |number| format!("user frame {number} (UF#)"),
             );
-            let remark = Remark::error(
+            let remark = Remark::error_about(
                 "frame-assigned-at-run-time",
                 format!("{} line {line} calls the job with {which}", source.name),
                 "call the job without UF#, with its positions in the frame that it runs in",

@@ -16,8 +16,6 @@ use std::collections::BTreeMap;
 /// Name of the tool of positions that tell none.
 const NO_TOOL: &str = "none";
 /// The beginning of everything.
-const NOWHERE: Place = Place { file: 0, offset: 0 };
-
 /// The variables of all jobs.
 pub(super) struct Variables {
     /// Shifted or not.
@@ -100,10 +98,7 @@ impl Variables {
         }
         for (number, targets) in holders {
             let first = &positions.targets[targets[0]];
-            let place = Place {
-                file: first.file,
-                offset: first.offset,
-            };
+            let place = Place::new(first.file, first.offset);
             entry(builder, variables.positions, number, None, place, |b| {
                 match targets[..] {
                     [one] => Expr::Target(one),
@@ -133,20 +128,34 @@ impl Variables {
         );
         for header in &positions.headers {
             let tool = header.tool.map_or(none, |number| {
-                let made = entry(builder, self.tools, number, None, NOWHERE, |builder| {
-                    let known = conditions.tools.get(&number).copied().flatten();
-                    frame(builder, number.to_string(), known)
-                });
+                let made = entry(
+                    builder,
+                    self.tools,
+                    number,
+                    None,
+                    Place::NOWHERE,
+                    |builder| {
+                        let known = conditions.tools.get(&number).copied().flatten();
+                        frame(builder, number.to_string(), known)
+                    },
+                );
                 Expr::Variable(made)
             });
             let frame = match header.origin() {
                 Origin::Base => base,
                 Origin::Robot => robot,
                 Origin::User(number) => {
-                    let made = entry(builder, self.frames, number, None, NOWHERE, |builder| {
-                        let known = conditions.frames.get(&number).copied().flatten();
-                        frame(builder, number.to_string(), known.map(|pose| (pose, None)))
-                    });
+                    let made = entry(
+                        builder,
+                        self.frames,
+                        number,
+                        None,
+                        Place::NOWHERE,
+                        |builder| {
+                            let known = conditions.frames.get(&number).copied().flatten();
+                            frame(builder, number.to_string(), known.map(|pose| (pose, None)))
+                        },
+                    );
                     Expr::Variable(made)
                 }
                 Origin::Tool => relative,
@@ -232,7 +241,7 @@ fn constant(builder: &mut Builder, value: Held) -> VariableId {
     let declared = Expr::Value(builder.script.value(value));
     builder
         .script
-        .variable(Variable::new(Box::default(), NOWHERE, declared))
+        .variable(Variable::new(Box::default(), Place::NOWHERE, declared))
 }
 
 /// The coordinates of the robot itself, which ride on the axes of its base.

@@ -2,9 +2,9 @@
 
 use super::calls::{Handed, stem_of};
 use super::reader::Reader;
-use super::remarks::{Cause, unfollowed};
+use super::remarks::UNFOLLOWED;
 use super::targets::Name;
-use crate::program::script::{Argument, Expr, RoutineId};
+use crate::program::script::{Expr, RoutineId};
 use foldhash::HashMap;
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ type Keys = BTreeSet<Vec<u8>>;
 pub(super) type Given = HashMap<(RoutineId, Vec<u8>), Keys>;
 
 /// Whether a name is that of a whole array: `p[]`, `p[,]`.
-fn is_array(name: &Name) -> bool {
+pub(super) fn is_array(name: &Name) -> bool {
     let key = name.key.as_deref().unwrap_or_default();
     key.starts_with(b"[") && !key.iter().any(u8::is_ascii_digit)
 }
@@ -58,80 +58,33 @@ impl Reader<'_> {
             let given = self.given.get(&(by, name.stem.clone()));
             return Some(given.cloned().unwrap_or_default());
         }
-        let elements = if plain.starts_with(b".") {
-            self.locals.get(&by).and_then(|names| names.get(&name.stem))
-        } else {
-            self.names.get(&name.stem)
-        };
+        let owner = plain.starts_with(b".").then_some(by);
+        let elements = self
+            .names
+            .get(&owner)
+            .and_then(|names| names.get(&name.stem));
         let keys = elements.into_iter().flat_map(|of| of.variables.keys());
         let keys: Keys = keys.filter(|key| !key.is_empty()).cloned().collect();
         (keys.len() <= MOST_ELEMENTS).then_some(keys)
     }
 
-    /// Hands a whole array over, element by element; whether it is one.
-    pub(super) fn array(
-        &mut self,
-        name: &Name,
-        number: usize,
-        callees: &[RoutineId],
-        arguments: &mut Vec<Argument>,
-    ) -> bool {
-        if !is_array(name) {
-            return false;
-        }
+    /// The elements of an array that is handed over as a whole, by key.
+    pub(super) fn elements_given(&mut self, name: &Name) -> Vec<(Vec<u8>, Expr)> {
         let keys = self.keys_of(name, self.here.routine);
-        if keys.is_none() {
-            self.refuse_array(name);
+        if keys.is_none()
+            && let Some(table) = self.table(name)
+        {
+            // they are not followed, and stay as they are
+            self.builder.script.refuse_all(table, UNFOLLOWED);
         }
-        let keys = keys.unwrap_or_default();
-        for key in keys.iter().filter(|_| callees.is_empty()) {
-            let variable = self.element(name, key);
-            arguments.push(Argument {
-                parameter: None,
-                value: Expr::Variable(variable),
-                back: None,
+        let mut found = Vec::new();
+        for key in keys.unwrap_or_default() {
+            let variable = self.variable(&Name {
+                stem: name.stem.clone(),
+                key: Some(key.clone()),
             });
+            found.push((key, Expr::Variable(variable)));
         }
-        for &callee in callees {
-            let Some(parameter) = self.parameters[callee as usize].get(number) else {
-                continue;
-            };
-            let stem = stem_of(parameter, name);
-            let all = self.given.get(&(callee, stem.clone())).cloned();
-            for key in all.unwrap_or_default() {
-                let variable = keys.contains(&key).then(|| self.element(name, &key));
-                let value = match variable {
-                    Some(variable) => Expr::Variable(variable),
-                    // what another call gave is there no more
-                    None => self.unknown(Cause::Computed.remark()),
-                };
-                arguments.push(Argument {
-                    parameter: Some(self.parameter(callee, stem.clone(), key)),
-                    value,
-                    back: variable,
-                });
-            }
-        }
-        true
-    }
-
-    fn element(&mut self, name: &Name, key: &[u8]) -> u32 {
-        let stem = name.stem.clone();
-        let key = Some(key.to_vec());
-        self.variable(&Name { stem, key })
-    }
-
-    /// The targets of an array whose elements are not followed stay as they are.
-    fn refuse_array(&mut self, name: &Name) {
-        let Some(table) = self.table(name) else {
-            return;
-        };
-        let script = &mut self.builder.script;
-        let remark = script.remark(unfollowed());
-        for variable in script.tables[table as usize].entries.values() {
-            if let Expr::Target(target) = script.variables[*variable as usize].declared {
-                script.refused.push((target, remark));
-            }
-        }
+        found
     }
 }

@@ -1,11 +1,13 @@
 //! Calls: what runs, and what it is handed.
 
-use super::keywords::begins_with;
+use super::arrays::is_array;
 use super::reader::Reader;
+use super::remarks::COMPUTED;
+use super::sections::Statement;
 use super::targets::Name;
 use crate::program::Source;
-use crate::program::script::{Argument, Call, Expr, RoutineId, Start, VariableId};
-use crate::program::words::{Kind, Words};
+use crate::program::script::{Argument, Call, RoutineId, Start, VariableId};
+use crate::program::words::{Kind, Words, unquoted};
 
 /// A name that a program hands to another, which may write it.
 pub(super) struct Handed {
@@ -90,21 +92,16 @@ impl<'a> Reader<'a> {
         known.map_or_else(Box::default, |all| all[..].into())
     }
 
-    /// Whether the words are a call.
-    pub(super) fn calls(&mut self, part: Words<'a, '_>) -> bool {
-        let rest = part.behind(1);
-        let is = |word: &[u8]| begins_with(part, word);
-        let is_jump = is(b"JUMP") || is(b"SJUMP");
-        if is(b"CALL") || is(b"JUMP") {
-            self.call(rest, false);
-        } else if is(b"SCALL") || is(b"SJUMP") {
-            self.call_text(rest);
-        } else if is(b"EXTCALL") {
-            self.call_any(part, Any::Selected);
-        } else {
-            return false;
+    /// Whether a statement is a call.
+    pub(super) fn calls(&mut self, statement: &Statement<'a, '_>) -> bool {
+        let rest = statement.words.behind(1);
+        match statement.keyword {
+            "CAll" | "JUMP" => self.call(rest, false),
+            "SCAll" | "SJUMP" => self.call_text(rest),
+            "EXtcall" => self.call_any(statement.words, Any::Selected),
+            _ => return false,
         }
-        if is_jump {
+        if matches!(statement.keyword, "JUMP" | "SJUMP") {
             // from there it goes back to the caller of this one
             self.builder.back();
         }
@@ -137,9 +134,7 @@ impl<'a> Reader<'a> {
         let list = part.list();
         match list.first() {
             Some(name) if name.len() == 1 && name.kind(0) == Some(Kind::Text) => {
-                let name = name.text(0);
-                let name = name.strip_prefix(b"\"").unwrap_or(name);
-                let name = name.strip_suffix(b"\"").unwrap_or(name);
+                let name = unquoted(name.text(0));
                 let callees = self.programs_of(name);
                 let call = self.call_of(name, callees, Vec::new());
                 self.put_call(call);
@@ -160,14 +155,10 @@ impl<'a> Reader<'a> {
             self.any.push((any, made));
             made
         };
-        let call = Call {
-            place,
-            callees: [routine].into(),
+        self.put_call(Call {
             foreign: true,
-            name: Source::text(part.whole()).into(),
-            arguments: 0..0,
-        };
-        self.put_call(call);
+            ..Call::of(place, [routine].into(), Source::text(part.whole()), 0..0)
+        });
     }
 
     /// What stands for any program: a routine that calls one of them.
@@ -181,13 +172,8 @@ impl<'a> Reader<'a> {
             self.builder.begin_choice();
             for callee in callees {
                 self.builder.next_branch(false);
-                self.builder.call(Call {
-                    place,
-                    callees: [callee].into(),
-                    foreign: false,
-                    name: "any program".into(),
-                    arguments: 0..0,
-                });
+                let call = Call::of(place, [callee].into(), "any program", 0..0);
+                self.builder.call(call);
             }
             self.builder.end_choice();
             self.builder.close();
@@ -199,13 +185,9 @@ impl<'a> Reader<'a> {
         let own = self.here.routine;
         self.called
             .extend(callees.iter().filter(|callee| **callee != own));
-        Call {
-            place: self.place(self.here.at),
-            foreign: callees.is_empty(),
-            callees,
-            name: Source::text(name).into(),
-            arguments: self.builder.script.give(given),
-        }
+        let arguments = self.builder.script.give(given);
+        let place = self.place(self.here.at);
+        Call::of(place, callees, Source::text(name), arguments)
     }
 
     /// What a call does to the flow, where it stands.
@@ -238,31 +220,35 @@ impl<'a> Reader<'a> {
         let Some((name, _)) = name.filter(|(name, _)| self.is_known(name)) else {
             return;
         };
-        if self.array(&name, number, callees, arguments) {
-            return;
-        }
-        let position = self.position(given);
-        let value = self.expr(&position);
+        let is_whole = is_array(&name);
+        let elements = if is_whole {
+            self.elements_given(&name)
+        } else {
+            let position = self.position(given);
+            vec![(Vec::new(), self.expr(&position))]
+        };
         if callees.is_empty() {
-            arguments.push(Argument {
-                parameter: None,
-                value,
-                back: None,
-            });
+            let values = elements.iter().map(|(_, value)| *value);
+            arguments.extend(values.map(|value| Argument::new(None, value, None)));
         }
         for &callee in callees {
             let Some(parameter) = self.parameters[callee as usize].get(number) else {
                 continue;
             };
             let stem = stem_of(parameter, &name);
-            arguments.push(Argument {
-                parameter: Some(self.parameter(callee, stem, Vec::new())),
-                value,
-                back: match value {
-                    Expr::Variable(variable) => Some(variable),
-                    _ => None,
-                },
-            });
+            let keys = if is_whole {
+                let all = self.given.get(&(callee, stem.clone()));
+                all.cloned().unwrap_or_default()
+            } else {
+                [Vec::new()].into()
+            };
+            for key in keys {
+                let value = elements.iter().find(|(own, _)| *own == key);
+                // what another call gave is there no more
+                let value = value.map_or_else(|| self.unknown(COMPUTED), |(_, value)| *value);
+                let parameter = self.parameter(callee, stem.clone(), key);
+                arguments.push(Argument::new(Some(parameter), value, value.variable()));
+            }
         }
     }
 
@@ -274,14 +260,11 @@ impl<'a> Reader<'a> {
         key: Vec<u8>,
     ) -> VariableId {
         let caller = std::mem::replace(&mut self.here.routine, callee);
-        let own = self.parameters[callee as usize].clone();
-        let before = std::mem::replace(&mut self.here.parameters, own);
         let parameter = self.variable(&Name {
             stem,
             key: Some(key),
         });
         self.here.routine = caller;
-        self.here.parameters = before;
         parameter
     }
 }

@@ -3,15 +3,14 @@
 //! Clamps behind the target act where the robot arrives: only the last piece keeps them. Settings
 //! without `ALWAYS` hold for one move: they are written again in front of each.
 
-use super::keywords::{begins_with, find};
+use super::keywords::find;
 use super::moves::Verb;
-use super::reader::behind_label;
-use super::sections::{lines, read};
+use super::sections::{self, read};
 use super::watches::OPENING;
-use crate::program::insert::{indent, sole_use, spliced, starts_with_word};
+use crate::program::insert::{Line, Repeated, indent, sole_use, starts_with_word};
 use crate::program::words::Words;
 use crate::program::{
-    Displacement, Inserted, Insertion, Motion, Program, Replacements, Shape, Source, Target,
+    Displacement, Inserted, Insertion, Insertions, Motion, Replacements, Shape, Source, Target,
 };
 use foldhash::HashMap;
 use std::cell::LazyCell;
@@ -21,15 +20,9 @@ use std::ops::{Deref, Range};
 const LONGEST_LINE: usize = 255;
 
 /// See [`crate::program::Language::insert`].
-pub(super) fn insert(sources: &[Source], program: &Program, insertions: &[Insertion]) -> Inserted {
-    let text = LazyCell::new(|| Text::of(sources));
-    Inserted::each(insertions, |one| {
-        if one.between.iter().any(|part| part.via.is_some()) {
-            arc(sources, program, &text, one)
-        } else {
-            repeat(sources, program, &text, one)
-        }
-    })
+pub(super) fn insert(into: &Insertions) -> Inserted {
+    let text = LazyCell::new(|| Text::of(into.sources));
+    Inserted::each(into.list, |one| repeat(into, &text, one))
 }
 
 /// A target written out.
@@ -53,14 +46,10 @@ struct Plain<'a> {
 
 impl<'a> Plain<'a> {
     /// The statement of a move where it begins with one of these words.
-    fn of(
-        sources: &'a [Source],
-        program: &'a Program,
-        motion: usize,
-        verbs: &[&str],
-    ) -> Option<Self> {
+    fn of(into: &Insertions<'a>, motion: usize, verbs: &[&str]) -> Option<Self> {
+        let program = into.program;
         let motion = sole_use(program, motion)?;
-        let source = &sources[motion.file as usize];
+        let source = &into.sources[motion.file as usize];
         let instruction = &program.instructions[motion.instruction as usize];
         let span = instruction.span();
         let is_plain = motion.displacement == Displacement::None
@@ -73,24 +62,17 @@ impl<'a> Plain<'a> {
             target: program.target_of(motion).filter(|_| is_plain)?,
         })
     }
-
-    /// The statement with another target, and nothing behind that.
-    fn to(&self, numbers: &[Vec<u8>]) -> Vec<u8> {
-        let target = written(self.target, numbers);
-        let span = self.span.start..self.at.end;
-        spliced(&self.source.bytes, &span, &[(self.at.clone(), &target)])
-    }
 }
 
 /// Settings that hold for the next move alone, unless `ALWAYS` stands there.
-const ONCE: &[&[u8]] = &[b"SPEED", b"ACCURACY", b"ACCEL", b"DECEL"];
+const ONCE: &[&str] = &["SPeed", "ACCUracy", "ACCEl", "DECEl"];
 /// Statements that do not only run on to the next one, but for those that open a block.
-const TURNS: &[&[u8]] = &[
-    b"IF", b"ELSE", b"ELSEIF", b"VALUE", b"SVALUE", b"ANY", b"END", b"UNTIL", b"GOTO", b"CALL",
-    b"SCALL", b"EXTCALL", b"JUMP", b"SJUMP", b"RETURN", b"RETURNE",
+const TURNS: &[&str] = &[
+    "IF", "ELse", "ELSEIF", "VALUE", "SVALUE", "ANY", "ENd", "UNtil", "GOto", "CAll", "SCAll",
+    "EXtcall", "JUMP", "SJUMP", "RETurn", "RETURNE",
 ];
 /// Statements besides moves that use up what is set for the next move alone.
-const PAUSES: &[&[u8]] = &[b"DELAY", b"STABLE"];
+const PAUSES: &[&str] = &["DELay", "STAble"];
 
 /// What stands between a move and the one before it in the text.
 #[derive(Default)]
@@ -129,56 +111,58 @@ impl<'a> Text<'a> {
     fn of(sources: &'a [Source]) -> Self {
         let mut found = Self::default();
         for (file, source) in sources.iter().enumerate() {
-            for program in read(source).unwrap_or_default().programs {
-                found.add(file, &source.bytes, program.lines);
+            for program in &read(source).unwrap_or_default().programs {
+                found.add(file, &source.bytes, program);
             }
         }
         found
     }
 
-    fn add(&mut self, file: usize, bytes: &'a [u8], of: Range<usize>) {
+    fn add(&mut self, file: usize, bytes: &'a [u8], of: &sections::Program<'a>) {
         let mut present = self.turn(&Before::default());
         let mut last = None;
-        let mut words = Vec::new();
-        for line in lines(bytes, of) {
-            let (label, part) = behind_label(line.words(bytes, &mut words));
-            let is = |known: &&[u8]| begins_with(part, known);
-            if label.is_some() || TURNS.iter().chain(OPENING).any(is) {
-                (present, last) = (self.turn(&present), None);
-            }
-            if part.is_empty() {
-                continue;
-            }
-            let at = (file, part.span().start);
-            if Verb::of(part).is_some() || PAUSES.iter().any(is) {
-                let next = Before {
-                    follows: Some(at.1),
-                    ..Before::default()
-                };
-                self.moves.insert(at, std::mem::replace(&mut present, next));
-                last = Some(at);
-            } else if ONCE.iter().any(is) {
-                let speed_is_time = is(&&b"SPEED"[..]).then(|| is_time(part));
-                if part.find(b"ALWAYS").is_some() {
-                    self.is_timed |= speed_is_time == Some(true);
-                    present.is_mixed |= !present.once.is_empty();
-                } else {
-                    self.sets_once = true;
-                    present.is_timed = speed_is_time.or(present.is_timed);
-                    present.once.push(part.whole());
+        of.each(
+            bytes,
+            |_| true,
+            |line| {
+                let (keyword, part) = (line.keyword, line.words);
+                if line.label.is_some() || TURNS.contains(&keyword) || OPENING.contains(&keyword) {
+                    (present, last) = (self.turn(&present), None);
                 }
-            } else {
-                present.follows = None;
-                if is(&&b"MVWAIT"[..]) {
-                    match last.and_then(|last| self.moves.get_mut(&last)) {
-                        Some(of_last) => of_last.is_awaited = true,
-                        None => self.is_awaited = true,
+                if part.is_empty() {
+                    return;
+                }
+                let at = (file, part.span().start);
+                if Verb::of(line).is_some() || PAUSES.contains(&keyword) {
+                    let next = Before {
+                        follows: Some(at.1),
+                        ..Before::default()
+                    };
+                    self.moves.insert(at, std::mem::replace(&mut present, next));
+                    last = Some(at);
+                } else if ONCE.contains(&keyword) {
+                    let speed_is_time = (keyword == "SPeed").then(|| is_time(part));
+                    if part.find(b"ALWAYS").is_some() {
+                        self.is_timed |= speed_is_time == Some(true);
+                        present.is_mixed |= !present.once.is_empty();
+                    } else {
+                        self.sets_once = true;
+                        present.is_timed = speed_is_time.or(present.is_timed);
+                        present.once.push(part.whole());
                     }
+                } else {
+                    present.follows = None;
+                    if keyword == "MVWAIT" {
+                        match last.and_then(|last| self.moves.get_mut(&last)) {
+                            Some(of_last) => of_last.is_awaited = true,
+                            None => self.is_awaited = true,
+                        }
+                    }
+                    let is_watch = matches!(keyword, "ON" | "ONI");
+                    self.is_watched |= is_watch && find(part, "GOto").is_some();
                 }
-                let is_watch = is(&&b"ON"[..]) || is(&&b"ONI"[..]);
-                self.is_watched |= is_watch && find(part, b"GOTO").is_some();
-            }
-        }
+            },
+        );
         self.turn(&present);
     }
 
@@ -213,99 +197,66 @@ fn is_time(part: Words) -> bool {
     })
 }
 
-/// Statements on lines of their own before another.
-struct Lines<'a> {
-    source: &'a Source,
-    blanks: &'a [u8],
-    text: Vec<u8>,
-}
-
-impl<'a> Lines<'a> {
-    fn before(statement: &Plain<'a>) -> Option<Self> {
-        let source = statement.source;
-        Some(Self {
-            source,
-            blanks: indent(&source.bytes, statement.span.start)?,
-            text: Vec::new(),
-        })
-    }
-
-    /// Adds a statement; `None` where its line becomes too long.
-    fn add(&mut self, statement: &[u8]) -> Option<()> {
-        self.text.extend_from_slice(statement);
-        self.text.extend_from_slice(self.source.line_end());
-        self.text.extend_from_slice(self.blanks);
-        (self.blanks.len() + statement.len() <= LONGEST_LINE).then_some(())
-    }
-
-    fn add_all(&mut self, statements: &[&[u8]]) -> Option<()> {
-        statements.iter().try_for_each(|one| self.add(one))
-    }
-}
-
+/// The statements of a move again, each without what stands behind its target, and with the
+/// settings for the next one alone behind it.
 fn repeat<'a>(
-    sources: &'a [Source],
-    program: &Program,
+    into: &Insertions<'a>,
     text: &impl Deref<Target = Text<'a>>,
     insertion: &Insertion,
 ) -> Option<Replacements> {
-    let verbs: &[&str] = if insertion.is_split() {
-        &["JMOVE", "LMOVE", "HMOVE", "C1MOVE", "C2MOVE"]
+    let moves = if insertion.is_arc() {
+        arc(into, text, insertion)?
     } else {
-        &["JMOVE", "LMOVE", "HMOVE"]
+        let verbs: &[&str] = if insertion.is_split() {
+            &["JMOVE", "LMOVE", "HMOVE", "C1MOVE", "C2MOVE"]
+        } else {
+            &["JMOVE", "LMOVE", "HMOVE"]
+        };
+        vec![Plain::of(into, insertion.motion, verbs)?]
     };
-    let whole = Plain::of(sources, program, insertion.motion, verbs)?;
-    let mut changes = Vec::new();
-    if let Some(numbers) = &insertion.own {
-        changes.push((whole.at.clone(), written(whole.target, numbers)));
-    }
-    if !insertion.is_split() {
-        let once = text.settings(&whole)?;
-        let mut lines = Lines::before(&whole)?;
-        for piece in &insertion.between {
-            lines.add(&whole.to(&piece.end))?;
-            lines.add_all(once)?;
+    let source = moves[0].source;
+    // the last part of an arc is the arc itself
+    let before = if insertion.between.len() < moves.len() {
+        b""
+    } else {
+        indent(&source.bytes, moves[0].span.start)?
+    };
+    let mut lines = Vec::new();
+    for (at, one) in moves.iter().enumerate() {
+        let mut behind = source.line_end().to_vec();
+        if !insertion.is_split() {
+            for once in text.settings(&moves[(at + 1) % moves.len()])? {
+                behind.extend([before, once, source.line_end()].concat());
+            }
         }
-        changes.push((whole.span.start..whole.span.start, lines.text));
+        lines.push(Line {
+            span: one.span.start..one.at.end,
+            targets: vec![one.at.clone()],
+            behind,
+        });
     }
-    Some(changes)
+    let repeated = Repeated {
+        source,
+        before: before.to_vec(),
+        lines,
+        longest: LONGEST_LINE,
+    };
+    repeated.insert(insertion, |is_via, numbers| {
+        let of = if is_via { moves.first() } else { moves.last() };
+        Some(written(of?.target, numbers))
+    })
 }
 
-/// `C1MOVE` and `C2MOVE` once more for each part of an arc but the last, which is the arc's own
-/// with another point on its way.
-fn arc(
-    sources: &[Source],
-    program: &Program,
-    text: &Text,
-    insertion: &Insertion,
-) -> Option<Replacements> {
+/// `C1MOVE` and `C2MOVE` of an arc.
+fn arc<'a>(into: &Insertions<'a>, text: &Text, insertion: &Insertion) -> Option<Vec<Plain<'a>>> {
     let through = insertion.motion.checked_sub(1)?;
-    if program.moves[through].motion != Motion::ArcVia {
+    if into.program.moves[through].motion != Motion::ArcVia {
         return None;
     }
-    let first = Plain::of(sources, program, through, &["C1MOVE"])?;
-    let second = Plain::of(sources, program, insertion.motion, &["C2MOVE"])?;
+    let first = Plain::of(into, through, &["C1MOVE"])?;
+    let second = Plain::of(into, insertion.motion, &["C2MOVE"])?;
     // a clamp, or what stands between the two, would act at another point of the arc
     let between = text.moves.get(&(second.file, second.span.start))?;
-    if first.at.end != first.span.end || between.follows != Some(first.span.start) {
-        return None;
-    }
-    let of_first = text.settings(&first)?;
-    let of_second = text.settings(&second)?;
-    let (last, parts) = insertion.between.split_last()?;
-    let mut changes = vec![(first.at.clone(), written(first.target, last.via.as_ref()?))];
-    if let Some(numbers) = &insertion.own {
-        changes.push((second.at.clone(), written(second.target, numbers)));
-    }
-    if !parts.is_empty() {
-        let mut lines = Lines::before(&first)?;
-        for part in parts {
-            lines.add(&first.to(part.via.as_ref()?))?;
-            lines.add_all(of_second)?;
-            lines.add(&second.to(&part.end))?;
-            lines.add_all(of_first)?;
-        }
-        changes.push((first.span.start..first.span.start, lines.text));
-    }
-    Some(changes)
+    let is_plain = first.at.end == first.span.end && between.follows == Some(first.span.start);
+    is_plain.then(|| vec![first, second])
 }

@@ -33,16 +33,17 @@ mod sections;
 mod targets;
 mod watches;
 
-use super::drive::Step;
+use super::drive::{self, Step};
 use super::kit::{comments, line_behind, not_this_language};
-use super::notation::WITH_ANGLES;
+use super::notation;
 use super::script::Script;
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Program, ReadError, Role,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, ReadError, Role,
     Settings, Source,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Rotation};
+use sections::Sections;
 
 /// Kawasaki AS.
 #[derive(Debug)]
@@ -83,16 +84,14 @@ impl Language for Kawasaki {
     }
 
     fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
-        let read = |source| {
-            let found = sections::read(source).map_err(|fault| fault.in_source(source))?;
-            if found.is_one {
-                Ok(found)
-            } else {
-                Err(not_this_language(&ABOUT, source))
+        let mut sections = Sections::default();
+        for (file, source) in (0..).zip(sources) {
+            let is_one = sections.read(source, file);
+            if !is_one.map_err(|fault| fault.in_source(source))? {
+                return Err(not_this_language(&ABOUT, source));
             }
-        };
-        let sections: Result<Vec<_>, _> = sources.iter().map(read).collect();
-        Ok(reader::script(sources, &sections?))
+        }
+        Ok(reader::script(sources, &sections))
     }
 
     fn turns_through_middle(&self) -> bool {
@@ -100,7 +99,7 @@ impl Language for Kawasaki {
     }
 
     fn pose_roles(&self, _: Layout) -> &'static [Role] {
-        &WITH_ANGLES[..6]
+        &notation::WITH_ANGLES[..6]
     }
 
     fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
@@ -120,28 +119,22 @@ impl Language for Kawasaki {
         }
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        _: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::insert(sources, program, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::insert(into)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         let mut out = ".PROGRAM measure()\n".to_owned();
-        for step in steps {
-            if let Some(number) = step.begins {
-                out += &format!("; configuration {number}\n");
-            }
-            let speed = if step.measured { 5 } else { 20 };
-            out += &format!("SPEED {speed}\nJMOVE #[{}]\n", step.degrees().join(","));
-            if step.measured {
-                out += "BREAK\nTWAIT 3\n";
-            }
-        }
+        drive::add(
+            &mut out,
+            steps,
+            "; ",
+            "BREAK\nTWAIT 3\n",
+            |axes, measured| {
+                let speed = if measured { 5 } else { 20 };
+                format!("SPEED {speed}\nJMOVE #[{}]\n", axes.join(","))
+            },
+        );
         Some(out + ".END\n")
     }
 
@@ -150,7 +143,8 @@ impl Language for Kawasaki {
         let (bytes, end) = (&source.bytes, source.line_end());
         let text = comments(source, marker, ";");
         let found = sections::read(source).unwrap_or_default();
-        let first = found.programs.first().map(|program| program.at as usize);
+        let first = found.programs.first();
+        let first = first.map(|program| program.place.offset as usize);
         if let Some(at) = first.and_then(|at| line_behind(bytes, at)) {
             return (at, text);
         }
@@ -171,14 +165,6 @@ fn pose_of(n: [f64; 6]) -> Pose {
     }
 }
 
-/// A rotation about x, then the new y, then the new z, radians.
-fn pose_of_turns([x, y, z]: [f64; 3]) -> Pose {
-    Pose {
-        rotation: Rotation::about_x(x) * Rotation::about_y(y) * Rotation::about_z(z),
-        ..Pose::identity()
-    }
-}
-
 /// Below this sine of A only the sum or difference of O and T counts.
 const SINGULAR: f64 = 1e-9;
 
@@ -187,34 +173,16 @@ const SINGULAR: f64 = 1e-9;
 fn nearest_angles(rotation: &Rotation, present: [f64; 3]) -> [f64; 3] {
     let m = rotation.0;
     let sine = m[0][2].hypot(m[1][2]);
-    let near = |angles: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|i| angles[i] + 360.0 * ((present[i] - angles[i]) / 360.0).round())
-    };
     if sine < SINGULAR {
         let o = present[0] * DEG;
         let turned = Rotation::about_z(-o).0;
         // what is left is Ry(A) · Rz(T)
         let row = |j: usize| turned[1][0] * m[0][j] + turned[1][1] * m[1][j];
         let t = row(0).atan2(row(1));
-        return near([present[0], sine.atan2(m[2][2]) / DEG, t / DEG]);
+        return notation::near([present[0], sine.atan2(m[2][2]) / DEG, t / DEG], present);
     }
     let [o, a, t] = rotation.rzryrz().map(|angle| angle / DEG);
-    let far = |angles: &[f64; 3]| (0..3).map(|i| (angles[i] - present[i]).abs()).sum::<f64>();
-    let (usual, other) = (near([o, a, t]), near([o + 180.0, -a, t + 180.0]));
-    let chosen = if far(&other) < far(&usual) {
-        other
-    } else {
-        usual
-    };
-    std::array::from_fn(|i| {
-        let is_over = present[i].abs() <= 180.0 && chosen[i].abs() > 180.0;
-        chosen[i]
-            - if is_over {
-                360.0_f64.copysign(chosen[i])
-            } else {
-                0.0
-            }
-    })
+    notation::nearest_of([o, a, t], [o + 180.0, -a, t + 180.0], present, 0.0)
 }
 
 #[cfg(test)]

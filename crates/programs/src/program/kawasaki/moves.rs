@@ -1,12 +1,13 @@
 //! Moves: what goes where with what.
 
-use super::keywords::begins_with;
 use super::reader::Reader;
-use super::remarks::Cause;
+use super::remarks::{ARC_CHAIN, OTHER_MOVE, RELATIVE, SEARCH};
+use super::sections::Statement;
 use super::targets::{Position, literals};
 use crate::geometry::Pose;
-use crate::geometry::units::{DEG, MM};
-use crate::program::script::{Expr, Held, Instruction, Modal, Span, Variable, short};
+use crate::geometry::units::MM;
+use crate::program::notation::pose_of_turning_angles;
+use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
 
@@ -25,6 +26,8 @@ pub(super) enum Verb {
     Draw(bool),
     /// `XMOVE p TILL signal`
     Search,
+    /// Others: of conveyors, of two robots, weaving.
+    Other,
     /// `DRIVE`, `ALIGN`, `HOME`
     Elsewhere,
     /// A step of a taught program: `JOINT SPEED9 ACCU1 TOOL1 … #[…]`.
@@ -32,25 +35,8 @@ pub(super) enum Verb {
 }
 
 impl Verb {
-    /// The move that words begin with.
-    pub(super) fn of(part: Words) -> Option<Self> {
-        const VERBS: &[(&[u8], Verb)] = &[
-            (b"JMOVE", Verb::To(Motion::Joint, false)),
-            (b"LMOVE", Verb::To(Motion::Linear, false)),
-            (b"HMOVE", Verb::To(Motion::Linear, true)),
-            (b"C1MOVE", Verb::Arc(false)),
-            (b"C2MOVE", Verb::Arc(true)),
-            (b"JAPPRO", Verb::Near(Motion::Joint)),
-            (b"LAPPRO", Verb::Near(Motion::Linear)),
-            (b"JDEPART", Verb::Away(Motion::Joint)),
-            (b"LDEPART", Verb::Away(Motion::Linear)),
-            (b"DRAW", Verb::Draw(false)),
-            (b"TDRAW", Verb::Draw(true)),
-            (b"XMOVE", Verb::Search),
-            (b"DRIVE", Verb::Elsewhere),
-            (b"ALIGN", Verb::Elsewhere),
-            (b"HOME", Verb::Elsewhere),
-        ];
+    /// The move that a statement is.
+    pub(super) fn of(statement: &Statement) -> Option<Self> {
         const STEPS: &[(&[u8], Motion)] = &[
             (b"JOINT", Motion::Joint),
             (b"LINEAR", Motion::Linear),
@@ -58,12 +44,35 @@ impl Verb {
             (b"CIR1", Motion::ArcVia),
             (b"CIR2", Motion::ArcEnd),
         ];
-        let known = (VERBS.iter()).find(|(word, _)| begins_with(part, word));
-        let step = STEPS.iter().find(|(word, _)| part.is_word(0, word));
-        let step = step.filter(|_| step_target(part).is_some());
-        let step = step.map(|(_, motion)| Self::Step(*motion));
-        known.map(|(_, verb)| *verb).or(step)
+        Some(match statement.keyword {
+            "JMove" => Self::To(Motion::Joint, false),
+            "LMove" => Self::To(Motion::Linear, false),
+            "HMove" => Self::To(Motion::Linear, true),
+            "C1move" => Self::Arc(false),
+            "C2move" => Self::Arc(true),
+            "JAppro" => Self::Near(Motion::Joint),
+            "LAppro" => Self::Near(Motion::Linear),
+            "JDepart" => Self::Away(Motion::Joint),
+            "LDepart" => Self::Away(Motion::Linear),
+            "DRAw" => Self::Draw(false),
+            "TDraw" => Self::Draw(true),
+            "Xmove" => Self::Search,
+            "" if is_other(statement.words) => Self::Other,
+            "DRIve" | "ALign" | "HOme" => Self::Elsewhere,
+            _ => {
+                let words = statement.words;
+                let step = STEPS.iter().find(|(word, _)| words.is_word(0, word))?;
+                step_target(words).map(|_| Self::Step(step.1))?
+            }
+        })
     }
+}
+
+/// Whether a statement that is not known moves by its name: `FLMOVE p`, `CVLAPPRO p,50`.
+fn is_other(words: Words) -> bool {
+    let word = words.text(0).to_ascii_uppercase();
+    let mut endings = [&b"MOVE"[..], b"APPRO", b"DEPART"].into_iter();
+    !words.is(1, b'=') && endings.any(|ending| word.ends_with(ending))
 }
 
 /// Where the joints of a taught step stand.
@@ -87,7 +96,7 @@ impl<'a> Reader<'a> {
                     self.switch(Held::Flag(false));
                 }
                 let found = self.position(first);
-                self.go(part, Some(first), &found, motion, is_free);
+                self.go(part, Some(first), &found, motion, is_free, None);
             }
             Verb::Arc(is_end) => {
                 self.here.arc += 1;
@@ -101,17 +110,12 @@ impl<'a> Reader<'a> {
                 }
                 let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
-                let target = self.expr(&found);
-                let mut modal = self.modal_of(motion, Some(&found));
-                if is_chain {
-                    modal.guards = self.reason(Cause::ArcChain);
-                }
-                self.put(part, Some(first), target, motion, false, modal);
-                self.here.last = Some(found);
+                let modal = is_chain.then(|| self.refused(ARC_CHAIN, motion, &found));
+                self.go(part, Some(first), &found, motion, false, modal);
             }
             Verb::Near(motion) => {
                 let found = self.position(first).in_tool(second.map(back));
-                self.go(part, None, &found, motion, false);
+                self.go(part, None, &found, motion, false, None);
             }
             Verb::Away(motion) => {
                 let found = self.here.last;
@@ -121,28 +125,25 @@ impl<'a> Reader<'a> {
             Verb::Draw(in_tool) => {
                 let given = literals::<6>(&list[..list.len().min(6)]);
                 let found = self.here.last.zip(given).map(|(last, by)| {
-                    let [x, y, z, rx, ry, rz] = by;
+                    let [x, y, z, turned @ ..] = by;
                     if in_tool {
-                        let turned = super::pose_of_turns([rx, ry, rz].map(|angle| angle * DEG));
-                        let moved = Pose::from_translation(x * MM, y * MM, z * MM);
-                        last.in_tool(Some(moved * turned))
+                        last.in_tool(Some(pose_of_turning_angles(by)))
                     } else {
-                        let is_plain = [rx, ry, rz] == [0.0; 3];
-                        last.along(is_plain.then_some([x, y, z]))
+                        last.along((turned == [0.0; 3]).then_some([x, y, z]))
                     }
                 });
                 self.relative(part, found.as_ref(), Motion::Linear);
             }
-            Verb::Search => {
+            Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
                 let found = self.position(first.part(0..till));
-                let guards = self.reason(Cause::Search);
-                let target = self.expr(&found);
-                let modal = Modal {
-                    guards,
-                    ..self.modal_of(Motion::Linear, Some(&found))
+                let why = if matches!(verb, Verb::Other) {
+                    OTHER_MOVE
+                } else {
+                    SEARCH
                 };
-                self.put(part, None, target, Motion::Linear, false, modal);
+                let modal = self.refused(why, Motion::Linear, &found);
+                self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
             }
             Verb::Elsewhere => self.relative(part, None, Motion::Joint),
@@ -155,37 +156,56 @@ impl<'a> Reader<'a> {
                     |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");
                 let tool = (0..part.len()).map(|at| part.text(at)).find(is_tool);
                 let found = self.position(target);
-                let mut modal = self.modal_of(motion, None);
+                let mut modal = self.modal_of(motion, &found);
                 if let Some(tool) = tool {
                     modal.tool = self.frame_value(&Source::text(tool), None);
                 }
-                self.put(part, Some(target), found.base, motion, false, modal);
-                self.here.last = Some(found);
+                self.go(part, Some(target), &found, motion, false, Some(modal));
             }
         }
     }
 
     /// A move from where the robot stands.
     fn relative(&mut self, part: Words<'a, '_>, to: Option<&Position>, motion: Motion) {
-        if let Some(known) = to.filter(|to| to.by.is_some()) {
-            return self.go(part, None, known, motion, false);
+        let known = to.filter(|to| to.by.is_some());
+        if let Some(known) = known {
+            return self.go(part, None, known, motion, false, None);
         }
-        let unknown = self.unknown(Cause::Relative.remark());
-        let modal = self.modal_of(motion, None);
-        self.put(part, None, unknown, motion, false, modal);
+        let unknown = Position::plain(self.unknown(RELATIVE));
+        self.go(part, None, &unknown, motion, false, None);
         self.here.last = None;
     }
 
-    fn reason(&mut self, cause: Cause) -> u32 {
-        let remark = self.builder.script.remark(cause.remark());
-        let value = self.builder.script.held(Held::Remark(remark));
-        let place = self.place(self.here.at);
-        let script = &mut self.builder.script;
-        let reason = script.variable(Variable::new("move", place, value));
-        script.guards.push([reason].into());
-        short(script.guards.len() - 1)
+    /// With what a move to a position runs.
+    fn modal_of(&mut self, motion: Motion, to: &Position) -> Modal {
+        let configured = match motion {
+            Motion::Joint => Expr::Value(self.honoured),
+            _ => Expr::Absent,
+        };
+        Modal {
+            tool: Expr::Variable(self.tool),
+            frame: Expr::Variable(to.on.map_or(self.base, |(frame, _)| frame)),
+            configured,
+            guards: self.switches,
+            speed_zone: self.here.next.take().unwrap_or(self.here.always),
+            ..Modal::default()
+        }
     }
 
+    /// Likewise of one that something speaks against.
+    fn refused(&mut self, remark: Remark, motion: Motion, to: &Position) -> Modal {
+        let place = self.place(self.here.at);
+        let script = &mut self.builder.script;
+        let remark = script.remark(remark);
+        let value = script.held(Held::Remark(remark));
+        let reason = script.variable(Variable::new("move", place, value));
+        Modal {
+            guards: script.guard([reason]),
+            ..self.modal_of(motion, to)
+        }
+    }
+
+    /// A move to a position, which stands in the text by itself where it is named.
     fn go(
         &mut self,
         part: Words<'a, '_>,
@@ -193,39 +213,10 @@ impl<'a> Reader<'a> {
         to: &Position,
         motion: Motion,
         is_free: bool,
+        modal: Option<Modal>,
     ) {
         let target = self.expr(to);
-        let modal = self.modal_of(motion, Some(to));
-        self.put(part, named, target, motion, is_free, modal);
-        self.here.last = Some(*to);
-    }
-
-    /// With what a move to a position runs.
-    fn modal_of(&mut self, motion: Motion, to: Option<&Position>) -> Modal {
-        let plate = to.and_then(|to| to.on);
-        Modal {
-            tool: Expr::Variable(self.tool),
-            frame: Expr::Variable(plate.map_or(self.base, |(frame, _)| frame)),
-            configured: if motion == Motion::Joint {
-                Expr::Value(self.honoured)
-            } else {
-                Expr::Absent
-            },
-            guards: self.switches,
-            speed_zone: self.here.next.take().unwrap_or(self.here.always),
-            ..Modal::default()
-        }
-    }
-
-    fn put(
-        &mut self,
-        part: Words<'a, '_>,
-        named: Option<Words<'a, '_>>,
-        target: Expr,
-        motion: Motion,
-        is_free: bool,
-        modal: Modal,
-    ) {
+        let modal = modal.unwrap_or_else(|| self.modal_of(motion, to));
         // on a plate another object may stand in the place of this one
         let named = named.map(|named| self.on_plate(named).map_or(named, |(.., words)| words));
         let (whole, named) = (part.span(), named.map_or(0..0, |named| named.span()));
@@ -234,13 +225,11 @@ impl<'a> Reader<'a> {
             motion,
             free_orientation: is_free,
             target,
-            target_span: Span {
-                start: short(named.start),
-                end: short(named.end),
-            },
+            target_span: Span::of(named),
             ..Instruction::at(self.place(whole.start))
         };
         self.builder.go(instruction, modal);
+        self.here.last = Some(*to);
     }
 }
 

@@ -1,12 +1,11 @@
 //! Objects on a plate: `LMOVE plate+obj` where no move goes to `plate` itself. The plate is a work
 //! frame on the base then, and the object the target in it.
 
-use super::keywords::begins_with;
 use super::moves::Verb;
 use super::pose_of;
-use super::reader::{Reader, behind_label};
-use super::remarks::Cause;
-use super::sections::{Sections, lines};
+use super::reader::Reader;
+use super::remarks::ASSIGNED;
+use super::sections::{Sections, Statement};
 use super::targets::Name;
 use crate::geometry::Pose;
 use crate::program::script::{Expr, Held, How, Place, Variable, VariableId, Written};
@@ -70,11 +69,11 @@ fn sum<'a, 'w>(position: Words<'a, 'w>) -> Option<(Name, Object, Words<'a, 'w>)>
 
 /// The sum that a move goes to, in a SHIFT or not.
 fn sum_of_move<'a, 'w>(
-    part: Words<'a, 'w>,
+    statement: &Statement<'a, 'w>,
     own: &[Vec<u8>],
 ) -> Option<(Name, Object, Words<'a, 'w>)> {
-    let verb = Verb::of(part)?;
-    let first = *part.behind(1).list().first()?;
+    let verb = Verb::of(statement)?;
+    let first = *statement.words.behind(1).list().first()?;
     let goes = matches!(verb, Verb::To(..) | Verb::Arc(_) | Verb::Near(_));
     let position = if first.is_word(0, b"SHIFT") && first.is(1, b'(') {
         let (inside, _) = first.inside(1);
@@ -91,10 +90,11 @@ fn sum_of_move<'a, 'w>(
 impl<'a> Reader<'a> {
     /// Finds the plates: names that all moves only add objects to, which no other plate has and
     /// nothing else uses. Where no file tells any base they would hide that it is missing.
-    pub(super) fn find_plates(&mut self, sections: &[Sections], start: Option<Pose>) {
+    pub(super) fn find_plates(&mut self, sections: &Sections, start: Option<Pose>) {
         let mut sums = Sums::default();
-        self.each_line(sections, true, |part, own| {
-            if let Some((plate, object, _)) = sum_of_move(part, own) {
+        let has_sum = |line: &[u8]| memchr::memchr(b'+', line).is_some();
+        self.each_line(sections, has_sum, |line, own| {
+            if let Some((plate, object, _)) = sum_of_move(line, own) {
                 let objects = sums.entry(plate).or_default();
                 objects.extend(object.stem().map(<[u8]>::to_vec));
             }
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
         for (name, pose) in found {
             let text = name.text();
             let value = self.frame_value(&format!("BASE+{text}"), start.map(|base| base * pose));
-            let place = Place { file: 0, offset: 0 };
+            let place = Place::NOWHERE;
             let frame = Variable::new(text.as_str(), place, value);
             let frame = self.builder.script.variable(frame);
             self.plates.insert(name, Plate { text, pose, frame });
@@ -117,7 +117,7 @@ impl<'a> Reader<'a> {
     /// Those of sums whose names nothing else uses, and where they are.
     fn free_plates(
         &self,
-        sections: &[Sections],
+        sections: &Sections,
         sums: &Sums,
         mut has_base: bool,
     ) -> Vec<(Name, Pose)> {
@@ -127,30 +127,37 @@ impl<'a> Reader<'a> {
             *times.entry(object).or_default() += 1;
         }
         let mut others: HashSet<Vec<u8>> = HashSet::default();
-        self.each_line(sections, false, |part, own| {
-            has_base |= begins_with(part, b"BASE");
-            let sum = sum_of_move(part, own);
-            let end = sum.map_or(0, |(_, _, object)| object.span().end);
-            for at in 1..part.len() {
-                // the first names behind the verb are the sum
-                if part.part(at..at + 1).span().start >= end
-                    && let Some((name, _)) = Name::of(part.behind(at))
-                    && (plates.contains(&*name.stem) || times.contains_key(&*name.stem))
-                {
-                    others.insert(name.stem);
+        self.each_line(
+            sections,
+            |_| true,
+            |line, own| {
+                let part = line.words;
+                has_base |= line.keyword == "BAse";
+                let sum = sum_of_move(line, own);
+                let end = sum.map_or(0, |(_, _, object)| object.span().end);
+                for at in 1..part.len() {
+                    // the first names behind the verb are the sum
+                    if part.part(at..at + 1).span().start >= end
+                        && let Some((name, _)) = Name::of(part.behind(at))
+                        && (plates.contains(&*name.stem) || times.contains_key(&*name.stem))
+                    {
+                        others.insert(name.stem);
+                    }
                 }
-            }
-        });
+            },
+        );
         let is_free = |stem: &[u8]| !others.contains(stem) && !self.assigned.contains(stem);
+        let shared = self.names.get(&None);
         let is_object = |stem: &Vec<u8>| {
-            let elements = self.names.get(stem).map(|of| &of.variables);
+            let elements = shared.and_then(|names| names.get(stem));
+            let elements = elements.map(|of| &of.variables);
             let mut all = elements.into_iter().flat_map(HashMap::values);
             let is_known = elements.is_some_and(|all| !all.is_empty())
                 && all.all(|one| self.declared_pose(*one).is_some());
             is_known && is_free(stem) && times[&**stem] == 1 && !plates.contains(&**stem)
         };
         let pose_at = |name: &Name| {
-            let variables = &self.names.get(&name.stem)?.variables;
+            let variables = &shared?.get(&name.stem)?.variables;
             self.declared_pose(*variables.get(name.key.as_deref()?)?)
         };
         let place = |(name, objects): (&Name, &HashSet<Vec<u8>>)| {
@@ -164,24 +171,16 @@ impl<'a> Reader<'a> {
         found.filter(|_| has_base).collect()
     }
 
-    /// Visits the words of all lines, or of those with a sum, with the parameters of their program.
+    /// Visits the lines of all programs whose text is wanted, with the parameters of their program.
     fn each_line(
         &self,
-        sections: &[Sections],
-        sums: bool,
-        mut visit: impl FnMut(Words, &[Vec<u8>]),
+        sections: &Sections,
+        is_wanted: impl Fn(&[u8]) -> bool + Copy,
+        mut visit: impl FnMut(&Statement, &[Vec<u8>]),
     ) {
-        let (mut routine, mut found) = (0, Vec::new());
-        for (source, of) in self.sources.iter().zip(sections) {
-            for program in &of.programs {
-                for line in lines(&source.bytes, program.lines.clone()) {
-                    if !sums || memchr::memchr(b'+', line.text).is_some() {
-                        let (_, part) = behind_label(line.words(&source.bytes, &mut found));
-                        visit(part, &self.parameters[routine]);
-                    }
-                }
-                routine += 1;
-            }
+        for (program, own) in sections.programs.iter().zip(&self.parameters) {
+            let source = &self.sources[program.place.file as usize];
+            program.each(&source.bytes, is_wanted, |line| visit(line, own));
         }
     }
 
@@ -195,17 +194,18 @@ impl<'a> Reader<'a> {
         (numbers.len() == 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
-    /// The plate that a sum begins with, its object, and the words of that.
+    /// The plate that a sum begins with (the work frame, and where that is on the base), its object,
+    /// and the words of that.
     pub(super) fn on_plate<'w>(
         &self,
         position: Words<'a, 'w>,
-    ) -> Option<(&Plate, Object, Words<'a, 'w>)> {
+    ) -> Option<((VariableId, Pose), Object, Words<'a, 'w>)> {
         if self.plates.is_empty() {
             return None;
         }
         let (plate, object, words) = sum(position)?;
         let plate = self.plates.get(&plate)?;
-        Some((plate, object, words))
+        Some(((plate.frame, plate.pose), object, words))
     }
 
     /// The base is another: so are the plates on it.
@@ -235,7 +235,7 @@ impl<'a> Reader<'a> {
                     let name = format!("{name}+{}", plate.text);
                     self.frame_value(&name, pose.map(|base| base * plate.pose))
                 }
-                None => self.unknown(Cause::Assigned.remark()),
+                None => self.unknown(ASSIGNED),
             };
             self.write(Written::One(plate.frame), How::Whole(value));
         }

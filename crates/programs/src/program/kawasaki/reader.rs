@@ -2,22 +2,23 @@
 
 use super::arrays::Given;
 use super::calls::{Any, Handed};
-use super::keywords::{begins_with, find};
+use super::keywords::find;
 use super::moves::Verb;
 use super::plates::Plates;
-use super::remarks::Cause;
-use super::sections::{Entry, Program, Sections, lines};
+use super::remarks::{COMPUTED, SAVED, SWITCHED};
+use super::sections::{Entry, Program, Sections, Statement};
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
+use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
     Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
-    Write, Written, short,
+    Written, short,
 };
-use crate::program::words::{Kind, Words};
+use crate::program::words::Words;
 use crate::program::{Number, Source, SpeedZone};
-use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use foldhash::{HashMap, HashSet};
 
 /// Where the reader is.
 #[derive(Default)]
@@ -26,8 +27,6 @@ pub(super) struct Here {
     pub routine: RoutineId,
     /// The byte that the statement begins at.
     pub at: usize,
-    /// Names in small letters.
-    pub parameters: Vec<Vec<u8>>,
     /// Where the robot stands, as far as the text before tells.
     pub last: Option<Position>,
     /// Speed and corner of all moves, and of the next one alone.
@@ -39,12 +38,12 @@ pub(super) struct Here {
     watched: Vec<Watch>,
 }
 
+#[derive(Default)]
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
     pub builder: Builder,
-    /// Names of all programs, and of each.
-    pub names: HashMap<Vec<u8>, Elements>,
-    pub locals: HashMap<RoutineId, HashMap<Vec<u8>, Elements>>,
+    /// Names of each program, and of all.
+    pub names: HashMap<Option<RoutineId>, HashMap<Vec<u8>, Elements>>,
     /// Names that a statement writes.
     pub assigned: HashSet<Vec<u8>>,
     /// Likewise, with the program that it stands in.
@@ -74,21 +73,19 @@ pub(super) struct Reader<'a> {
     pub here: Here,
 }
 
-const NOWHERE: Place = Place { file: 0, offset: 0 };
-
 /// The statements of all files.
-pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
+pub(super) fn script(sources: &[Source], sections: &Sections) -> Script {
     let mut builder = Builder::default();
     let honoured = builder.script.value(Held::Flag(true));
     let off = builder.script.held(Held::Flag(false));
     let state = |builder: &mut Builder, name: &str, declared: Expr| {
-        let made = Variable::new(name, NOWHERE, declared);
+        let made = Variable::new(name, Place::NOWHERE, declared);
         builder.script.variable(made)
     };
     let switched = state(&mut builder, "configuration", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
     let saved = starts.map(|pose| {
-        let remark = builder.script.remark(Cause::Saved.remark());
+        let remark = builder.script.remark(SAVED);
         let reason = builder.script.held(Held::Remark(remark));
         state(
             &mut builder,
@@ -96,30 +93,14 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
             if pose.is_some() { reason } else { off },
         )
     });
-    builder
-        .script
-        .guards
-        .push([switched, saved[0], saved[1]].into());
     let mut reader = Reader {
         sources,
-        switches: short(builder.script.guards.len() - 1),
-        tool: 0,
-        base: 0,
+        switches: builder.script.guard([switched, saved[0], saved[1]]),
         saved,
         builder,
-        names: HashMap::new(),
-        locals: HashMap::new(),
-        assigned: HashSet::new(),
-        written: HashSet::new(),
-        programs: HashMap::new(),
-        parameters: Vec::new(),
-        plates: Plates::default(),
-        given: Given::default(),
-        called: HashSet::new(),
-        any: Vec::new(),
         switched,
         honoured,
-        here: Here::default(),
+        ..Reader::default()
     };
     let [tool, base] = [("TOOL", starts[0]), ("BASE", starts[1])].map(|(name, pose)| {
         let before = reader.frame_value(name, pose);
@@ -127,32 +108,22 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
     });
     (reader.tool, reader.base) = (tool, base);
     let mut handed = Vec::new();
-    for (file, of) in sections.iter().enumerate() {
-        for entry in &of.entries {
-            reader.declare(entry, short(file));
-        }
-        for program in &of.programs {
-            let place = Place {
-                file: short(file),
-                offset: program.at,
-            };
-            let name = Source::text(program.name);
-            let routine = reader.builder.declare(name, place, Start::Called);
-            let name = program.name.to_ascii_lowercase();
-            reader.programs.entry(name).or_default().push(routine);
-            reader.parameters.push(program.parameters.clone());
-            reader.note_assigned(&sources[file], program, routine, &mut handed);
-        }
+    for entry in &sections.entries {
+        reader.declare(entry);
+    }
+    for program in &sections.programs {
+        let name = Source::text(program.name);
+        let routine = (reader.builder).declare(name, program.place, Start::Called);
+        let name = program.name.to_ascii_lowercase();
+        reader.programs.entry(name).or_default().push(routine);
+        reader.parameters.push(program.parameters.clone());
+        reader.note_assigned(program, routine, &mut handed);
     }
     reader.note_handed(&handed);
     reader.note_arrays(&handed);
     reader.find_plates(sections, starts[1]);
-    let mut routine = 0;
-    for (file, of) in sections.iter().enumerate() {
-        for program in &of.programs {
-            reader.program(short(file), routine, program);
-            routine += 1;
-        }
+    for (routine, program) in (0..).zip(&sections.programs) {
+        reader.program(routine, program);
     }
     reader.start_uncalled();
     reader.write_any();
@@ -164,8 +135,8 @@ pub(super) fn script(sources: &[Source], sections: &[Sections]) -> Script {
 
 /// The tool or base that a save of the controller has; `None` where there is none, or several
 /// that differ.
-fn start(sections: &[Sections], name: &[u8]) -> Option<Pose> {
-    let saved = sections.iter().flat_map(|of| &of.saved);
+fn start(sections: &Sections, name: &[u8]) -> Option<Pose> {
+    let saved = sections.saved.iter();
     let values = |entry: &Entry| <[Number; 6]>::try_from(&entry.numbers[..]).ok();
     let mut all = saved.filter(|entry| entry.name == name).map(values);
     let first = all.next()??.map(|number| number.value);
@@ -173,89 +144,67 @@ fn start(sections: &[Sections], name: &[u8]) -> Option<Pose> {
     all.all(is_same).then(|| super::pose_of(first))
 }
 
-/// A label as a number: FNV-1a. Two labels of one program with the same would be one; at 64 bits
-/// there are none.
+/// A label as a number, in any case.
 pub(super) fn key(label: &[u8]) -> u64 {
-    let first = 0xcbf2_9ce4_8422_2325_u64;
-    label.iter().fold(first, |hash, byte| {
-        (hash ^ u64::from(byte.to_ascii_lowercase())).wrapping_mul(0x0100_0000_01b3)
-    })
+    label_key(&label.to_ascii_lowercase())
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn place(&self, offset: usize) -> Place {
-        Place {
-            file: self.here.file,
-            offset: short(offset),
-        }
+        Place::new(self.here.file, short(offset))
     }
 
     /// Notes the names that a program writes, whenever it runs, and those that it hands to others.
-    fn note_assigned(
-        &mut self,
-        source: &Source,
-        program: &Program,
-        routine: RoutineId,
-        handed: &mut Vec<Handed>,
-    ) {
-        let mut found = Vec::new();
-        for line in lines(&source.bytes, program.lines.clone()) {
-            // most lines write no name
-            if !may_write(line.text) {
-                continue;
-            }
-            let (_, part) = behind_label(line.words(&source.bytes, &mut found));
-            if begins_with(part, b"POINT") || begins_with(part, b"HERE") {
+    fn note_assigned(&mut self, program: &Program, routine: RoutineId, handed: &mut Vec<Handed>) {
+        let bytes = &self.sources[program.place.file as usize].bytes;
+        // most lines write no name
+        program.each(bytes, may_write, |line| {
+            let part = line.words;
+            if matches!(line.keyword, "POint" | "HEre") {
                 let name = if part.is(1, b'/') { 3 } else { 1 };
-                if let Some((name, _)) = Name::defined(before_equals(part.behind(name))) {
+                if let Some((name, _)) = Name::defined(part.behind(name).before(b'=')) {
                     self.written.insert((routine, name.stem));
                 }
-            } else if let Some(at) = find(part, b"CALL") {
+            } else if let Some(at) = find(part, "CAll") {
                 Handed::note(part.behind(at + 1), routine, handed);
             }
-        }
+        });
     }
 
-    fn program(&mut self, file: u32, routine: RoutineId, program: &Program<'a>) {
+    fn program(&mut self, routine: RoutineId, program: &Program<'a>) {
+        let file = program.place.file;
         let sources = self.sources;
         let bytes = &sources[file as usize].bytes;
         self.here = Here {
             file,
             routine,
-            parameters: self.parameters[routine as usize].clone(),
-            watched: watches(bytes, program.lines.clone()),
+            watched: watches(bytes, program),
             ..Here::default()
         };
         self.builder.open(routine);
-        let mut found = Vec::new();
-        for line in lines(bytes, program.lines.clone()) {
-            self.line(line.words(bytes, &mut found));
-        }
+        program.each(bytes, |_| true, |line| self.line(line));
         self.builder.close();
     }
 
-    fn line(&mut self, line: Words<'a, '_>) {
-        let (label, part) = behind_label(line);
-        if let Some(label) = label {
+    fn line(&mut self, line: &Statement<'a, '_>) {
+        if let Some(label) = line.label {
             self.builder.label(key(label));
             self.here.last = None;
         }
-        if part.is_empty() {
+        if line.words.is_empty() {
             return;
         }
-        self.here.at = part.span().start;
-        if let Some(verb) = Verb::of(part) {
-            self.moves(part, verb);
-        } else if !self.flow(part) && !self.calls(part) {
-            self.statement(part);
+        self.here.at = line.words.span().start;
+        if let Some(verb) = Verb::of(line) {
+            self.moves(line.words, verb);
+        } else if !self.flow(line) && !self.calls(line) {
+            self.statement(line);
         }
         // a signal may come at any time
-        let at = self.here.at;
-        for watch in self
-            .here
-            .watched
+        let watched = &self.here.watched;
+        for watch in watched
             .iter()
-            .filter(|one| one.lines.contains(&at))
+            .filter(|one| one.lines.contains(&self.here.at))
         {
             self.builder.may_go_to(watch.label);
         }
@@ -263,104 +212,98 @@ impl<'a> Reader<'a> {
 
     // ---- blocks and jumps
 
-    /// Whether the words are of the flow.
-    fn flow(&mut self, part: Words<'a, '_>) -> bool {
+    /// Whether a statement is of the flow.
+    fn flow(&mut self, statement: &Statement<'a, '_>) -> bool {
+        let part = statement.words;
         let has = |word: &[u8]| part.find(word).is_some();
-        let label = find(part, b"GOTO").map(|at| part.text(at + 1));
-        let label = label.filter(|label| !label.is_empty()).map(key);
-        let is = |word: &[u8]| begins_with(part, word);
-        if is(b"IF") && !has(b"THEN") {
-            if let Some(label) = label {
-                self.builder.may_go_to(label);
-            }
-        } else if is(b"IF") {
-            self.builder.begin_if(None);
-        } else if is(b"ELSEIF") {
-            self.builder.next_branch(false);
-        } else if is(b"ELSE") {
-            self.builder.next_branch(true);
-        } else if is(b"CASE") || is(b"SCASE") {
-            self.builder.begin_choice();
-        } else if is(b"VALUE") || is(b"SVALUE") {
-            self.builder.next_branch(false);
-        } else if is(b"ANY") && (part.len() == 1 || part.is(1, b':')) {
-            self.builder.next_branch(true);
-        } else if is(b"WHILE") || is(b"FOR") {
-            self.builder.begin_loop(true);
-        } else if is(b"DO") {
-            self.builder.begin_loop(false);
-        } else if is(b"END") || is(b"UNTIL") {
-            self.builder.end_block();
-        } else if is(b"GOTO") {
-            if let Some(label) = label {
-                if has(b"IF") {
-                    self.builder.may_go_to(label);
-                } else {
-                    self.builder.go_to(label);
-                }
-            }
-        } else if is(b"RETURN") || is(b"RETURNE") {
-            self.builder.back();
-        } else if is(b"STOP") || is(b"HALT") {
-            self.builder.exit();
-        } else {
-            return false;
+        match statement.keyword {
+            "IF" if has(b"THEN") => self.builder.begin_if(None),
+            "IF" => self.jump(part, true),
+            "ELSEIF" | "VALUE" | "SVALUE" => self.builder.next_branch(false),
+            "ELse" => self.builder.next_branch(true),
+            "ANY" if part.len() == 1 || part.is(1, b':') => self.builder.next_branch(true),
+            "CASE" | "SCASE" => self.builder.begin_choice(),
+            "WHile" | "FOR" => self.builder.begin_loop(true),
+            "DO" => self.builder.begin_loop(false),
+            "ENd" | "UNtil" => self.builder.end_block(),
+            "GOto" => self.jump(part, has(b"IF")),
+            "RETurn" | "RETURNE" => self.builder.back(),
+            "STOp" | "HAlt" => self.builder.exit(),
+            _ => return false,
         }
         self.here.last = None;
         true
     }
 
+    /// `GOTO label`
+    fn jump(&mut self, part: Words, may_go_on: bool) {
+        let label = find(part, "GOto").map(|at| part.text(at + 1));
+        match label.filter(|label| !label.is_empty()).map(key) {
+            Some(label) if may_go_on => self.builder.may_go_to(label),
+            Some(label) => self.builder.go_to(label),
+            None => {}
+        }
+    }
+
     // ---- statements
 
-    fn statement(&mut self, part: Words<'a, '_>) {
+    fn statement(&mut self, statement: &Statement<'a, '_>) {
+        let part = statement.words;
         let rest = part.behind(1);
-        let is = |word: &[u8]| begins_with(part, word);
-        if is(b"TOOL") || is(b"BASE") {
-            let value = self.frame(rest);
-            let off = self.builder.script.held(Held::Flag(false));
-            let (variable, saved) = if is(b"TOOL") {
-                (self.tool, self.saved[0])
-            } else {
-                (self.base, self.saved[1])
-            };
-            self.write(Written::One(variable), How::Whole(value));
-            self.write(Written::One(saved), How::Whole(off));
-            if is(b"BASE") {
-                self.move_plates(value, rest);
+        match statement.keyword {
+            "TOOL" => {
+                self.set_frame(self.tool, self.saved[0], rest);
             }
-            // of where the robot stands the text tells no target with the new one
-            self.here.last = None;
-        } else if is(b"SPEED") {
-            self.speed(rest);
-        } else if is(b"ACCURACY") {
-            let zone_m = first_number(rest).map(|mm| mm * crate::geometry::units::MM);
-            self.modal(rest, |of| of.zone_m = zone_m);
-        } else if is(b"POINT") {
-            self.point(rest);
-        } else if is(b"HERE") {
-            if let Some((name, is_sum)) = Name::defined(rest) {
-                let here = if is_sum {
-                    self.unknown(Cause::Computed.remark())
-                } else {
-                    self.builder.script.held(Held::Actual)
-                };
-                self.write_name(&name, How::Whole(here));
+            "BAse" => {
+                let base = self.set_frame(self.base, self.saved[1], rest);
+                self.move_plates(base, rest);
             }
-        } else if is(b"PCEXECUTE") || is(b"ONE") {
-            // the number of the process may stand before the name
-            let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
-            let named = rest.behind(colon.map_or(0, |at| at + 1));
-            if named.is_name(0) {
-                self.call(named, true);
+            "SPeed" => self.speed(rest),
+            "ACCUracy" => {
+                let zone_m = first_number(rest).map(|mm| mm * crate::geometry::units::MM);
+                self.modal(rest, |of| of.zone_m = zone_m);
             }
-        } else if is(b"ON") || is(b"ONI") {
-            if let Some(at) = find(part, b"CALL") {
-                self.call(part.behind(at + 1), true);
+            "POint" => self.point(rest),
+            "HEre" => {
+                if let Some((name, is_sum)) = Name::defined(rest) {
+                    let here = if is_sum {
+                        self.unknown(COMPUTED)
+                    } else {
+                        self.builder.script.held(Held::Actual)
+                    };
+                    self.write_name(&name, How::Whole(here));
+                }
             }
-        } else if SWITCHES.iter().any(|word| is(word)) {
-            let remark = self.builder.script.remark(Cause::Switched.remark());
-            self.switch(Held::Remark(remark));
+            "PCEXecute" | "ONE" => {
+                // the number of the process may stand before the name
+                let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
+                let named = rest.behind(colon.map_or(0, |at| at + 1));
+                if named.is_name(0) {
+                    self.call(named, true);
+                }
+            }
+            "ON" | "ONI" => {
+                if let Some(at) = find(part, "CAll") {
+                    self.call(part.behind(at + 1), true);
+                }
+            }
+            "LEfty" | "RIghty" | "ABove" | "BElow" | "UWrist" | "DWrist" => {
+                let remark = self.builder.script.remark(SWITCHED);
+                self.switch(Held::Remark(remark));
+            }
+            _ => {}
         }
+    }
+
+    /// `TOOL …`, `BASE …`
+    fn set_frame(&mut self, frame: VariableId, saved: VariableId, words: Words<'a, '_>) -> Expr {
+        let value = self.frame(words);
+        let off = self.builder.script.held(Held::Flag(false));
+        self.write(Written::One(frame), How::Whole(value));
+        self.write(Written::One(saved), How::Whole(off));
+        // of where the robot stands the text tells no target with the new one
+        self.here.last = None;
+        value
     }
 
     /// The arm's configuration is switched, or known again.
@@ -371,11 +314,7 @@ impl<'a> Reader<'a> {
 
     pub(super) fn write(&mut self, variable: Written, how: How) {
         let place = self.place(self.here.at);
-        self.builder.write(Write {
-            place,
-            variable,
-            how,
-        });
+        self.builder.write(place, variable, how);
     }
 
     fn write_name(&mut self, name: &Name, how: How) {
@@ -392,19 +331,19 @@ impl<'a> Reader<'a> {
     fn point(&mut self, part: Words<'a, '_>) {
         let is_partial = part.is(0, b'/');
         let part = part.behind(if is_partial { 2 } else { 0 });
-        let defined = before_equals(part);
+        let defined = part.before(b'=');
         let Some((name, is_sum)) = Name::defined(defined) else {
             return;
         };
         let value = part.behind(defined.len() + 1);
         if is_partial {
-            let remark = self.builder.script.remark(Cause::Computed.remark());
+            let remark = self.builder.script.remark(COMPUTED);
             let is_own = is_sum || mentions(value.whole(), defined.whole());
             let how = How::part(is_own, false, remark);
             return self.write_name(&name, how);
         }
         if is_sum {
-            let value = self.unknown(Cause::Computed.remark());
+            let value = self.unknown(COMPUTED);
             return self.write_name(&name, How::Whole(value));
         }
         let position = self.position(value);
@@ -458,28 +397,7 @@ fn may_write(line: &[u8]) -> bool {
     has(b'P', b'p', b"PO") || has(b'H', b'h', b"HE") || has(b'C', b'c', b"CA")
 }
 
-/// What stands before `=`; all where there is none.
-fn before_equals<'a, 'w>(part: Words<'a, 'w>) -> Words<'a, 'w> {
-    let equals = (0..part.len()).find(|at| part.is(*at, b'='));
-    part.part(0..equals.unwrap_or(part.len()))
-}
-
-/// The number or name that a line begins with to be jumped to, and what is behind it.
-pub(super) fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>) {
-    let has_colon = line.is(1, b':') && !line.is_word(0, b"ANY");
-    if line.kind(0) == Some(Kind::Number) || has_colon {
-        let words = if line.is(1, b':') { 2 } else { 1 };
-        return (Some(line.text(0)), line.behind(words));
-    }
-    (None, line)
-}
-
 /// The number that words begin with.
 fn first_number(part: Words) -> Option<f64> {
     part.part(0..part.len().min(1)).value()
 }
-
-/// Words that switch the arm's configuration.
-const SWITCHES: &[&[u8]] = &[
-    b"LEFTY", b"RIGHTY", b"ABOVE", b"BELOW", b"UWRIST", b"DWRIST",
-];

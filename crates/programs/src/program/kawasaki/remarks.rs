@@ -1,117 +1,102 @@
 //! What is wrong with targets, tools and moves, in words.
 
-use crate::finding::Severity;
+use crate::program::kit;
 use crate::program::script::Remark;
 
 /// Against an array that a program is handed.
-pub(super) fn unfollowed() -> Remark {
-    Remark::error(
-        "target-passed-to-routine",
-        "a program is handed this array, and which of its elements it goes to or writes is not \
+pub(super) const UNFOLLOWED: Remark = Remark::error(
+    "target-passed-to-routine",
+    "a program is handed this array, and which of its elements it goes to or writes is not \
          followed",
-        "hand one element over, or an array that has at most 32",
-    )
-}
+    "hand one element over, or an array that has at most 32",
+);
 
-/// Why a position has to stay, or a move runs without correction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cause {
-    Computed,
-    Partial,
-    Axes,
-    Assigned,
-    Relative,
-    Search,
-    ArcChain,
-    Switched,
-    Saved,
-}
+/// A position that only the running program knows.
+pub(super) const COMPUTED: Remark =
+    kit::computed("move to a name of .TRANS or .JOINTS where it must be exact");
 
-impl Cause {
-    pub(super) fn remark(self) -> Remark {
-        let (id, severity, text, hint) = match self {
-            Self::Computed => (
-                "computed-target",
-                Severity::Warning,
-                "the position that this move goes to is known at run time only; the move stays as \
-                 it is",
-                "move to a name of .TRANS or .JOINTS where it must be exact",
-            ),
-            Self::Partial => (
-                "partial-target",
-                Severity::Error,
-                "the target does not have all six numbers",
-                "write all six numbers of TRANS",
-            ),
-            Self::Axes => (
-                "target-not-six-axes",
-                Severity::Error,
-                "the target does not have six numbers: it has another axis (JT7), or is one of \
+/// A target without all numbers.
+pub(super) const PARTIAL: Remark = Remark::error(
+    "partial-target",
+    "the target does not have all six numbers",
+    "write all six numbers of TRANS",
+);
+
+/// A target of an arm that has not six axes.
+pub(super) const AXES: Remark = Remark::error(
+    "target-not-six-axes",
+    "the target does not have six numbers: it has another axis (JT7), or is one of \
                  another arm",
-                "only robots with six joints and without other axes are compensated",
-            ),
-            Self::Assigned => (
-                "frame-assigned-at-run-time",
-                Severity::Error,
-                "the running program computes the tool or base",
-                "set it with numbers, or with a name of .TRANS",
-            ),
-            Self::Relative => (
-                "relative-move",
-                Severity::Warning,
-                "the move starts where the robot stands, and the text does not tell where: it \
+    "only robots with six joints and without other axes are compensated",
+);
+
+/// A tool or base that only the running program knows.
+pub(super) const ASSIGNED: Remark = Remark::error(
+    "frame-assigned-at-run-time",
+    "the running program computes the tool or base",
+    "set it with numbers, or with a name of .TRANS",
+);
+
+/// A move from a place that the text does not tell.
+pub(super) const RELATIVE: Remark = Remark::warning(
+    "relative-move",
+    "the move starts where the robot stands, and the text does not tell where: it \
                  stays as it is",
-                "move to a name of .TRANS or .JOINTS where it must be exact",
-            ),
-            Self::Search => (
-                "search-move",
-                Severity::Error,
-                "a signal decides where the move (XMOVE) ends",
-                "searches are not compensated",
-            ),
-            Self::ArcChain => (
-                "arc-chain",
-                Severity::Error,
-                "C1MOVE follows C1MOVE: each part of the path lies on the circle through its two \
+    "move to a name of .TRANS or .JOINTS where it must be exact",
+);
+
+/// A move that a signal ends.
+pub(super) const SEARCH: Remark = Remark::error(
+    "search-move",
+    "a signal decides where the move (XMOVE) ends",
+    "searches are not compensated",
+);
+
+/// A move of a kind that is not read.
+pub(super) const OTHER_MOVE: Remark = Remark::error(
+    "move-not-supported",
+    "this kind of move is not read: where it goes, and where the robot stands then, is not \
+                 known",
+    "JMOVE, LMOVE, C1MOVE, C2MOVE, HMOVE, XMOVE and what departs and approaches are read",
+);
+
+/// An arc on an arc.
+pub(super) const ARC_CHAIN: Remark = Remark::error(
+    "arc-chain",
+    "C1MOVE follows C1MOVE: each part of the path lies on the circle through its two \
                  ends and the next point, and is not followed",
-                "end each arc with C2MOVE",
-            ),
-            Self::Switched => (
-                "configuration-not-understood",
-                Severity::Error,
-                "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, \
+    "end each arc with C2MOVE",
+);
+
+/// A configuration that is switched.
+pub(super) const SWITCHED: Remark = Remark::error(
+    "configuration-not-understood",
+    "the program switches the arm's configuration (LEFTY, RIGHTY, ABOVE, BELOW, \
                  UWRIST, DWRIST) before this move",
-                "go to joints (#name) with the configuration that is wanted instead",
-            ),
-            Self::Saved => (
-                "frame-as-saved",
-                Severity::Warning,
-                "the program does not set the tool or base before this move: it is taken as it was \
+    "go to joints (#name) with the configuration that is wanted instead",
+);
+
+/// A tool or base as it was saved.
+pub(super) const SAVED: Remark = Remark::warning(
+    "frame-as-saved",
+    "the program does not set the tool or base before this move: it is taken as it was \
                  when the controller was saved (.SYSDATA)",
-                "set TOOL and BASE in the program, or compare them with the pendant",
-            ),
-        };
-        Remark {
-            id,
-            severity,
-            text: text.into(),
-            hint,
-        }
-    }
-}
+    "set TOOL and BASE in the program, or compare them with the pendant",
+);
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
-    Remark::error(
-        "target-not-in-files",
-        format!("{name} is not declared in the files; this move is not compensated"),
-        "give the file with its .TRANS or .JOINTS too",
-    )
+    let hint = "give the file with its .TRANS or .JOINTS too";
+    if name.contains('#') {
+        kit::joints_not_in_files(name, hint)
+    } else {
+        kit::not_in_files(name, hint)
+    }
 }
 
 /// A target whose numbers a statement adds to those of others.
 pub(super) fn added_up(file: &str, line: usize) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "target-used-as-frame",
         format!(
             "this target is part of a tool, base or displacement, too (see {file} line {line})"

@@ -4,9 +4,10 @@
 //! A section begins with its keyword in the first column and ends with `.END`. Names of a program's
 //! own begin with a dot, too: only known keywords in capitals open a section.
 
+use super::keywords::keyword;
 use crate::program::kit::{Fault, content_start};
-use crate::program::script::short;
-use crate::program::words::{Spelling, Word, Words, in_names};
+use crate::program::script::{Place, short};
+use crate::program::words::{Kind, Spelling, Word, Words, in_names};
 use crate::program::{Number, Source, number};
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ use std::ops::Range;
 pub(super) struct Entry<'a> {
     /// The name, `#` of joints with it.
     pub name: &'a [u8],
-    pub at: u32,
+    pub place: Place,
     pub end: u32,
     pub numbers: Vec<Number>,
 }
@@ -26,27 +27,68 @@ pub(super) struct Program<'a> {
     pub name: &'a [u8],
     /// In small letters.
     pub parameters: Vec<Vec<u8>>,
-    pub at: u32,
+    pub place: Place,
     /// Its lines without the first and `.END`.
     pub lines: Range<usize>,
 }
 
-/// What a file holds.
+/// What files hold.
 #[derive(Debug, Default)]
 pub(super) struct Sections<'a> {
     pub programs: Vec<Program<'a>>,
     pub entries: Vec<Entry<'a>>,
     /// `TOOL` and `BASE` of `.SYSDATA`: what they were when the controller was saved.
     pub saved: Vec<Entry<'a>>,
-    /// Some section of the language is there.
-    pub is_one: bool,
 }
 
 /// A line without its end, and where it begins.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'a> {
-    pub text: &'a [u8],
+struct Line<'a> {
+    text: &'a [u8],
+    start: usize,
+}
+
+/// A line of a program.
+pub(super) struct Statement<'a, 'w> {
+    /// Where the line begins.
     pub start: usize,
+    /// What it is jumped to by.
+    pub label: Option<&'a [u8]>,
+    /// What its words begin with.
+    pub keyword: &'static str,
+    /// All behind the label.
+    pub words: Words<'a, 'w>,
+}
+
+impl<'a> Program<'a> {
+    /// Visits its lines, but for those whose text is not wanted.
+    pub(super) fn each(
+        &self,
+        bytes: &'a [u8],
+        is_wanted: impl Fn(&[u8]) -> bool,
+        mut visit: impl FnMut(&Statement<'a, '_>),
+    ) {
+        let mut found = Vec::new();
+        for line in lines(bytes, self.lines.clone()).filter(|line| is_wanted(line.text)) {
+            let (label, words) = behind_label(line.words(bytes, &mut found));
+            visit(&Statement {
+                start: line.start,
+                label,
+                keyword: keyword(words),
+                words,
+            });
+        }
+    }
+}
+
+/// The number or name that a line begins with to be jumped to, and what is behind it.
+fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>) {
+    let has_colon = line.is(1, b':') && !line.is_word(0, b"ANY");
+    if line.kind(0) == Some(Kind::Number) || has_colon {
+        let words = if line.is(1, b':') { 2 } else { 1 };
+        return (Some(line.text(0)), line.behind(words));
+    }
+    (None, line)
 }
 
 /// How words are written: names have dots.
@@ -59,7 +101,7 @@ static SPELLING: Spelling = Spelling {
 
 impl<'a> Line<'a> {
     /// Its words, which are put into `found`.
-    pub(super) fn words<'w>(&self, bytes: &'a [u8], found: &'w mut Vec<Word>) -> Words<'a, 'w> {
+    fn words<'w>(&self, bytes: &'a [u8], found: &'w mut Vec<Word>) -> Words<'a, 'w> {
         found.clear();
         SPELLING.add(bytes, self.start..self.start + self.text.len(), found);
         Words { bytes, all: found }
@@ -67,7 +109,7 @@ impl<'a> Line<'a> {
 }
 
 /// The lines of a part of a file; they end with LF, CR LF or CR.
-pub(super) fn lines(bytes: &[u8], range: Range<usize>) -> impl Iterator<Item = Line<'_>> {
+fn lines(bytes: &[u8], range: Range<usize>) -> impl Iterator<Item = Line<'_>> {
     let mut at = range.start;
     std::iter::from_fn(move || {
         let rest = bytes.get(at..range.end).filter(|rest| !rest.is_empty())?;
@@ -82,7 +124,7 @@ pub(super) fn lines(bytes: &[u8], range: Range<usize>) -> impl Iterator<Item = L
 }
 
 /// Whether a line is this keyword in the first column.
-pub(super) fn opens(line: &[u8], keyword: &[u8]) -> bool {
+fn opens(line: &[u8], keyword: &[u8]) -> bool {
     let behind = line.strip_prefix(keyword).and_then(|rest| rest.first());
     line == keyword || behind.is_some_and(|b| b.is_ascii_whitespace() || *b == b';')
 }
@@ -128,61 +170,66 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     false
 }
 
-/// Reads a file.
-pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
-    enum Open {
-        Nothing,
-        Entries,
-        System,
-        Program,
-        Other,
-    }
-    let bytes = &source.bytes;
-    let mut found = Sections::default();
-    let (mut open, mut opened_at) = (Open::Nothing, 0);
-    let mut buffer = Vec::new();
-    for line in lines(bytes, content_start(bytes)..bytes.len()) {
-        let text = line.text;
-        if opens(text, b".END") {
-            open = Open::Nothing;
-        } else if opens(text, b".PROGRAM") {
-            found
-                .programs
-                .push(header(line.words(bytes, &mut buffer), line));
-            (open, opened_at, found.is_one) = (Open::Program, line.start, true);
-        } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
-            (open, opened_at, found.is_one) = (Open::Entries, line.start, true);
-        } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
-            let is_system = opens(text, b".SYSDATA");
-            open = if is_system { Open::System } else { Open::Other };
-            opened_at = line.start;
-            found.is_one |= is_system;
-        } else if matches!(open, Open::System) {
-            let is_frame = text.starts_with(b"TOOL ") || text.starts_with(b"BASE ");
-            let frame = Some(line).filter(|_| is_frame);
-            found
-                .saved
-                .extend(frame.and_then(|line| entry(line).ok().flatten()));
-        } else if matches!(open, Open::Entries) {
-            found.entries.extend(entry(line)?);
-        } else if matches!(open, Open::Program)
-            && let Some(program) = found.programs.last_mut()
-        {
-            program.lines.end = line.start + text.len();
+impl<'a> Sections<'a> {
+    /// Adds those of a file; whether some section of the language is there.
+    pub(super) fn read(&mut self, source: &'a Source, file: u32) -> Result<bool, Fault> {
+        enum Open {
+            Nothing,
+            Entries,
+            System,
+            Program,
+            Other,
         }
-    }
-    match open {
-        // others may be a line alone
-        Open::Nothing | Open::Other => Ok(found),
-        Open::Entries | Open::System | Open::Program => Err(Fault::unclosed(
-            opened_at,
-            "the section (its last line is .END)",
-        )),
+        let bytes = &source.bytes;
+        let (mut open, mut opened_at, mut is_one) = (Open::Nothing, 0, false);
+        let mut buffer = Vec::new();
+        for line in lines(bytes, content_start(bytes)..bytes.len()) {
+            let text = line.text;
+            if opens(text, b".END") {
+                open = Open::Nothing;
+            } else if opens(text, b".PROGRAM") {
+                let words = line.words(bytes, &mut buffer);
+                self.programs.push(header(words, line, file));
+                (open, opened_at, is_one) = (Open::Program, line.start, true);
+            } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
+                (open, opened_at, is_one) = (Open::Entries, line.start, true);
+            } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
+                let is_system = opens(text, b".SYSDATA");
+                open = if is_system { Open::System } else { Open::Other };
+                opened_at = line.start;
+                is_one |= is_system;
+            } else if matches!(open, Open::System) {
+                if text.starts_with(b"TOOL ") || text.starts_with(b"BASE ") {
+                    self.saved.extend(entry(line, file).ok().flatten());
+                }
+            } else if matches!(open, Open::Entries) {
+                self.entries.extend(entry(line, file)?);
+            } else if matches!(open, Open::Program)
+                && let Some(program) = self.programs.last_mut()
+            {
+                program.lines.end = line.start + text.len();
+            }
+        }
+        match open {
+            // others may be a line alone
+            Open::Nothing | Open::Other => Ok(is_one),
+            Open::Entries | Open::System | Open::Program => Err(Fault::unclosed(
+                opened_at,
+                "the section (its last line is .END)",
+            )),
+        }
     }
 }
 
+/// Those of one file.
+pub(super) fn read(source: &Source) -> Result<Sections<'_>, Fault> {
+    let mut found = Sections::default();
+    found.read(source, 0)?;
+    Ok(found)
+}
+
 /// `.PROGRAM name(a,b) #553; comment`
-fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
+fn header<'a>(words: Words<'a, '_>, line: Line<'a>, file: u32) -> Program<'a> {
     let mut parameters = Vec::new();
     if words.is(2, b'(') {
         let list = words.inside(2).0.list().into_iter();
@@ -193,15 +240,14 @@ fn header<'a>(words: Words<'a, '_>, line: Line<'a>) -> Program<'a> {
     Program {
         name: words.text(1),
         parameters,
-        at: short(line.start),
+        place: Place::new(file, short(line.start)),
         lines: end..end,
     }
 }
 
 /// The name of a parameter: `.p`, also of joints `.#p`, of a pose `.&p`, and of an array `.p[]`.
 fn parameter(part: Words) -> Vec<u8> {
-    let open = (0..part.len()).find(|at| part.is(*at, b'['));
-    let part = part.part(0..open.unwrap_or(part.len()));
+    let part = part.before(b'[');
     let last = part.text(part.len().saturating_sub(1)).to_ascii_lowercase();
     match part.len() {
         1 => last,
@@ -210,36 +256,24 @@ fn parameter(part: Words) -> Vec<u8> {
 }
 
 /// `name 1.0 2.0 …`; nothing of an empty line.
-fn entry(line: Line<'_>) -> Result<Option<Entry<'_>>, Fault> {
-    let text = line.text.trim_ascii_end();
-    let blanks = text.len() - text.trim_ascii_start().len();
-    let mut at = blanks;
-    let name_length = text[at..]
-        .iter()
-        .take_while(|b| !b.is_ascii_whitespace())
-        .count();
-    let name = &text[at..at + name_length];
-    if name.is_empty() || name[0] == b';' {
+fn entry(line: Line<'_>, file: u32) -> Result<Option<Entry<'_>>, Fault> {
+    let start_of =
+        |field: &[u8]| line.start + (field.as_ptr() as usize - line.text.as_ptr() as usize);
+    let fields = line.text.split(u8::is_ascii_whitespace);
+    let mut fields = fields.filter(|field| !field.is_empty());
+    let Some(name) = fields.next().filter(|name| name[0] != b';') else {
         return Ok(None);
-    }
-    at += name_length;
+    };
     let mut numbers = Vec::with_capacity(6);
-    while let Some(byte) = text.get(at) {
-        if byte.is_ascii_whitespace() {
-            at += 1;
-            continue;
-        }
-        let field = text[at..].split(u8::is_ascii_whitespace).next();
-        let field = field.unwrap_or_default();
-        let start = line.start + at;
+    for field in fields {
+        let start = start_of(field);
         let fault = || Fault::unexpected(start..start + field.len(), "a number");
         numbers.push(number::placed(field, start).ok_or_else(fault)?);
-        at += field.len();
     }
     Ok(Some(Entry {
         name,
-        at: short(line.start + blanks),
-        end: short(line.start + text.len()),
+        place: Place::new(file, short(start_of(name))),
+        end: short(line.start + line.text.trim_ascii_end().len()),
         numbers,
     }))
 }

@@ -3,13 +3,15 @@
 use super::plates::Object;
 use super::pose_of;
 use super::reader::Reader;
-use super::remarks::{Cause, added_up, not_in_files};
+use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, added_up, not_in_files};
 use super::sections::Entry;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
-use crate::program::script::{Expr, Held, Place, Remark, TableId, Variable, VariableId, short};
+use crate::program::script::{
+    Expr, Held, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
+};
 use crate::program::words::{Kind, Word, Words, six};
-use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
+use crate::program::{Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::HashMap;
 use std::ops::Range;
 
@@ -100,14 +102,10 @@ pub(super) struct Position {
 }
 
 impl Position {
-    fn plain(base: Expr) -> Self {
-        let nothing = Shift {
-            in_frame: Pose::identity(),
-            in_tool: Pose::identity(),
-        };
+    pub(super) fn plain(base: Expr) -> Self {
         Self {
             base,
-            by: Some(nothing),
+            by: Some(Shift::none()),
             on: None,
         }
     }
@@ -157,24 +155,24 @@ impl<'a> Reader<'a> {
     // ---- what is declared
 
     /// A name of `.TRANS` or `.JOINTS`.
-    pub(super) fn declare(&mut self, entry: &Entry, file: u32) {
+    pub(super) fn declare(&mut self, entry: &Entry) {
         let name = Name::of_entry(entry.name);
         let shape = if name.is_joints() {
             Shape::Joints
         } else {
             Shape::Pose
         };
-        let place = Place {
-            file,
-            offset: entry.at,
-        };
+        let place = entry.place;
         let declared = if let Ok(numbers) = <[Number; 6]>::try_from(&entry.numbers[..]) {
             let target = self.add_target(Some(&name.text()), place, entry.end, shape, numbers);
             Expr::Target(target)
         } else {
-            self.unknown(Cause::Axes.remark())
+            self.unknown(AXES)
         };
-        let known = self.names.get(&name.stem);
+        let known = self
+            .names
+            .get(&None)
+            .and_then(|names| names.get(&name.stem));
         let key = name.key.as_deref().unwrap_or_default();
         if let Some(&variable) = known.and_then(|known| known.variables.get(key)) {
             // each of the files may be the one that was loaded last
@@ -208,29 +206,20 @@ impl<'a> Reader<'a> {
     ) -> TargetId {
         let target = Target {
             name: name.map(Into::into),
-            file: place.file,
-            offset: place.offset,
-            end,
-            layout: Layout { shape, variant: 0 },
-            numbers: 0..0,
-            blocked: false,
+            ..Target::new(place, end, Layout::of(shape))
         };
         self.builder.script.target(target, numbers)
     }
 
     fn add_variable(&mut self, name: &Name, place: Place, declared: Expr) -> VariableId {
-        let is_local = self.is_local(name);
-        let routine = is_local.then_some(self.here.routine);
+        let routine = self.owner(name);
         let script = &mut self.builder.script;
         let made = script.variable(Variable {
-            kept: !is_local,
+            kept: routine.is_none(),
             routine,
             ..Variable::new(name.text(), place, declared)
         });
-        let names = match routine {
-            Some(routine) => self.locals.entry(routine).or_default(),
-            None => &mut self.names,
-        };
+        let names = self.names.entry(routine).or_default();
         let elements = names.entry(name.stem.clone()).or_insert_with(|| Elements {
             table: script.table(name.text()),
             variables: HashMap::default(),
@@ -247,19 +236,22 @@ impl<'a> Reader<'a> {
     }
 
     fn is_parameter(&self, name: &Name) -> bool {
-        self.here.parameters.iter().any(|own| own == name.plain())
+        let own = self.parameters.get(self.here.routine as usize);
+        own.is_some_and(|own| own.iter().any(|own| own == name.plain()))
+    }
+
+    /// The program that a name belongs to; none where it is of all.
+    fn owner(&self, name: &Name) -> Option<RoutineId> {
+        self.is_local(name).then_some(self.here.routine)
     }
 
     fn elements(&self, name: &Name) -> Option<&Elements> {
-        if self.is_local(name) {
-            return self.locals.get(&self.here.routine)?.get(&name.stem);
-        }
-        self.names.get(&name.stem)
+        self.names.get(&self.owner(name))?.get(&name.stem)
     }
 
     /// Whether a name is one of the files' positions.
     pub(super) fn is_known(&self, name: &Name) -> bool {
-        self.is_local(name) || self.names.contains_key(&name.stem)
+        self.is_local(name) || self.elements(name).is_some()
     }
 
     /// The variable of a name; one that the files do not have is unknown until it is written.
@@ -270,7 +262,7 @@ impl<'a> Reader<'a> {
             return known;
         }
         let remark = if self.is_local(name) {
-            Cause::Computed.remark()
+            COMPUTED
         } else {
             not_in_files(&name.text())
         };
@@ -291,12 +283,12 @@ impl<'a> Reader<'a> {
         }
         let is_local = self.is_local(name);
         match self.table(name) {
-            None if is_local => self.unknown(Cause::Computed.remark()),
+            None if is_local => self.unknown(COMPUTED),
             None => self.unknown(not_in_files(&name.text())),
             Some(table) => {
                 // others of the program's own may follow in the text
                 let computed = is_local && !self.is_parameter(name);
-                let computed = computed.then(|| self.unknown(Cause::Computed.remark()));
+                let computed = computed.then(|| self.unknown(COMPUTED));
                 let script = &mut self.builder.script;
                 let entries = script.tables[table as usize].entries.values();
                 let all = entries.map(|one| Expr::Variable(*one)).chain(computed);
@@ -312,14 +304,9 @@ impl<'a> Reader<'a> {
     pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
         let terms = part.terms();
         let Some(((_, first), mut others)) = terms.split_first() else {
-            return Position::plain(self.unknown(Cause::Computed.remark()));
+            return Position::plain(self.unknown(COMPUTED));
         };
-        let on_plate = self.on_plate(part);
-        let on_plate = on_plate.map(|(plate, object, words)| {
-            let place = (plate.frame, plate.pose);
-            (place, object, words)
-        });
-        let mut found = if let Some((plate, object, words)) = on_plate {
+        let mut found = if let Some((plate, object, words)) = self.on_plate(part) {
             others = &others[1..];
             let base = match object {
                 Object::Named(name) => self.named(&name),
@@ -358,7 +345,7 @@ impl<'a> Reader<'a> {
         }
         match Name::of(part) {
             Some((name, words)) if words == part.len() => Position::plain(self.named(&name)),
-            _ => Position::plain(self.unknown(Cause::Computed.remark())),
+            _ => Position::plain(self.unknown(COMPUTED)),
         }
     }
 
@@ -371,13 +358,13 @@ impl<'a> Reader<'a> {
             return Expr::Target(self.add_target(None, place, short(end), shape, numbers));
         }
         let is_partial = shape == Shape::Pose && list.len() < 6;
-        let cause = match list.iter().find(|part| part.number().is_none()) {
-            None if is_partial => Cause::Partial,
-            None => Cause::Axes,
-            Some(part) if part.is_empty() => Cause::Partial,
-            Some(_) => Cause::Computed,
+        let remark = match list.iter().find(|part| part.number().is_none()) {
+            None if is_partial => PARTIAL,
+            None => AXES,
+            Some(part) if part.is_empty() => PARTIAL,
+            Some(_) => COMPUTED,
         };
-        self.unknown(cause.remark())
+        self.unknown(remark)
     }
 
     /// What poses that are added up are, where the text tells it.
@@ -425,23 +412,17 @@ impl<'a> Reader<'a> {
         let Expr::Target(target) = script.variables[variable as usize].declared else {
             return None;
         };
-        let remark = script.remark(added_up(&source.name, line));
-        script.refused.push((target, remark));
+        script.refuse(target, added_up(&source.name, line));
         let numbers = script.numbers_of(target);
         Some(pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
     /// A position as the script has it.
     pub(super) fn expr(&mut self, position: &Position) -> Expr {
-        let nothing = Pose::identity();
-        let script = &mut self.builder.script;
-        let by = match position.by {
-            Some(by) if by.in_frame == nothing && by.in_tool == nothing => return position.base,
-            Some(by) => Displacement::By(Box::new(by)),
-            None => Displacement::Unknown,
-        };
-        let by = script.displacement(by);
-        script.displaced(position.base, by)
+        match position.by {
+            Some(by) if by == Shift::none() => position.base,
+            by => self.builder.script.shifted(position.base, by),
+        }
     }
 
     // ---- tools and bases
@@ -463,7 +444,7 @@ impl<'a> Reader<'a> {
             }
             _ => match self.known_sum(part) {
                 Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),
-                None => self.unknown(Cause::Assigned.remark()),
+                None => self.unknown(ASSIGNED),
             },
         }
     }

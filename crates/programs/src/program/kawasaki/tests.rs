@@ -3,7 +3,7 @@
 use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
-use crate::program::{Displacement, Motion, Move, Shape};
+use crate::program::{Displacement, Motion, Move, Program, Shape};
 
 mod inserted;
 mod robust;
@@ -234,6 +234,9 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("LMOVE q7", "target-not-in-files"),
         ("RIGHTY\nJMOVE p1", "configuration-not-understood"),
         ("XMOVE p1 TILL 3", "search-move"),
+        ("L3LMOVE p1", "move-not-supported"),
+        ("cvlappro p1,50", "move-not-supported"),
+        ("JMOVE #elsewhere", "joint-target-not-in-files"),
         ("C1MOVE p[1]\nC1MOVE p[2]\nC2MOVE p1", "arc-chain"),
         ("HERE .#q\nJMOVE .#q", "run-time-position"),
         ("LDEPART 5", "relative-move"),
@@ -248,6 +251,12 @@ fn what_is_not_sure_is_refused_or_reported() {
             program.findings
         );
     }
+    // a variable may be called so
+    let program = read("TOOL NULL\nBASE NULL\ndomove = 3\nLMOVE p1");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    // what is behind a move that is not read starts nobody knows where
+    let program = read("TOOL NULL\nBASE NULL\nLMOVE p1\nFLMOVE p[1]\nLDEPART 5");
+    assert!(ids(&program).contains(&"relative-move"));
     // joints tell the configuration again
     let program = read("TOOL NULL\nBASE NULL\nRIGHTY\nJMOVE #home\nLMOVE p1");
     assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);

@@ -3,9 +3,9 @@
 //! They hold in the order in which the program runs, which may be another than that of its lines:
 //! what may be watched counts as watched.
 
-use super::keywords::{begins_with, find};
-use super::reader::{behind_label, key};
-use super::sections::lines;
+use super::keywords::find;
+use super::reader::key;
+use super::sections::Program;
 use crate::program::words::Words;
 use std::ops::Range;
 
@@ -18,67 +18,72 @@ pub(super) struct Watch {
 }
 
 /// The statements that open a block.
-pub(super) const OPENING: &[&[u8]] = &[b"CASE", b"SCASE", b"WHILE", b"FOR", b"DO"];
+pub(super) const OPENING: &[&str] = &["CASE", "SCASE", "WHile", "FOR", "DO"];
 
-/// The signals that a program with these lines watches.
-pub(super) fn watches(bytes: &[u8], of: Range<usize>) -> Vec<Watch> {
+/// The signals that a program watches.
+pub(super) fn watches(bytes: &[u8], of: &Program) -> Vec<Watch> {
     let mut found: Vec<Watch> = Vec::new();
     let has = |line: &[u8], word: &[u8]| {
         (line.windows(word.len())).any(|part| part.eq_ignore_ascii_case(word))
     };
     // most programs watch nothing
-    if !lines(bytes, of.clone()).any(|line| has(line.text, b"ON") && has(line.text, b"GO")) {
+    let may_watch = |line: &[u8]| has(line, b"ON") && has(line, b"GO");
+    let text = &bytes[of.lines.clone()];
+    if !text.split(|b| matches!(b, b'\n' | b'\r')).any(may_watch) {
         return found;
     }
-    let mut words = Vec::new();
     // the first line that the program may come back to, and the outermost block that is open
     let (mut first_label, mut outermost, mut depth) = (None, None, 0_u32);
-    for line in lines(bytes, of) {
-        let (label, part) = behind_label(line.words(bytes, &mut words));
-        let is = |word: &[u8]| begins_with(part, word);
-        if label.is_some() {
-            first_label.get_or_insert(line.start);
-            // the jump to here may have passed over what ended it
-            let is_open = |ended: &Watch| {
-                let same = |one: &Watch| one.signal == ended.signal && one.label == ended.label;
-                (found.iter()).any(|one| one.lines.end == usize::MAX && same(one))
-            };
-            let ended: Vec<Watch> = (found.iter())
-                .filter(|one| one.lines.end < usize::MAX && !is_open(one))
-                .map(|one| Watch {
-                    signal: one.signal.clone(),
-                    label: one.label,
-                    lines: line.start..usize::MAX,
-                })
-                .collect();
-            found.extend(ended);
-        }
-        if OPENING.iter().any(|word| is(word)) || is(b"IF") && part.find(b"THEN").is_some() {
-            if depth == 0 {
-                outermost = Some(line.start);
+    of.each(
+        bytes,
+        |_| true,
+        |line| {
+            let (keyword, part) = (line.keyword, line.words);
+            if line.label.is_some() {
+                first_label.get_or_insert(line.start);
+                // the jump to here may have passed over what ended it
+                let is_open = |ended: &Watch| {
+                    let same = |one: &Watch| one.signal == ended.signal && one.label == ended.label;
+                    (found.iter()).any(|one| one.lines.end == usize::MAX && same(one))
+                };
+                let ended: Vec<Watch> = (found.iter())
+                    .filter(|one| one.lines.end < usize::MAX && !is_open(one))
+                    .map(|one| Watch {
+                        signal: one.signal.clone(),
+                        label: one.label,
+                        lines: line.start..usize::MAX,
+                    })
+                    .collect();
+                found.extend(ended);
             }
-            depth += 1;
-        } else if is(b"END") || is(b"UNTIL") {
-            depth = depth.saturating_sub(1);
-        } else if (is(b"ON") || is(b"ONI")) && find(part, b"CALL").is_none() {
-            let Some(at) = find(part, b"GOTO") else {
-                continue;
-            };
-            let block = outermost.filter(|_| depth > 0);
-            let from = first_label.into_iter().chain(block).min();
-            found.push(Watch {
-                signal: signal(part.part(1..at)).to_vec(),
-                label: key(part.text(at + 1)),
-                lines: from.unwrap_or(line.start)..usize::MAX,
-            });
-        } else if is(b"IGNORE") && depth == 0 {
-            let ignored = signal(part.behind(1));
-            let open = found.iter_mut().filter(|one| one.lines.end == usize::MAX);
-            for one in open.filter(|one| one.signal == ignored) {
-                one.lines.end = line.start;
+            let is_block = keyword == "IF" && part.find(b"THEN").is_some();
+            if OPENING.contains(&keyword) || is_block {
+                if depth == 0 {
+                    outermost = Some(line.start);
+                }
+                depth += 1;
+            } else if matches!(keyword, "ENd" | "UNtil") {
+                depth = depth.saturating_sub(1);
+            } else if matches!(keyword, "ON" | "ONI") && find(part, "CAll").is_none() {
+                let Some(at) = find(part, "GOto") else {
+                    return;
+                };
+                let block = outermost.filter(|_| depth > 0);
+                let from = first_label.into_iter().chain(block).min();
+                found.push(Watch {
+                    signal: signal(part.part(1..at)).to_vec(),
+                    label: key(part.text(at + 1)),
+                    lines: from.unwrap_or(line.start)..usize::MAX,
+                });
+            } else if keyword == "IGnore" && depth == 0 {
+                let ignored = signal(part.behind(1));
+                let open = found.iter_mut().filter(|one| one.lines.end == usize::MAX);
+                for one in open.filter(|one| one.signal == ignored) {
+                    one.lines.end = line.start;
+                }
             }
-        }
-    }
+        },
+    );
     found
 }
 

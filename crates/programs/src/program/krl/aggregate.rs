@@ -38,10 +38,7 @@ pub(super) fn each(
     mut visit: impl FnMut(&[u8], Token, Field) -> Result<(), Fault>,
 ) -> Result<Option<Token>, Fault> {
     let open = cursor.at;
-    let unclosed = Fault::Unclosed {
-        at: short(open),
-        what: "an aggregate",
-    };
+    let unclosed = Fault::unclosed(open, "an aggregate");
     cursor.take(b'{');
     let mut of_type = None;
     let mut ahead = *cursor;

@@ -3,7 +3,7 @@
 use super::frames::State;
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{computed, conveyor};
+use super::remarks::{COMPUTED, conveyor};
 use super::statements::{action, is_kept};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
@@ -159,10 +159,7 @@ impl Reader {
             return;
         }
         let arguments = self.arguments(cursor);
-        let place = Place {
-            file: self.file,
-            offset: name.start,
-        };
+        let place = Place::new(self.file, name.start);
         match (callee, known) {
             (None, Some(Known::Writes(from))) => {
                 for given in arguments.into_iter().skip(from) {
@@ -193,7 +190,7 @@ impl Reader {
         match self.names.data[datum as usize].kind {
             DataKind::Number => self.count(name, at, None),
             kind if kind.is_place() => {
-                let how = How::Whole(self.unknown(computed()));
+                let how = How::Whole(self.unknown(COMPUTED));
                 self.write_element(Owner::Datum(datum), at, how);
             }
             _ => {}
@@ -245,35 +242,27 @@ impl Reader {
                 // a frame that no move goes to is an offset
                 (_, Some(DataKind::Frame)) if callee.is_none() => Expr::Absent,
                 (Expr::Absent, _) if is_number => self.chosen(),
-                (Expr::Absent, _) => self.unknown(computed()),
+                (Expr::Absent, _) => self.unknown(COMPUTED),
                 (value, _) => value,
             };
             let parameter = parameter.filter(|_| is_given);
             let parameter = parameter.map(|(datum, _)| self.variable_of(datum));
-            arguments.push(Argument {
-                parameter,
-                value,
-                back,
-            });
+            arguments.push(Argument::new(parameter, value, back));
         }
         // a function that is not in the files matters where it is given something only
         if callee.is_none() && !is_statement && !gives {
             return;
         }
         let arguments = self.builder.script.give(arguments);
-        self.builder.call(Call {
-            place,
-            callees: callee.into_iter().collect(),
-            foreign: callee.is_none(),
-            name: self.names.symbols.spelling(name).into(),
-            arguments,
-        });
+        let callees = callee.into_iter().collect();
+        let name = self.names.symbols.spelling(name);
+        self.builder.call(Call::of(place, callees, name, arguments));
         for variable in lost {
             let value = self.chosen();
             self.put(place, variable, value);
         }
         for array in written {
-            let how = How::PartSomehow(self.builder.script.remark(computed()));
+            let how = How::PartSomehow(self.builder.script.remark(COMPUTED));
             self.write_element(Owner::Datum(array), Index::Variable, how);
         }
     }

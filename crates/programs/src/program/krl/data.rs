@@ -125,11 +125,11 @@ impl Reader {
             aggregate.has & WHOLE == WHOLE
         };
         let flaw = if aggregate.computed {
-            Some(remarks::expressions())
+            Some(remarks::EXPRESSIONS)
         } else if is_whole {
             None
         } else {
-            Some(remarks::partial())
+            Some(remarks::PARTIAL)
         };
         let shape = if is_axes { Shape::Joints } else { Shape::Pose };
         let mut variant = 0;
@@ -144,18 +144,15 @@ impl Reader {
                 }
             }
         }
+        let place = Place::new(self.file, short(span.start));
         script.targets.push(Target {
             name,
-            file: self.file,
-            offset: short(span.start),
-            end: short(span.end),
-            layout: Layout { shape, variant },
             numbers: first..short(script.numbers.len()),
             blocked: flaw.is_some(),
+            ..Target::new(place, short(span.end), Layout { shape, variant })
         });
         if let Some(flaw) = flaw {
-            let remark = script.remark(flaw);
-            script.refused.push((id, remark));
+            script.refuse(id, flaw);
         }
         for (name, value) in aggregate.driven() {
             match self.external.meaning(name) {

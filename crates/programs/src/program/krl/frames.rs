@@ -3,9 +3,10 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{angle, chosen, frame_assigned, keeps_orientation, moving, of_another_robot};
+use super::remarks::{ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT};
 use super::targets::Owner;
 use crate::geometry::Pose;
+use crate::program::kit;
 use crate::program::names::Symbol;
 use crate::program::notation::{pose_of_angles, write_angles};
 use crate::program::script::{
@@ -93,10 +94,7 @@ impl Declared {
 pub(super) fn part(number: Number, file: u32) -> Part {
     Part {
         value: PartValue::Number(number.value),
-        place: Place {
-            file,
-            offset: number.start,
-        },
+        place: Place::new(file, number.start),
         length: number.length,
     }
 }
@@ -225,13 +223,11 @@ pub(super) fn carried_record(
     })
 }
 
-const NOWHERE: Place = Place { file: 0, offset: 0 };
-
 /// A part that stands nowhere.
 pub(super) fn part_of(value: PartValue) -> Part {
     Part {
         value,
-        place: NOWHERE,
+        place: Place::NOWHERE,
         length: 0,
     }
 }
@@ -252,7 +248,7 @@ impl States {
             });
             short(script.tables.len() - 1)
         });
-        let chosen = script.remark(chosen());
+        let chosen = script.remark(CHOSEN);
         let states = std::array::from_fn(|at| {
             let declared = match at {
                 0 | 1 => Expr::Value(initial[at]),
@@ -262,7 +258,7 @@ impl States {
             };
             script.variable(Variable {
                 shared: true,
-                ..Variable::new(State::NAMES[at], NOWHERE, declared)
+                ..Variable::new(State::NAMES[at], Place::NOWHERE, declared)
             })
         });
         let external = script.remark(Remark::error(
@@ -271,9 +267,9 @@ impl States {
             "moves with a fixed tool are not compensated",
         ));
         let external = script.value(Held::Remark(external));
-        let angle = script.remark(angle());
+        let angle = script.remark(ANGLE);
         let angle = script.value(Held::Remark(angle));
-        let keeps = script.remark(keeps_orientation());
+        let keeps = script.remark(KEEPS_ORIENTATION);
         let keeps = script.value(Held::Remark(keeps));
         let [angle, fixed, chosen, kept] = [
             Expr::Value(angle),
@@ -281,14 +277,11 @@ impl States {
             Expr::Unknown(chosen),
             Expr::Value(keeps),
         ]
-        .map(|declared| script.variable(Variable::new("the move", NOWHERE, declared)));
+        .map(|declared| script.variable(Variable::new("the move", Place::NOWHERE, declared)));
         let mode = states[State::Ipo as usize];
         let apart = ["$ASYNC_AXIS", "$ACT_EX_AX"]
-            .map(|name| script.variable(Variable::new(name, NOWHERE, Expr::Value(on))));
-        let mut guard = |of: &[VariableId]| {
-            script.guards.push([of, &apart].concat().into());
-            short(script.guards.len() - 1)
-        };
+            .map(|name| script.variable(Variable::new(name, Place::NOWHERE, Expr::Value(on))));
+        let mut guard = |of: &[VariableId]| script.guard([of, &apart].concat());
         let load = states[State::Load as usize];
         Self {
             guards: guard(&[mode, load]),
@@ -354,7 +347,7 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
                 given += u32::from(at < 6);
             }
             PartValue::Missing => missing += u32::from(at < 6),
-            _ => return Err(frame_assigned()),
+            _ => return Err(FRAME_ASSIGNED),
         }
     }
     if missing > 0 && given > 0 {
@@ -363,17 +356,12 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
                 tell the rest"
                 .into(),
             hint: "give the $config.dat that declares it, too",
-            ..frame_assigned()
+            ..FRAME_ASSIGNED
         });
     }
     if let Some(angle) = numbers[3..6].iter().find(|angle| angle.abs() > MOST_ANGLE) {
-        return Err(Remark {
-            id: "angle-too-large",
-            text: format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE} deg")
-                .into(),
-            hint: "A, B and C are in degrees: write them between -360 and 360",
-            ..frame_assigned()
-        });
+        let hint = "A, B and C are in degrees: write them between -360 and 360";
+        return Err(kit::angle_too_large(name, *angle, MOST_ANGLE, hint));
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;
     Ok(NamedFrame {
@@ -390,7 +378,7 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
 impl Reader {
     /// A tool or base that only the running program knows.
     pub(super) fn chosen(&mut self) -> Expr {
-        self.unknown(chosen())
+        self.unknown(CHOSEN)
     }
 
     pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
@@ -407,7 +395,7 @@ impl Reader {
         let declared = match declared.unwrap_or(Entry::Missing) {
             _ if table == Table::Load => self.load_value(self.declared.loads.get(&at).copied()),
             _ if table == Table::Base && self.declared.of_others.contains(&at) => {
-                self.unknown(of_another_robot())
+                self.unknown(OF_ANOTHER_ROBOT)
             }
             Entry::Ambiguous => self.unknown(Remark::error(
                 "frame-name-ambiguous",
@@ -416,7 +404,7 @@ impl Reader {
             )),
             Entry::Frame(parts) => Expr::Value(self.frame_value(table, &name, at, &parts)),
             Entry::Missing if table == Table::Base && self.declared.moving.contains_key(&at) => {
-                self.unknown(moving())
+                self.unknown(MOVING)
             }
             Entry::Missing => {
                 let value = match at {
@@ -429,7 +417,7 @@ impl Reader {
         let script = &mut self.builder.script;
         let made = script.variable(Variable {
             kept: true,
-            ..Variable::new(name, NOWHERE, declared)
+            ..Variable::new(name, Place::NOWHERE, declared)
         });
         let entries = &mut script.tables[self.states.tables[table as usize] as usize].entries;
         entries.insert(i64::from(at), made);

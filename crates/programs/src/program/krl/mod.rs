@@ -44,8 +44,8 @@ use super::kit::not_this_language;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Source, Step,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
+    Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use reader::Reader;
@@ -150,14 +150,8 @@ impl Language for Krl {
         status::write(whole(value), old, out);
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        _: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::MANNER.insert(sources, program, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::MANNER.insert(into)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {

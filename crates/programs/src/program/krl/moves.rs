@@ -4,7 +4,7 @@ use super::aggregate::{self, EXTERNAL};
 use super::frames::State;
 use super::points::Point;
 use super::reader::Reader;
-use super::remarks::{from_nowhere, turned};
+use super::remarks::{FROM_NOWHERE, TURNED};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
@@ -329,9 +329,9 @@ impl Reader {
             return Ok(());
         }
         let target = self.unknown(if axes && path != Path::Arc {
-            turned()
+            TURNED
         } else {
-            from_nowhere()
+            FROM_NOWHERE
         });
         for motion in motions {
             let modal = self.modal_of(*motion, target, &rest);

@@ -4,7 +4,7 @@ use super::aggregate;
 use super::frames::pose_of;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{computed, copied};
+use super::remarks::{COMPUTED, COPIED};
 use super::tokens::{Cursor, Kind, Read, capitals};
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
@@ -173,7 +173,7 @@ impl Reader {
 
     /// A position that only the running program knows.
     pub(super) fn computed(&mut self, mentions: bool) -> Expr {
-        let remark = if mentions { copied() } else { computed() };
+        let remark = if mentions { COPIED } else { COMPUTED };
         self.unknown(remark)
     }
 

@@ -105,7 +105,7 @@ impl Reader {
             actions: Vec::new(),
             unfollowed: Vec::new(),
             stays: Vec::new(),
-            here: Place { file: 0, offset: 0 },
+            here: Place::NOWHERE,
             spline: super::moves::With::default(),
             last: None,
             heading: None,
@@ -161,16 +161,13 @@ impl Reader {
             }
         }
         if let Some(at) = open {
-            return Err(Fault::Unclosed {
-                at,
-                what: "a routine (DEF without END)",
-            });
+            return Err(Fault::unclosed(at as usize, "a routine (DEF without END)"));
         }
         if let Some(at) = self.in_data {
-            return Err(Fault::Unclosed {
-                at,
-                what: "a data list (DEFDAT without ENDDAT)",
-            });
+            return Err(Fault::unclosed(
+                at as usize,
+                "a data list (DEFDAT without ENDDAT)",
+            ));
         }
         Ok(())
     }
@@ -327,7 +324,7 @@ impl Reader {
     fn add_routine(&mut self, name: &[u8], offset: u32, global: bool) {
         let file = self.file;
         let spelled = Source::text(name);
-        let place = Place { file, offset };
+        let place = Place::new(file, offset);
         self.routine = Some(self.builder.declare(spelled, place, Start::Called));
         let head = Head {
             module: self.module,
@@ -345,10 +342,7 @@ impl Reader {
     }
 
     pub(super) fn place(&self, token: Token) -> Place {
-        Place {
-            file: self.file,
-            offset: token.start,
-        }
+        Place::new(self.file, token.start)
     }
 
     pub(super) fn symbol(&mut self, cursor: &Cursor, token: Token) -> Symbol {

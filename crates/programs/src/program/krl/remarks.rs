@@ -1,83 +1,63 @@
 //! What speaks against targets and moves, as sentences.
 
-use crate::finding::Severity;
 use crate::program::kit;
 use crate::program::script::Remark;
 
 /// Why a target has to stay: a sentence without its subject.
-pub(super) fn partial() -> Remark {
-    Remark::error(
-        "partial-target",
-        "components are missing, which keep the value of the position before",
-        "write X, Y, Z, A, B and C",
-    )
-}
+pub(super) const PARTIAL: Remark = Remark::error(
+    "partial-target",
+    "components are missing, which keep the value of the position before",
+    "write X, Y, Z, A, B and C",
+);
 
-pub(super) fn expressions() -> Remark {
-    Remark::error(
-        "target-has-expressions",
-        "parts of this target are expressions, not numbers",
-        "write the target with numbers in the offline system",
-    )
-}
+pub(super) const EXPRESSIONS: Remark = Remark::error(
+    "target-has-expressions",
+    "parts of this target are expressions, not numbers",
+    "write the target with numbers in the offline system",
+);
 
-pub(super) fn assigned() -> Remark {
-    Remark::error(
-        "target-assigned-at-run-time",
-        "the running program changes elements of this array, and which only it knows",
-        "correct the value where the program computes it, or keep the target out of the path",
-    )
-}
+pub(super) const ASSIGNED: Remark = Remark::error(
+    "target-assigned-at-run-time",
+    "the running program changes elements of this array, and which only it knows",
+    "correct the value where the program computes it, or keep the target out of the path",
+);
 
-pub(super) fn passed() -> Remark {
-    Remark::error(
-        "target-passed-to-routine",
-        "elements of this array are given to a routine that is not in the files, which may use \
+pub(super) const PASSED: Remark = Remark::error(
+    "target-passed-to-routine",
+    "elements of this array are given to a routine that is not in the files, which may use \
          them with any tool and base",
-        "give the file with the routine too, or move to the target where its tool and base are set",
-    )
-}
+    "give the file with the routine too, or move to the target where its tool and base are set",
+);
 
 /// Against an array that a routine of the files is given.
-pub(super) fn unfollowed() -> Remark {
-    Remark::error(
-        "target-passed-to-routine",
-        "a routine is given this array, and which of its elements it goes to or writes is not \
+pub(super) const UNFOLLOWED: Remark = Remark::error(
+    "target-passed-to-routine",
+    "a routine is given this array, and which of its elements it goes to or writes is not \
          followed",
-        "give it one element of an array that has at most 32, or move to the elements where the \
+    "give it one element of an array that has at most 32, or move to the elements where the \
          array is declared",
-    )
-}
+);
 
-pub(super) fn ambiguous() -> Remark {
-    Remark::error(
-        "target-name-ambiguous",
-        "this name is declared more than once, and a use does not tell which one is meant",
-        "pass only the programs of one robot",
-    )
-}
+pub(super) const AMBIGUOUS: Remark = Remark::error(
+    "target-name-ambiguous",
+    "this name is declared more than once, and a use does not tell which one is meant",
+    "pass only the programs of one robot",
+);
 
-pub(super) fn accurate() -> Remark {
-    Remark::error(
-        "absolutely-accurate",
-        "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets \
+pub(super) const ACCURATE: Remark = Remark::error(
+    "absolutely-accurate",
+    "taught on an absolutely accurate robot (S has bit 4, 16), which corrects its targets \
          itself",
-        "switch the correction of the controller off, or --force",
-    )
-}
+    "switch the correction of the controller off, or --force",
+);
 
 /// A position that only the running program knows.
-pub(super) fn computed() -> Remark {
-    Remark::warning(
-        "computed-target",
-        "the position that this move goes to is known at run time only; the move stays as it is",
-        "write the position with numbers where it must be exact",
-    )
-}
+pub(super) const COMPUTED: Remark =
+    kit::computed("write the position with numbers where it must be exact");
 
 /// Against a position whose external axis the program writes.
 pub(super) fn external_written(axis: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "external-value-unknown",
         format!(
             "the running program writes external axis {axis} of the position that this move goes \
@@ -88,114 +68,91 @@ pub(super) fn external_written(axis: &str) -> Remark {
 }
 
 /// A position that a function makes of positions that may be rewritten.
-pub(super) fn copied() -> Remark {
-    Remark::error(
-        "target-copied",
-        "this move goes to a position that the program computes from targets, which may be \
+pub(super) const COPIED: Remark = Remark::error(
+    "target-copied",
+    "this move goes to a position that the program computes from targets, which may be \
          corrected for other moves",
-        "write the position with numbers",
-    )
-}
+    "write the position with numbers",
+);
 
 /// A joint target without numbers in the files.
 pub(super) fn home(name: &str) -> Remark {
-    Remark {
-        id: "joint-target-not-in-files",
-        severity: Severity::Note,
-        text: format!("{name} has no value in the files; as a joint target it stays").into(),
-        hint: "give the $config.dat that declares it, too, to see it checked",
-    }
+    kit::joints_not_in_files(
+        name,
+        "give the $config.dat that declares it, too, to see it checked",
+    )
 }
 
 /// Against a straight move or arc whose target has another orientation than where it starts.
-pub(super) fn keeps_orientation() -> Remark {
-    Remark::error(
-        "orientation-kept",
-        "with $ORI_TYPE=#CONSTANT the tool keeps the orientation that it has where the move starts, \
+pub(super) const KEEPS_ORIENTATION: Remark = Remark::error(
+    "orientation-kept",
+    "with $ORI_TYPE=#CONSTANT the tool keeps the orientation that it has where the move starts, \
          and that of the target is another or not known to be the same",
-        "write A, B and C of the start into the target, or set $ORI_TYPE=#VAR",
-    )
-}
+    "write A, B and C of the start into the target, or set $ORI_TYPE=#VAR",
+);
 
 /// Only the running program knows the tool or base.
-pub(super) fn chosen() -> Remark {
-    Remark::error(
-        "frame-chosen-at-run-time",
-        "only the running program knows the tool or base",
-        "set $TOOL and $BASE before the move in the same routine",
-    )
-}
+pub(super) const CHOSEN: Remark = Remark::error(
+    "frame-chosen-at-run-time",
+    "only the running program knows the tool or base",
+    "set $TOOL and $BASE before the move in the same routine",
+);
 
-pub(super) fn frame_assigned() -> Remark {
-    Remark::error(
-        "frame-assigned-at-run-time",
-        "the running program changes the tool or base",
-        "assign it with numbers, or use another entry for each place",
-    )
-}
+pub(super) const FRAME_ASSIGNED: Remark = Remark::error(
+    "frame-assigned-at-run-time",
+    "the running program changes the tool or base",
+    "assign it with numbers, or use another entry for each place",
+);
 
-pub(super) fn moving() -> Remark {
-    Remark::error(
-        "moving-frame",
-        "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
-        "moves in a moving base are not compensated",
-    )
-}
+pub(super) const MOVING: Remark = Remark::error(
+    "moving-frame",
+    "another kinematic moves the base (EK, MACHINE_FRAME_DAT)",
+    "moves in a moving base are not compensated",
+);
 
 /// Against a base of another controller's kinematic.
-pub(super) fn of_another_robot() -> Remark {
-    Remark::error(
-        "two-robots",
-        "the base is on a kinematic of another controller (COOP_KRC_INDEX): where it stands only \
+pub(super) const OF_ANOTHER_ROBOT: Remark = Remark::error(
+    "two-robots",
+    "the base is on a kinematic of another controller (COOP_KRC_INDEX): where it stands only \
          that one knows",
-        "moves on another robot's part are not compensated",
-    )
-}
+    "moves on another robot's part are not compensated",
+);
 
 /// Against a base that another robot carries. What else of `RoboTeam` waits for another robot (`PROGSYNC`,
 /// `$SYNC_LIST`) moves no frame.
-pub(super) fn linked() -> Remark {
-    Remark::error(
-        "two-robots",
-        "another robot carries the base (LK): where it is only that one knows",
-        "moves on another robot's part are not compensated",
-    )
-}
+pub(super) const LINKED: Remark = Remark::error(
+    "two-robots",
+    "another robot carries the base (LK): where it is only that one knows",
+    "moves on another robot's part are not compensated",
+);
 
 /// Against moves behind a routine of a conveyor that is not in the files.
 pub(super) fn conveyor(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "moving-frame",
         format!("since {name} the base may follow a conveyor"),
         "set $BASE behind it where it does not, or give the file with the routine, too",
     )
 }
 
-pub(super) fn turned() -> Remark {
-    Remark {
-        id: "relative-joint-move",
-        severity: Severity::Note,
-        text: "this move turns axes from where the robot is; it is left as it is".into(),
-        hint: "",
-    }
-}
+pub(super) const TURNED: Remark = Remark::note(
+    "relative-joint-move",
+    "this move turns axes from where the robot is; it is left as it is",
+    "",
+);
 
-pub(super) fn from_nowhere() -> Remark {
-    Remark::error(
-        "relative-move",
-        "this move goes relative to a position that the text does not tell; it is not compensated",
-        "write the target, or put the move behind one to a known target",
-    )
-}
+pub(super) const FROM_NOWHERE: Remark = Remark::error(
+    "relative-move",
+    "this move goes relative to a position that the text does not tell; it is not compensated",
+    "write the target, or put the move behind one to a known target",
+);
 
 /// Against arcs with an angle.
-pub(super) fn angle() -> Remark {
-    Remark::error(
-        "circular-angle",
-        "this arc goes on to an angle (CA): where it ends is not where its points are",
-        "write the arc without CA, with the point where it ends",
-    )
-}
+pub(super) const ANGLE: Remark = Remark::error(
+    "circular-angle",
+    "this arc goes on to an angle (CA): where it ends is not where its points are",
+    "write the arc without CA, with the point where it ends",
+);
 
 /// A load that the text does not say.
 pub(super) fn carried() -> Remark {

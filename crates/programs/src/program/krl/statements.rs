@@ -5,12 +5,12 @@ use super::frames::{State, Table};
 use super::moves::{With, motion};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{assigned, computed, external_written};
+use super::remarks::{ASSIGNED, COMPUTED, external_written};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::notation::{grown_by, mentions};
-use crate::program::script::{Expr, Held, How, Write, Written};
+use crate::program::script::{Expr, Held, How, Written};
 use crate::program::{ExternalUse, Source, SpeedZone, number};
 
 /// Whether a word in capitals starts a move.
@@ -375,11 +375,11 @@ impl Reader {
             0 => self.states.on,
             axes => self.builder.script.value(Held::AxesOff(axes)),
         };
-        self.builder.write(Write {
-            place: self.here,
-            variable: Written::One(self.states.apart[which]),
-            how: How::Whole(Expr::Value(value)),
-        });
+        self.builder.write(
+            self.here,
+            Written::One(self.states.apart[which]),
+            How::Whole(Expr::Value(value)),
+        );
     }
 
     /// Branches, loops and jumps; whether it is one.
@@ -562,7 +562,7 @@ impl Reader {
                 _ if !is_whole => self.computed(true),
                 Expr::Target(target) if self.builder.script.targets[target].numbers.is_empty() => {
                     // what is not given stays as it was
-                    let how = How::PartSomehow(self.builder.script.remark(computed()));
+                    let how = How::PartSomehow(self.builder.script.remark(COMPUTED));
                     self.write_element(owner, at, how);
                     return Ok(());
                 }
@@ -577,7 +577,7 @@ impl Reader {
     /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or
     /// that of the position that it is a copy of.
     fn part_becomes(&mut self, part: &[u8], mut cursor: Cursor) -> How {
-        let remark = self.builder.script.remark(computed());
+        let remark = self.builder.script.remark(COMPUTED);
         let letters = |text: &[u8]| -> Vec<u8> {
             let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
             letters.map(u8::to_ascii_uppercase).collect()
@@ -623,17 +623,13 @@ impl Reader {
     }
 
     pub(super) fn write_element(&mut self, owner: Owner, at: Index, how: How) {
-        if at == Index::Variable && self.refuse_array(owner, assigned) {
+        if at == Index::Variable && self.refuse_array(owner, ASSIGNED) {
             return;
         }
         let variable = match at {
             Index::Variable => Written::AnyOf(self.table_of(owner)),
             _ => Written::One(self.variable(owner, at)),
         };
-        self.builder.write(Write {
-            place: self.here,
-            variable,
-            how,
-        });
+        self.builder.write(self.here, variable, how);
     }
 }

@@ -7,14 +7,12 @@ use super::frames::{
 };
 use super::names::{Index, Stored, whole};
 use super::reader::Reader;
-use super::remarks::{carried, frame_assigned, linked, moving};
+use super::remarks::{FRAME_ASSIGNED, LINKED, MOVING, carried};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::program::names::Symbol;
 use crate::program::number;
-use crate::program::script::{
-    Expr, How, Part, PartValue, Place, VariableId, Write, Written, short,
-};
+use crate::program::script::{Expr, How, Part, PartValue, Place, VariableId, Written, short};
 
 impl Reader {
     /// Sets a state of the controller.
@@ -27,11 +25,8 @@ impl Reader {
     }
 
     pub(super) fn put(&mut self, place: Place, variable: VariableId, value: Expr) {
-        self.builder.write(Write {
-            place,
-            variable: Written::One(variable),
-            how: How::Whole(value),
-        });
+        self.builder
+            .write(place, Written::One(variable), How::Whole(value));
     }
 
     /// The number of a tool, base or load up to the end of the cursor: `3`, `n`, `FP1.TOOL_NO`.
@@ -238,8 +233,8 @@ impl Reader {
                     self.element(Table::Base, choice)
                 }
                 (b"EK", Some(inner)) if table == Table::Base => self.carried(called, inner)?,
-                (b"EK", None) if table == Table::Base => self.unknown(moving()),
-                (b"LK", _) if table == Table::Base => self.unknown(linked()),
+                (b"EK", None) if table == Table::Base => self.unknown(MOVING),
+                (b"LK", _) if table == Table::Base => self.unknown(LINKED),
                 _ => self.chosen(),
             });
         }
@@ -278,7 +273,7 @@ impl Reader {
         let (root, kind) = (machine(&mut inner)?, machine(&mut inner)?);
         let known = root.filter(|root| Some(*root) == kind && inner.blanks() == b'{');
         let Some(number) = known else {
-            return Ok(self.unknown(moving()));
+            return Ok(self.unknown(MOVING));
         };
         let found = aggregate::read(&mut inner)?;
         let file = self.file;
@@ -367,7 +362,7 @@ impl Reader {
                 self.choose(place, Table::Base, choice);
             }
             b"EX_BASE" => {
-                let carried = self.unknown(moving());
+                let carried = self.unknown(MOVING);
                 self.set(place, State::Base, carried);
             }
             command @ (b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS") => {
@@ -504,21 +499,13 @@ impl Reader {
         let script = &mut self.builder.script;
         script.parts.push(Part {
             value: value.map_or(PartValue::Computed, PartValue::Number),
-            place: Place {
-                offset: short(start),
-                ..place
-            },
+            place: Place::new(place.file, short(start)),
             length: u16::try_from(text.len()).unwrap_or(u16::MAX),
         });
         let parts = short(script.parts.len() - 1)..short(script.parts.len());
-        self.builder.write(Write {
-            place,
-            variable,
-            how: How::Parts {
-                first: short(at),
-                parts,
-            },
-        });
+        let first = short(at);
+        self.builder
+            .write(place, variable, How::Parts { first, parts });
     }
 
     /// `BASE_DATA[2]={...}`, `TOOL_DATA[n].X=...`; the cursor stands behind `=`.
@@ -541,11 +528,7 @@ impl Reader {
         if let Some(part) = part {
             if table == Table::Load {
                 let how = How::Whole(self.unknown(carried()));
-                self.builder.write(Write {
-                    place,
-                    variable,
-                    how,
-                });
+                self.builder.write(place, variable, how);
             } else {
                 self.write_part(place, variable, part, *cursor);
             }
@@ -555,15 +538,11 @@ impl Reader {
         let value = match table {
             Table::Load => self.load_expr(cursor)?,
             _ => match self.frame(table, &name, cursor)? {
-                Expr::Unknown(_) => self.unknown(frame_assigned()),
+                Expr::Unknown(_) => self.unknown(FRAME_ASSIGNED),
                 known => known,
             },
         };
-        self.builder.write(Write {
-            place,
-            variable,
-            how: How::Whole(value),
-        });
+        self.builder.write(place, variable, How::Whole(value));
         Ok(())
     }
 }

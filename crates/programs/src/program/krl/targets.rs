@@ -3,9 +3,10 @@
 use super::data::root_differs;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{accurate, ambiguous, computed, home, passed, unfollowed};
+use super::remarks::{ACCURATE, AMBIGUOUS, COMPUTED, PASSED, UNFOLLOWED, home};
 use super::{GROWTH, LONGEST_LINE, status, status_and_turn, whole};
 use crate::finding::Severity;
+use crate::program::kit;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Expr, Place, Remark, Script, Table, Variable, VariableId, short};
 use crate::program::{Settings, Source};
@@ -59,8 +60,8 @@ impl Reader {
         }
         let remark = match declared.kind {
             DataKind::Axes => home(self.names.symbols.spelling(declared.name)),
-            DataKind::Number | DataKind::Frame => super::remarks::chosen(),
-            _ => computed(),
+            DataKind::Number | DataKind::Frame => super::remarks::CHOSEN,
+            _ => COMPUTED,
         };
         self.unknown(remark)
     }
@@ -77,10 +78,7 @@ impl Reader {
                 (of.name, of.place, of.kept, of.context.routine, declared)
             }
             Owner::Nobody(name) => {
-                let place = Place {
-                    file: self.file,
-                    offset: 0,
-                };
+                let place = Place::new(self.file, 0);
                 let missing = self.not_in_files(name);
                 (name, place, true, None, missing)
             }
@@ -143,7 +141,7 @@ impl Reader {
             return known;
         }
         let Owner::Datum(datum) = owner else {
-            return self.unknown(computed());
+            return self.unknown(COMPUTED);
         };
         let all = self.elements(datum);
         let mut of = Vec::with_capacity(all.len());
@@ -160,7 +158,7 @@ impl Reader {
                 let remark = if is_axes {
                     home(self.names.symbols.spelling(name))
                 } else {
-                    computed()
+                    COMPUTED
                 };
                 self.unknown(remark)
             }
@@ -172,11 +170,10 @@ impl Reader {
 
     /// Refuses all elements of a long array, where which of them a statement concerns is not known;
     /// whether it is one. Those of a short one are followed each.
-    pub(super) fn refuse_array(&mut self, owner: Owner, remark: fn() -> Remark) -> bool {
+    pub(super) fn refuse_array(&mut self, owner: Owner, remark: Remark) -> bool {
         let Owner::Datum(datum) = owner else {
             return false;
         };
-        let remark = remark();
         if self.refused.contains(&(datum, remark.id)) {
             return true;
         }
@@ -204,7 +201,7 @@ impl Reader {
         is_foreign: bool,
     ) -> bool {
         if is_foreign {
-            return !self.refuse_array(Owner::Datum(datum), passed);
+            return !self.refuse_array(Owner::Datum(datum), PASSED);
         }
         let values = self.names.values(datum, Index::Variable);
         if !is_whole && values.len() <= MOST_ELEMENTS {
@@ -213,7 +210,7 @@ impl Reader {
         if self.refused.insert((datum, "given to a routine")) {
             self.unfollowed.push(call);
             let script = &mut self.builder.script;
-            let remark = script.remark(unfollowed());
+            let remark = script.remark(UNFOLLOWED);
             for (_, _, value) in values {
                 if let Stored::Target(target) = value {
                     script.refused.push((*target, remark));
@@ -244,11 +241,11 @@ impl Reader {
             }
         }
         let script = &mut self.builder.script;
-        let remark = script.remark(ambiguous());
+        let remark = script.remark(AMBIGUOUS);
         let refused = refused.into_iter().map(|target| (target, remark));
         script.refused.extend(refused);
         let found = if of.is_empty() {
-            self.unknown(computed())
+            self.unknown(COMPUTED)
         } else {
             self.builder.script.any(of)
         };
@@ -265,9 +262,8 @@ impl Reader {
         let remark = if is_home(spelled) {
             home(spelled)
         } else {
-            Remark::error(
-                "target-not-in-files",
-                format!("{spelled} is not declared in the files; this move is not compensated"),
+            kit::not_in_files(
+                spelled,
                 "give the .dat file or the $config.dat that declares it, too",
             )
         };
@@ -283,18 +279,16 @@ impl Reader {
     pub(super) fn finish(self, sources: &[Source], settings: &Settings) -> Script {
         let names = self.names;
         let mut script = self.builder.finish();
-        for Place { file, offset } in self.stays {
-            let message = "this move goes to where the robot is: it stays there".to_owned();
-            let (source, id) = (&sources[file as usize], "run-time-position");
-            let finding = source.finding(offset as usize, id, Severity::Note, message, "");
-            script.findings.push(finding);
+        for place in self.stays {
+            let message = "this move goes to where the robot is: it stays there";
+            script.say(
+                sources,
+                place,
+                Remark::note("run-time-position", message, ""),
+            );
         }
-        for Place { file, offset } in self.unfollowed {
-            let remark = unfollowed();
-            let (source, message) = (&sources[file as usize], remark.text.into());
-            let (id, severity) = (remark.id, remark.severity);
-            let finding = source.finding(offset as usize, id, severity, message, remark.hint);
-            script.findings.push(finding);
+        for place in self.unfollowed {
+            script.say(sources, place, UNFOLLOWED);
         }
         if let Some(base) = &settings.world_from_base {
             let roots = self.declared.roots.iter();
@@ -320,7 +314,7 @@ impl Reader {
 
 /// Points of absolutely accurate robots; where they are to be rewritten that is said once a file.
 fn accurate_targets(script: &mut Script, kept: &[bool], settings: &Settings, sources: &[Source]) {
-    let remark = script.remark(accurate());
+    let remark = script.remark(ACCURATE);
     let mut reported = None;
     for (id, target) in script.targets.iter().enumerate() {
         let (has_status, _) = status_and_turn(target.layout);

@@ -11,7 +11,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Rotation;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Shape, Shift, Stride, Target, Tool, Value};
+use crate::program::{Displacement, Motion, Program, Shape, Shift, Stride, Target, Tool, Value};
 
 /// X Y Z A B C without S and T.
 const POSE: Layout = Layout {

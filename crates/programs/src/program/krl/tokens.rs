@@ -44,11 +44,7 @@ impl Token {
 
     /// It stands where something else belongs.
     pub(super) fn unexpected(self, expected: &'static str) -> Fault {
-        Fault::Unexpected {
-            start: self.start,
-            end: self.end,
-            expected,
-        }
+        Fault::unexpected(self.start as usize..self.end as usize, expected)
     }
 }
 
@@ -246,10 +242,7 @@ impl<'a> Cursor<'a> {
                 }
                 Kind::Sign(b']') => depth -= 1,
                 Kind::End => {
-                    return Err(Fault::Unclosed {
-                        at: short(open),
-                        what: "a bracket",
-                    });
+                    return Err(Fault::unclosed(open, "a bracket"));
                 }
                 _ => {}
             }

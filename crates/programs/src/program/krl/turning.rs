@@ -6,7 +6,7 @@ use super::names::{Index, Stored};
 use super::reader::Reader;
 use super::states::inside;
 use super::tokens::{Cursor, capitals};
-use crate::program::script::{Expr, Held, Remark, Script, ValueId, Variable, VariableId, short};
+use crate::program::script::{Expr, Held, Remark, Script, ValueId, Variable, VariableId};
 use crate::program::{Motion, Place};
 use foldhash::HashMap;
 
@@ -26,7 +26,7 @@ pub(super) struct Circles {
 
 impl Circles {
     pub(super) fn new(script: &mut Script) -> Self {
-        let place = Place { file: 0, offset: 0 };
+        let place = Place::NOWHERE;
         let remark = script.remark(Remark::error(
             "move-not-supported",
             "$CIRC_TYPE or $CIRC_MODE may let the tool turn otherwise on this arc than from its \
@@ -129,8 +129,7 @@ impl Reader {
         let script = &mut self.builder.script;
         *circles.guards.entry((guards, variable)).or_insert_with(|| {
             let all = [&script.guards[guards as usize][..], &[variable]].concat();
-            script.guards.push(all.into());
-            short(script.guards.len() - 1)
+            script.guard(all)
         })
     }
 }

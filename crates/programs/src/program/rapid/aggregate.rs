@@ -242,16 +242,9 @@ impl Reader<'_> {
 
     fn unclosed_or_unexpected(&self, opener: u32, expected: &'static str) -> Fault {
         if self.token.kind == Kind::End || self.token.is(b';') {
-            return Fault::Unclosed {
-                at: opener,
-                what: "bracket",
-            };
+            return Fault::unclosed(opener as usize, "bracket");
         }
-        Fault::Unexpected {
-            start: self.token.start,
-            end: self.token.end,
-            expected,
-        }
+        Fault::unexpected(self.token.start as usize..self.token.end as usize, expected)
     }
 }
 

@@ -289,10 +289,7 @@ impl Reader<'_> {
             match self.token.kind {
                 Kind::Sign(b'}') => return self.advance(),
                 Kind::Sign(b';') | Kind::End => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 Kind::Sign(b']' | b')') => return Err(self.unexpected("}")),
                 _ => self.advance()?,
@@ -384,14 +381,11 @@ impl Reader<'_> {
             }
         }
         self.parsed.external_zeros.push(zeros);
+        let place = crate::program::script::Place::new(self.file, offset);
         self.parsed.targets.push(Target {
             name,
-            file: self.file,
-            offset,
-            end: self.behind,
-            layout: Layout { shape, variant: 0 },
             numbers: short(start)..short(self.parsed.numbers.len()),
-            blocked: false,
+            ..Target::new(place, self.behind, Layout::of(shape))
         });
         Written::Base(Base::Target(short(target)))
     }

@@ -6,7 +6,7 @@ use super::resolved::{Callees, Entity, named};
 use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Call, Expr, Held, How, Place, VariableId, Write, Written, short};
+use crate::program::script::{self, Call, Expr, Held, How, Place, VariableId, Written, short};
 
 /// An instruction that is not known but has a target and a tool moves like the ones that are.
 const UNKNOWN_MOVE: Verb = Verb::Move {
@@ -204,23 +204,14 @@ impl Translator<'_> {
     }
 
     /// What the parameters of a routine are given.
-    fn bind(
-        &mut self,
-        routine: u32,
-        all: &[Argument],
-        given: &mut Vec<crate::program::script::Argument>,
-    ) {
+    fn bind(&mut self, routine: u32, all: &[Argument], given: &mut Vec<script::Argument>) {
         let resolved = self.resolved;
         for (datum, argument) in resolved.parameters(routine, all) {
             let parameter = *resolved.datum(datum);
             let kind = parameter.kind;
             if let Some(presence) = self.presence(routine, parameter.name) {
                 let value = self.is_given(argument);
-                given.push(crate::program::script::Argument {
-                    parameter: Some(presence),
-                    value,
-                    back: None,
-                });
+                given.push(script::Argument::new(Some(presence), value, None));
             }
             if !kind.is_target() && !kind.is_frame() {
                 continue;
@@ -241,11 +232,7 @@ impl Translator<'_> {
                 }
                 _ => None,
             };
-            given.push(crate::program::script::Argument {
-                parameter: Some(variable),
-                value,
-                back,
-            });
+            given.push(script::Argument::new(Some(variable), value, back));
         }
     }
 
@@ -292,7 +279,7 @@ impl Translator<'_> {
     }
 
     /// What a routine gets that is not in the files.
-    fn give_away(&mut self, all: &[Argument], given: &mut Vec<crate::program::script::Argument>) {
+    fn give_away(&mut self, all: &[Argument], given: &mut Vec<script::Argument>) {
         for argument in all {
             let frame = match argument.expression {
                 Expression::Point {
@@ -324,11 +311,7 @@ impl Translator<'_> {
                 _ => None,
             };
             if frame.is_none() || back.is_some() {
-                given.push(crate::program::script::Argument {
-                    parameter: None,
-                    value,
-                    back,
-                });
+                given.push(script::Argument::new(None, value, back));
             }
         }
     }
@@ -373,11 +356,7 @@ impl Translator<'_> {
                 let part = part.map(How::PartSomehow);
                 for how in part.into_iter().chain([How::Whole(whole)]) {
                     let place = self.here;
-                    self.emit_write(Write {
-                        place,
-                        variable,
-                        how,
-                    });
+                    self.emit_write(place, variable, how);
                 }
             }
         }
@@ -437,11 +416,7 @@ impl Translator<'_> {
                 _ => continue,
             };
             let place: Place = self.here;
-            self.emit_write(Write {
-                place,
-                variable,
-                how,
-            });
+            self.emit_write(place, variable, how);
         }
     }
 }

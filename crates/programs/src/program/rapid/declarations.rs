@@ -58,10 +58,7 @@ impl Reader<'_> {
             value = Stored::Computed;
         }
         self.end_statement()?;
-        let place = Place {
-            file: self.file,
-            offset: start,
-        };
+        let place = Place::new(self.file, start);
         self.parsed.data.push(Datum {
             name,
             kind,
@@ -100,10 +97,7 @@ impl Reader<'_> {
                     self.advance()?;
                 }
                 Kind::End => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 _ => return Err(self.unexpected("}")),
             }
@@ -155,10 +149,7 @@ impl Reader<'_> {
             if !self.token.is(b',') {
                 let ends = self.token.kind == Kind::End || self.token.is(b';');
                 return Err(if ends {
-                    Fault::Unclosed {
-                        at: openers[level - 1],
-                        what: "bracket",
-                    }
+                    Fault::unclosed(openers[level - 1] as usize, "bracket")
                 } else {
                     self.unexpected(",")
                 });
@@ -274,10 +265,7 @@ impl Reader<'_> {
                     }
                 }
                 Kind::End | Kind::Sign(b';') => {
-                    return Err(Fault::Unclosed {
-                        at,
-                        what: "bracket",
-                    });
+                    return Err(Fault::unclosed(at as usize, "bracket"));
                 }
                 _ => {}
             }
@@ -286,10 +274,7 @@ impl Reader<'_> {
 
     fn parameter(&mut self, kind: Type, token: Token, storage: Storage) {
         let name = self.parsed.symbols.intern(self.text(token));
-        let place = Place {
-            file: self.file,
-            offset: token.start,
-        };
+        let place = Place::new(self.file, token.start);
         self.parsed.data.push(Datum {
             name,
             kind,

@@ -230,9 +230,10 @@ impl Resolved<'_> {
                     let callee = Callee::Named(of.name);
                     self.add_given(callee, (of.arguments, true), (context, file), &mut origins);
                 }
-                StatementKind::Call {
-                    callee, arguments, ..
-                } => self.add_given(callee, (arguments, false), (context, file), &mut origins),
+                StatementKind::Call(call) => {
+                    let given = (call.arguments, false);
+                    self.add_given(call.callee, given, (context, file), &mut origins);
+                }
                 _ => {}
             }
         }

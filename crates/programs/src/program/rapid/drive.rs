@@ -1,20 +1,19 @@
 //! A program through configurations.
 
-use crate::program::drive::Step;
+use crate::program::drive::{Step, add};
 
 /// See [`crate::program::Language::drive`].
 pub(super) fn drive(steps: &[Step]) -> String {
     let mut out = "MODULE Measure\n  PROC main()\n".to_owned();
-    for step in steps {
-        if let Some(number) = step.begins {
-            out += &format!("    ! configuration {number}\n");
-        }
-        let speed = if step.measured { "v50" } else { "v200" };
-        let axes = step.degrees().join(",");
-        out += &format!("    MoveAbsJ [[{axes}],[9E9,9E9,9E9,9E9,9E9,9E9]],{speed},fine,tool0;\n");
-        if step.measured {
-            out += "    WaitTime 3;\n";
-        }
-    }
+    add(
+        &mut out,
+        steps,
+        "    ! ",
+        "    WaitTime 3;\n",
+        |axes, measured| {
+            let (axes, speed) = (axes.join(","), if measured { "v50" } else { "v200" });
+            format!("    MoveAbsJ [[{axes}],[9E9,9E9,9E9,9E9,9E9,9E9]],{speed},fine,tool0;\n")
+        },
+    );
     out + "  ENDPROC\nENDMODULE\n"
 }

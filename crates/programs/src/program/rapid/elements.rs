@@ -5,7 +5,7 @@ use super::syntax::{Element, Index, Part, Storage, Stored, Type, indices};
 use super::translate::Translator;
 use super::values::DEEPEST;
 use crate::program::names::Symbol;
-use crate::program::script::{Expr, How, TableId, VariableId, Write, Written, short};
+use crate::program::script::{Expr, How, TableId, VariableId, Written, short};
 
 /// Elements without values of an array that are distinguished by an index that is not constant.
 const MOST_ELEMENTS: usize = 64;
@@ -201,11 +201,11 @@ impl Translator<'_> {
     /// What is written into an element of a large array is among what the array holds.
     pub(super) fn gather(&mut self, element: VariableId) {
         if let Some(&all) = self.gathers.get(&element) {
-            self.builder.write(Write {
-                place: self.here,
-                variable: Written::AnyOf(all),
-                how: How::Whole(Expr::Variable(element)),
-            });
+            self.builder.write(
+                self.here,
+                Written::AnyOf(all),
+                How::Whole(Expr::Variable(element)),
+            );
         }
     }
 

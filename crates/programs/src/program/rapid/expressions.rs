@@ -169,10 +169,7 @@ impl Reader<'_> {
             match token.kind {
                 Kind::End | Kind::Sign(b';') => {
                     if let Some(&(_, at)) = self.brackets.last() {
-                        return Err(Fault::Unclosed {
-                            at,
-                            what: "bracket",
-                        });
+                        return Err(Fault::unclosed(at as usize, "bracket"));
                     }
                     break;
                 }

@@ -11,11 +11,10 @@ use super::syntax::{
     Argument, Base, Expression, Part, StatementKind, Storage, Stored, Type, Verb, indices,
 };
 use super::translate::Translator;
-use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::Load;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Expr, Held, Place, Variable, VariableId};
+use crate::program::script::{Expr, Held, Place, Remark, Variable, VariableId};
 use std::collections::BTreeMap;
 
 /// The tools of moves, where the program names loads.
@@ -53,15 +52,7 @@ impl Translator<'_> {
     pub(super) fn find_grips(&mut self) {
         let resolved = self.resolved;
         let statements = &resolved.parsed.statements;
-        let grips = |kind: &StatementKind| {
-            matches!(
-                kind,
-                StatementKind::Call {
-                    verb: Verb::GripLoad,
-                    ..
-                }
-            )
-        };
+        let grips = |kind: &StatementKind| matches!(kind, StatementKind::Call(call) if call.verb == Verb::GripLoad);
         if !statements.iter().any(|of| grips(&of.kind)) {
             return;
         }
@@ -71,15 +62,10 @@ impl Translator<'_> {
                     self.here.file = file;
                     self.context = context;
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => {
-                    let verb = self.meant(callee, verb, arguments);
+                StatementKind::Call(call) => {
+                    let verb = self.meant(call.callee, call.verb, call.arguments);
                     if matches!(verb, Verb::Move { .. }) {
-                        self.find_tool(verb, arguments);
+                        self.find_tool(verb, call.arguments);
                     }
                 }
                 _ => {}
@@ -102,7 +88,7 @@ impl Translator<'_> {
             return;
         };
         let holds = self.held_load(own);
-        let place = Place { file: 0, offset: 0 };
+        let place = Place::NOWHERE;
         let held = Variable::new("GripLoad", place, holds);
         let held = self.builder.script.variable(held);
         let tool = Tool {
@@ -207,6 +193,6 @@ impl Translator<'_> {
         );
         let hint = "where joints bend under load, name the load in data that nothing writes, or at the \
             moves with \\TLoad, or give the profile a tool with this load";
-        self.say("grip-load", Severity::Warning, message, hint);
+        self.say(Remark::warning_about("grip-load", message, hint));
     }
 }

@@ -52,7 +52,7 @@ impl Translator<'_> {
                     acts |= kind.is_none_or(|kind| kind.is_target() || kind.is_frame());
                     leaves = true;
                 }
-                StatementKind::Call { .. } | StatementKind::Function(_) => {
+                StatementKind::Call(_) | StatementKind::Function(_) => {
                     acts = true;
                     leaves = true;
                 }

@@ -45,8 +45,8 @@ use super::names::Symbols;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Source, Step,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
+    Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use foldhash::{HashSet, HashSetExt};
@@ -149,14 +149,8 @@ impl Language for Rapid {
         notation::update(of, confdata::JOINTS, before, after, &mut numbers[7..]);
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        _: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::MANNER.insert(sources, program, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::MANNER.insert(into)
     }
 
     fn external_names(&self) -> [&'static str; 6] {

@@ -53,12 +53,8 @@ pub(super) fn switched(resolved: &Resolved, names: &ExternalNames) -> Vec<(Strin
     for statement in &resolved.parsed.statements {
         match statement.kind {
             StatementKind::Text { file, .. } => here = file,
-            StatementKind::Call {
-                verb: Verb::Mode(Mode::Unit, _),
-                arguments,
-                ..
-            } => {
-                let name = unit_name(resolved, here, arguments);
+            StatementKind::Call(call) if matches!(call.verb, Verb::Mode(Mode::Unit, _)) => {
+                let name = unit_name(resolved, here, call.arguments);
                 let axes = names.axes_of_unit(&name);
                 if axes != 0 && !units.iter().any(|(known, _)| *known == name) {
                     units.push((name, axes));
@@ -102,11 +98,7 @@ impl Modes {
         ));
         let ambiguous = script.value(Held::Remark(remark));
         let mut mode = |name: &str, holds: ValueId| {
-            script.variable(Variable::new(
-                name,
-                Place { file: 0, offset: 0 },
-                Expr::Value(holds),
-            ))
+            script.variable(Variable::new(name, Place::NOWHERE, Expr::Value(holds)))
         };
         let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
         let wrist = mode("SingArea", off);
@@ -117,8 +109,7 @@ impl Modes {
         let units: Vec<(String, VariableId, ValueId)> = units
             .into_iter()
             .map(|(name, axes)| {
-                let follows =
-                    Variable::new(name.as_str(), Place { file: 0, offset: 0 }, Expr::Value(on));
+                let follows = Variable::new(name.as_str(), Place::NOWHERE, Expr::Value(on));
                 let follows = script.variable(follows);
                 let off = script.value(Held::AxesOff(axes));
                 (name, follows, off)
@@ -126,8 +117,7 @@ impl Modes {
             .collect();
         let mut guard = |own: &[VariableId]| {
             let all = own.iter().copied().chain(units.iter().map(|unit| unit.1));
-            script.guards.push(all.collect());
-            crate::program::script::short(script.guards.len() - 1)
+            script.guard(all)
         };
         let guards = guard(&[program_displacement, external_offset]);
         let arc_guards = guard(&[program_displacement, external_offset, circle]);

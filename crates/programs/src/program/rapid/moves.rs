@@ -4,10 +4,9 @@ use super::records::load_of;
 use super::resolved::Entity;
 use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
-use crate::finding::Severity;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Write, Written};
+use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Written};
 use crate::program::{Motion, Source, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
@@ -336,17 +335,15 @@ impl Translator<'_> {
     fn in_record(&mut self, (start, end): (u32, u32)) -> Expr {
         let bytes = &self.resolved.sources[self.here.file as usize].bytes;
         let name = Source::text(&bytes[start as usize..end as usize]);
-        self.builder.script.unknown(Remark {
-            id: "computed-target",
-            severity: Severity::Warning,
-            text: format!(
+        self.builder.script.unknown(Remark::warning_about(
+            "computed-target",
+            format!(
                 "{}, where this move goes to, is a part of a record: targets inside records are \
                  not followed; the move stays as it is",
                 name.trim()
-            )
-            .into(),
-            hint: "declare the target as data of its own, with numbers",
-        })
+            ),
+            "declare the target as data of its own, with numbers",
+        ))
     }
 
     /// A search writes where the robot was when the signal came.
@@ -385,8 +382,7 @@ impl Translator<'_> {
             let message = "only the running program knows the load of this move, or it is not in \
                 the files; that of the tool is taken";
             let hint = "write the load with numbers, in the move or in data that nothing writes";
-            let severity = Severity::Warning;
-            self.say("load-chosen-at-run-time", severity, message.into(), hint);
+            self.say(Remark::warning("load-chosen-at-run-time", message, hint));
             return Expr::Absent;
         };
         self.held_load(load)
@@ -396,14 +392,14 @@ impl Translator<'_> {
         if parts.synchronised {
             let message = "this move runs together with one of another robot";
             let hint = "both robots' programs have to be compensated";
-            self.say("sync-move", Severity::Note, message.into(), hint);
+            self.say(Remark::note("sync-move", message, hint));
         }
         if let Some(option) = parts.corrected {
             let message = format!(
                 "a sensor corrects the path here ({option}): the targets are compensated, what the \
                  sensor adds is not"
             );
-            self.say("corrected-by-sensor", Severity::Warning, message, "");
+            self.say(Remark::warning_about("corrected-by-sensor", message, ""));
         }
     }
 
@@ -412,12 +408,11 @@ impl Translator<'_> {
         let target = if back {
             Expr::Value(self.actual)
         } else {
-            self.builder.script.unknown(Remark {
-                id: "computed-target",
-                severity: Severity::Warning,
-                text: "a sensor tells where this instruction goes to; it stays as it is".into(),
-                hint: "",
-            })
+            self.builder.script.unknown(Remark::warning(
+                "computed-target",
+                "a sensor tells where this instruction goes to; it stays as it is",
+                "",
+            ))
         };
         let instruction = Instruction {
             end,
@@ -447,17 +442,13 @@ impl Translator<'_> {
         for variable in self.written(name, index) {
             let place = self.here;
             let how = how.clone();
-            self.emit_write(Write {
-                place,
-                variable,
-                how,
-            });
+            self.emit_write(place, variable, how);
         }
     }
 
     /// What a variable is a part of which the running program computes.
     pub(super) fn changed(&mut self) -> u32 {
-        let remark = super::records::assigned();
+        let remark = super::records::ASSIGNED;
         self.builder.script.remark(remark)
     }
 

@@ -5,7 +5,7 @@ use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::notation::grown_by;
 use crate::program::number;
-use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue, Write};
+use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue};
 
 impl Translator<'_> {
     /// `name{i}.part := value`
@@ -42,11 +42,7 @@ impl Translator<'_> {
         };
         for variable in all {
             let (place, how) = (self.here, how.clone());
-            self.emit_write(Write {
-                place,
-                variable,
-                how,
-            });
+            self.emit_write(place, variable, how);
         }
     }
 

@@ -7,8 +7,8 @@
 use super::blocks::is_block_word;
 use super::expressions::OpenCall;
 use super::syntax::{
-    Argument, Callee, Component, Lengths, Parsed, Routine, Statement, StatementKind, Storage, Type,
-    Verb,
+    Argument, Called, Callee, Component, Lengths, Parsed, Routine, Statement, StatementKind,
+    Storage, Type, Verb,
 };
 use super::tokens::{Fault, Kind, Scanner, Token};
 use super::verbs::Verbs;
@@ -148,11 +148,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn unexpected(&self, expected: &'static str) -> Fault {
-        Fault::Unexpected {
-            start: self.token.start,
-            end: self.token.end,
-            expected,
-        }
+        Fault::unexpected(self.token.start as usize..self.token.end as usize, expected)
     }
 
     /// The name that must stand here.
@@ -192,7 +188,7 @@ impl<'a> Reader<'a> {
             .routine
             .map(|at| (at, "routine"))
             .or_else(|| self.module.map(|at| (at, "module")));
-        open.map_or(Ok(()), |(at, what)| Err(Fault::Unclosed { at, what }))
+        open.map_or(Ok(()), |(at, what)| Err(Fault::unclosed(at as usize, what)))
     }
 
     fn statement(&mut self) -> Result<(), Fault> {
@@ -225,10 +221,7 @@ impl<'a> Reader<'a> {
             b"record" => {
                 while !self.is_word(b"endrecord") {
                     if self.token.kind == Kind::End {
-                        return Err(Fault::Unclosed {
-                            at: first.start,
-                            what: "record",
-                        });
+                        return Err(Fault::unclosed(first.start as usize, "record"));
                     }
                     self.advance()?;
                 }
@@ -265,7 +258,7 @@ impl<'a> Reader<'a> {
 
     fn open_module(&mut self) -> Result<(), Fault> {
         if let Some(at) = self.module {
-            return Err(Fault::Unclosed { at, what: "module" });
+            return Err(Fault::unclosed(at as usize, "module"));
         }
         self.module = Some(self.token.start);
         self.advance()?;
@@ -281,10 +274,7 @@ impl<'a> Reader<'a> {
 
     fn close_module(&mut self) -> Result<(), Fault> {
         if let Some(at) = self.routine {
-            return Err(Fault::Unclosed {
-                at,
-                what: "routine",
-            });
+            return Err(Fault::unclosed(at as usize, "routine"));
         }
         if self.module.take().is_none() {
             return Err(self.unexpected("a statement"));
@@ -296,16 +286,10 @@ impl<'a> Reader<'a> {
 
     fn open_routine(&mut self, local: bool) -> Result<(), Fault> {
         if let Some(at) = self.routine {
-            return Err(Fault::Unclosed {
-                at,
-                what: "routine",
-            });
+            return Err(Fault::unclosed(at as usize, "routine"));
         }
         self.routine = Some(self.token.start);
-        let place = Place {
-            file: self.file,
-            offset: self.token.start,
-        };
+        let place = Place::new(self.file, self.token.start);
         let (is_function, is_trap) = (self.is_word(b"func"), self.is_word(b"trap"));
         self.advance()?;
         let mut gives = Type::Other;
@@ -383,13 +367,13 @@ impl<'a> Reader<'a> {
         let arguments = self.arguments(verb)?;
         let end = self.behind;
         if verb != Verb::Harmless {
-            let kind = StatementKind::Call {
+            let called = Called {
                 callee,
                 verb,
                 arguments,
                 end,
             };
-            self.note(start, kind);
+            self.note(start, StatementKind::Call(called));
         }
         Ok(())
     }
@@ -462,8 +446,5 @@ pub(super) fn content_start(bytes: &[u8]) -> Result<usize, Fault> {
     }
     memchr::memmem::find(&bytes[header + 3..], b"%%%")
         .map(|length| header + length + 6)
-        .ok_or(Fault::Unclosed {
-            at: short(header),
-            what: "header",
-        })
+        .ok_or_else(|| Fault::unclosed(header, "header"))
 }

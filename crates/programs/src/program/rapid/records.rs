@@ -14,10 +14,7 @@ pub(super) const TOOL_LOAD: usize = 8;
 
 /// Leaves as parts of a record.
 pub(super) fn part_of(leaf: Leaf, place: Place) -> Part {
-    let at = |start| Place {
-        offset: start,
-        ..place
-    };
+    let at = |start| Place::new(place.file, start);
     let (value, place, length) = match leaf {
         Leaf::Number {
             value,
@@ -88,7 +85,7 @@ impl Parts<'_> {
         let mut values = [0.0; 7];
         for (value, at) in values.iter_mut().zip(first..) {
             let Some(number) = self.number(at) else {
-                return Ok(Err(assigned()));
+                return Ok(Err(ASSIGNED));
             };
             *value = number;
         }
@@ -113,11 +110,11 @@ impl Parts<'_> {
         let fixed = match self.value(1) {
             PartValue::Flag(fixed) => fixed,
             PartValue::Missing => true,
-            _ => return Err(assigned()),
+            _ => return Err(ASSIGNED),
         };
         let PartValue::Text { empty } = self.value(2) else {
             let unknown = !fixed || self.value(2) == PartValue::Computed;
-            return if unknown { Err(assigned()) } else { Ok(None) };
+            return if unknown { Err(ASSIGNED) } else { Ok(None) };
         };
         if fixed {
             // a name next to a fixed frame means nothing
@@ -137,14 +134,14 @@ impl Parts<'_> {
         let name = Source::text(&bytes[start..start + usize::from(length).saturating_sub(2)]);
         let capital = name.to_ascii_uppercase();
         if capital.starts_with("CNV") {
-            return Err(Remark::error(
+            return Err(Remark::error_about(
                 "moving-frame",
                 format!("the conveyor `{name}` moves the work object"),
                 "moves on a conveyor are not compensated",
             ));
         }
         if capital.starts_with("ROB_") {
-            return Err(Remark::error(
+            return Err(Remark::error_about(
                 "two-robots",
                 format!("the robot `{name}` carries the work object"),
                 "moves relative to another robot are not compensated",
@@ -163,13 +160,11 @@ impl Parts<'_> {
 }
 
 /// The running program changes a part of a tool or work object.
-pub(super) fn assigned() -> Remark {
-    Remark::error(
-        "frame-assigned-at-run-time",
-        "the running program changes the tool or work object",
-        "assign it once, with numbers, or declare one for each place",
-    )
-}
+pub(super) const ASSIGNED: Remark = Remark::error(
+    "frame-assigned-at-run-time",
+    "the running program changes the tool or work object",
+    "assign it once, with numbers, or declare one for each place",
+);
 
 /// See [`crate::program::Language::frame_of`].
 pub(super) fn frame_of(
@@ -215,7 +210,7 @@ fn tool(name: &str, parts: &Parts) -> Found {
         .any(|at| parts.value(at) == PartValue::Computed)
         || !is_declared && !parts.are_missing(load)
     {
-        return Ok(Err(assigned()));
+        return Ok(Err(ASSIGNED));
     }
     if parts.number(TOOL_LOAD).is_some_and(|mass_kg| mass_kg < 0.0) {
         return Err(parts.bad_value(TOOL_LOAD, "mass", "a tool weighs 0 kg or more"));
@@ -249,13 +244,13 @@ fn work_object(name: &str, parts: &Parts, carried: bool) -> Found {
     Ok(match (user, object) {
         (Some(user), Some(object)) => Ok(Some(user * object)),
         (None, None) => Ok(name.eq_ignore_ascii_case("wobj0").then(Pose::identity)),
-        _ => Err(assigned()),
+        _ => Err(ASSIGNED),
     })
 }
 
 /// The load of leaves of a loaddata.
 pub(super) fn load_of(leaves: &[Leaf]) -> Option<Load> {
-    let place = Place { file: 0, offset: 0 };
+    let place = Place::NOWHERE;
     let parts: Vec<Part> = leaves.iter().map(|&leaf| part_of(leaf, place)).collect();
     let parts = Parts {
         parts: &parts,

@@ -400,16 +400,11 @@ impl<'a> Resolved<'a> {
                         calls.push(given);
                     }
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => {
+                StatementKind::Call(call) => {
                     let given = Given {
-                        callee,
-                        verb,
-                        arguments,
+                        callee: call.callee,
+                        verb: call.verb,
+                        arguments: call.arguments,
                         of_function: false,
                         context,
                         file,

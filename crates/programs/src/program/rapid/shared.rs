@@ -13,7 +13,8 @@ use super::syntax::{
 };
 use super::translate::Translator;
 use crate::program::names::{Context, Symbol};
-use crate::program::script::{Expr, How, Start, Write, Written, short};
+use crate::program::script::Place;
+use crate::program::script::{Expr, How, Start, Written, short};
 use crate::program::{Source, TargetId};
 use foldhash::{HashMap, HashMapExt};
 
@@ -252,12 +253,7 @@ impl Resolved<'_> {
                     (context, file) = (now, in_file);
                     continue;
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => (callee, verb, arguments, false),
+                StatementKind::Call(call) => (call.callee, call.verb, call.arguments, false),
                 StatementKind::Function(function) => {
                     let of = self.parsed.functions[function as usize];
                     (Callee::Named(of.name), Verb::Other, of.arguments, true)
@@ -293,12 +289,12 @@ impl Translator<'_> {
     }
 
     /// Notes what other tasks find of this write at any time.
-    pub(super) fn note_meanwhile(&mut self, write: &Write) {
+    pub(super) fn note_meanwhile(&mut self, place: Place, variable: Written, how: &How) {
         if !self.is_meanwhile() {
             return;
         }
         let script = &self.builder.script;
-        let is_shared = match write.variable {
+        let is_shared = match variable {
             Written::One(variable) => self.shared.contains(&variable),
             Written::AnyOf(table) => {
                 let mut entries = script.tables[table as usize].entries.values();
@@ -308,15 +304,12 @@ impl Translator<'_> {
         if !is_shared {
             return;
         }
-        let how = match &write.how {
+        let how = match how {
             // what this task's own data hold nobody else knows
             How::Whole(value) if self.depends(*value) => How::PartSomehow(self.changed()),
             how => how.clone(),
         };
-        self.meanwhile.push(Write {
-            how,
-            ..write.clone()
-        });
+        self.meanwhile.push((place, variable, how));
     }
 
     /// Whether a value depends on what variables hold.
@@ -340,12 +333,12 @@ impl Translator<'_> {
             return;
         };
         let builder = &mut self.builder;
-        let routine = builder.declare("", first.place, Start::Concurrent);
+        let routine = builder.declare("", first.0, Start::Concurrent);
         builder.open(routine);
         builder.begin_loop(true);
-        for write in all {
+        for (place, variable, how) in all {
             builder.begin_if(None);
-            builder.write(write);
+            builder.write(place, variable, how);
             builder.end_choice();
         }
         builder.end_loop(false);

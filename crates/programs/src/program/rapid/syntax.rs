@@ -419,6 +419,16 @@ pub(super) enum Assigned {
     To(Expression),
 }
 
+/// An instruction or a procedure call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Called {
+    pub callee: Callee,
+    pub verb: Verb,
+    pub arguments: Part,
+    /// Behind its last byte.
+    pub end: u32,
+}
+
 /// Which statement.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum StatementKind {
@@ -434,13 +444,8 @@ pub(super) enum StatementKind {
         component: Component,
         value: Assigned,
     },
-    /// An instruction or a procedure call up to `end`.
-    Call {
-        callee: Callee,
-        verb: Verb,
-        arguments: Part,
-        end: u32,
-    },
+    /// An instruction or a procedure call.
+    Call(Called),
     /// A function of the files, or one that may write its arguments: one of [`Parsed::functions`].
     Function(u32),
     /// What its condition asks, where it is `Present(name)` (true) or `NOT Present(name)`.

@@ -15,7 +15,7 @@ use super::*;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
 use crate::motion;
-use crate::program::{Displacement, Motion, Shape, Shift, Stride, Target, Tool, Value};
+use crate::program::{Displacement, Motion, Program, Shape, Shift, Stride, Target, Tool, Value};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,

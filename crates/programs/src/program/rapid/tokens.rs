@@ -215,10 +215,7 @@ mod tests {
         );
         assert_eq!(
             Scanner::new(b"\"open\nx", 0).next(),
-            Err(Fault::Unclosed {
-                at: 0,
-                what: "string"
-            })
+            Err(Fault::unclosed(0, "string"))
         );
     }
 

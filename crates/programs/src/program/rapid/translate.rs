@@ -7,11 +7,10 @@ use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{Index, StatementKind, Storage, Type};
-use crate::finding::Severity;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
-    TableId, ValueId, Variable, VariableId, Write, Written,
+    TableId, ValueId, Variable, VariableId, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -73,7 +72,7 @@ pub(super) struct Translator<'a> {
     /// Of each routine whether others move the robot while it writes.
     pub writes_meanwhile: Vec<bool>,
     /// What is written so.
-    pub meanwhile: Vec<Write>,
+    pub meanwhile: Vec<(Place, Written, How)>,
     /// Data of each routine's own that are written in it.
     own: HashMap<u32, Vec<u32>>,
     /// A name in the present expression is declared more than once.
@@ -107,7 +106,7 @@ pub(super) fn translate(
     let script = &mut builder.script;
     let mut translator = Translator {
         resolved,
-        here: Place { file: 0, offset: 0 },
+        here: Place::NOWHERE,
         context: Context {
             module: 0,
             routine: None,
@@ -168,23 +167,12 @@ pub(super) fn translate(
 
 impl Translator<'_> {
     pub(super) fn place(&self, offset: u32) -> Place {
-        Place {
-            offset,
-            ..self.here
-        }
+        Place::new(self.here.file, offset)
     }
 
-    pub(super) fn say(
-        &mut self,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) {
-        let source = &self.resolved.sources[self.here.file as usize];
-        let at = self.here.offset as usize;
-        let finding = source.finding(at, id, severity, message, hint);
-        self.builder.script.findings.push(finding);
+    pub(super) fn say(&mut self, remark: Remark) {
+        let sources = self.resolved.sources;
+        self.builder.script.say(sources, self.here, remark);
     }
 
     pub(super) fn is_dead(&self, target: TargetId) -> bool {
@@ -198,11 +186,10 @@ impl Translator<'_> {
         self.builder.go(instruction, modal);
     }
 
-    pub(super) fn emit_write(&mut self, write: Write) {
+    pub(super) fn emit_write(&mut self, place: Place, variable: Written, how: How) {
         self.may_fail();
-        let variable = write.variable;
-        self.note_meanwhile(&write);
-        self.builder.write(write);
+        self.note_meanwhile(place, variable, &how);
+        self.builder.write(place, variable, how);
         if let Written::One(element) = variable {
             self.gather(element);
         }
@@ -215,12 +202,8 @@ impl Translator<'_> {
         for at in given {
             if let Some(element) = self.builder.script.arguments[at as usize].back {
                 self.gather(element);
-                let (place, how) = (self.here, How::PartSomehow(self.changed()));
-                self.note_meanwhile(&Write {
-                    place,
-                    variable: Written::One(element),
-                    how,
-                });
+                let how = How::PartSomehow(self.changed());
+                self.note_meanwhile(self.here, Written::One(element), &how);
             }
         }
     }
@@ -277,12 +260,9 @@ impl Translator<'_> {
                 component,
                 value,
             } => self.assign(name, index, component, value),
-            StatementKind::Call {
-                callee,
-                verb,
-                arguments,
-                end,
-            } => self.call(callee, verb, arguments, end),
+            StatementKind::Call(call) => {
+                self.call(call.callee, call.verb, call.arguments, call.end);
+            }
             StatementKind::Function(function) => {
                 let next = self.resolved.parsed.statements.get(at + 1);
                 let is_last = !next.is_some_and(|n| matches!(n.kind, StatementKind::Function(_)));
@@ -340,11 +320,7 @@ impl Translator<'_> {
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         let place = self.here;
-        self.emit_write(Write {
-            place,
-            variable: Written::One(variable),
-            how: How::Whole(value),
-        });
+        self.emit_write(place, Written::One(variable), How::Whole(value));
     }
 
     // ---- before the first statement
@@ -388,13 +364,8 @@ impl Translator<'_> {
                     self.here.file = file;
                     self.context = context;
                 }
-                StatementKind::Call {
-                    callee,
-                    verb,
-                    arguments,
-                    ..
-                } => {
-                    for (name, kind) in self.wants(callee, verb, arguments) {
+                StatementKind::Call(call) => {
+                    for (name, kind) in self.wants(call.callee, call.verb, call.arguments) {
                         if resolved.kind(name, self.context).is_none() {
                             self.wanted.entry(name).or_insert(kind);
                         }
@@ -483,7 +454,7 @@ impl Translator<'_> {
             let key = (axis + 6 * u8::from(seven), value.to_bits());
             let remark = *known.entry(key).or_insert_with(|| {
                 remarks.push(if seven {
-                    Remark::error(
+                    Remark::error_about(
                         "seven-axis-arm",
                         format!(
                             "{name} is {value} and cfx has hundreds: it is the seventh joint \

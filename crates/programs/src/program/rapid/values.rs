@@ -2,7 +2,7 @@
 
 use super::builtins::Known;
 use super::elements::element_name;
-use super::records::{assigned, load_of, part_of};
+use super::records::{ASSIGNED, load_of, part_of};
 use super::resolved::Entity;
 use super::syntax::{
     Amount, Argument, Base, Expression, Index, Part, Step, Storage, Stored, Type, indices,
@@ -11,6 +11,7 @@ use super::translate::Translator;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, m_from_mm};
 use crate::geometry::{Pose, add};
+use crate::program::kit;
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, OVERWRITTEN, Place, Remark,
@@ -43,31 +44,19 @@ impl Translator<'_> {
 
     /// A position that only the running program knows.
     pub(super) fn computed(&mut self) -> Expr {
-        Expr::Unknown(
-            self.builder.script.remark(Remark {
-                id: "computed-target",
-                severity: Severity::Warning,
-                text:
-                    "the position that this move goes to is known at run time only; the move stays \
-                as it is"
-                        .into(),
-                hint: AT_RUN_TIME,
-            }),
-        )
+        Expr::Unknown(self.builder.script.remark(kit::computed(AT_RUN_TIME)))
     }
 
     pub(super) fn computed_name(&mut self, name: Symbol) -> Expr {
         Expr::Unknown(self.remark(name, |name| {
-            Remark {
-                id: "computed-target",
-                severity: Severity::Warning,
-                text: format!(
+            Remark::warning_about(
+                "computed-target",
+                format!(
                     "{name}, where this move goes to, is known at run time only; the move \
                 stays as it is"
-                )
-                .into(),
-                hint: AT_RUN_TIME,
-            }
+                ),
+                AT_RUN_TIME,
+            )
         }))
     }
 
@@ -98,7 +87,7 @@ impl Translator<'_> {
     }
 
     pub(super) fn frame_assigned(&mut self) -> Expr {
-        self.frame_refused(assigned())
+        self.frame_refused(ASSIGNED)
     }
 
     // ---- targets
@@ -159,15 +148,12 @@ impl Translator<'_> {
     pub(super) fn composed(&mut self, composed: u32) -> Expr {
         let value = Expression::Composed(composed);
         self.somewhere_near(&value).unwrap_or_else(|| {
-            self.builder.script.unknown(Remark {
-                id: "target-has-expressions",
-                severity: Severity::Warning,
-                text:
-                    "parts of the target that this move goes to are expressions, not numbers; it \
-                    stays as it is"
-                        .into(),
-                hint: "write the target with numbers in the offline system",
-            })
+            self.builder.script.unknown(Remark::warning(
+                "target-has-expressions",
+                "parts of the target that this move goes to are expressions, not numbers; it \
+                    stays as it is",
+                "write the target with numbers in the offline system",
+            ))
         })
     }
 
@@ -233,14 +219,12 @@ impl Translator<'_> {
             .iter()
             .any(|argument| self.is_constant_joints(argument))
         {
-            return self.builder.script.unknown(Remark {
-                id: "computed-target",
-                severity: Severity::Warning,
-                text: "the position that this move goes to is that of joints in the text, as the \
-                       controller computes it: without a correction; the move stays as it is"
-                    .into(),
-                hint: AT_RUN_TIME,
-            });
+            return self.builder.script.unknown(Remark::warning(
+                "computed-target",
+                "the position that this move goes to is that of joints in the text, as the \
+                       controller computes it: without a correction; the move stays as it is",
+                AT_RUN_TIME,
+            ));
         }
         let mut near = Vec::new();
         for argument in given {

@@ -2,11 +2,11 @@
 
 use super::{
     ACCUMULATED, Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
-    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Remark, RemarkId, Script, Table, TableId, ValueId,
-    Variable, VariableId, short,
+    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId,
+    ValueId, Variable, VariableId, short,
 };
 use crate::geometry::Pose;
-use crate::program::{Displacement, Number, Target, TargetId};
+use crate::program::{Displacement, Number, Shift, Source, Target, TargetId};
 use std::ops::Range;
 
 /// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
@@ -110,6 +110,36 @@ impl Script {
         ))
     }
 
+    /// Adds a set of variables that may refuse a move, see [`Modal::guards`].
+    pub fn guard(&mut self, of: impl IntoIterator<Item = VariableId>) -> u32 {
+        self.guards.push(of.into_iter().collect());
+        short(self.guards.len() - 1)
+    }
+
+    /// Adds a finding at a byte of a file.
+    pub fn say(&mut self, sources: &[Source], place: Place, remark: Remark) {
+        let source = &sources[place.file as usize];
+        self.findings.push(remark.found_in(source, place.offset));
+    }
+
+    /// A target has to stay, should a move go to it.
+    pub fn refuse(&mut self, target: TargetId, remark: Remark) {
+        let remark = self.remark(remark);
+        self.refused.push((target, remark));
+    }
+
+    /// Likewise the targets that the variables of a table are declared with.
+    pub fn refuse_all(&mut self, table: TableId, remark: Remark) {
+        let remark = self.remark(remark);
+        let declared = |variable: &VariableId| self.variables[*variable as usize].declared;
+        let entries = self.tables[table as usize].entries.values();
+        let refused = entries.filter_map(|variable| match declared(variable) {
+            Expr::Target(target) => Some((target, remark)),
+            _ => None,
+        });
+        self.refused.extend(refused);
+    }
+
     /// Adds a displacement.
     pub fn displacement(&mut self, displacement: Displacement) -> DisplacementId {
         match displacement {
@@ -137,6 +167,13 @@ impl Script {
             first,
             end: short(self.lists.len()),
         }
+    }
+
+    /// A position, displaced by a motion; by what nobody knows where that is `None`.
+    pub fn shifted(&mut self, base: Expr, by: Option<Shift>) -> Expr {
+        let by = by.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
+        let by = self.displacement(by);
+        self.displaced(base, by)
     }
 
     /// A position, displaced.

@@ -95,7 +95,12 @@ impl Builder {
     }
 
     /// A write.
-    pub fn write(&mut self, mut write: Write) {
+    pub fn write(&mut self, place: Place, variable: Written, how: How) {
+        let mut write = Write {
+            place,
+            variable,
+            how,
+        };
         self.join_shifts(&mut write);
         let at = short(self.script.writes.len());
         self.script.writes.push(write);

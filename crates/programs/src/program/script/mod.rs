@@ -17,9 +17,10 @@ pub use statement::{
     Statement, Write, Written,
 };
 
-use super::{Displacement, External, Load, Number, Stride, Target, TargetId};
+use super::{Displacement, External, Load, Number, Source, Stride, Target, TargetId};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -30,6 +31,17 @@ pub struct Place {
     pub file: u32,
     /// The byte.
     pub offset: u32,
+}
+
+impl Place {
+    /// Of what stands in no file.
+    pub const NOWHERE: Self = Self::new(0, 0);
+
+    /// A byte of a file.
+    #[must_use]
+    pub const fn new(file: u32, offset: u32) -> Self {
+        Self { file, offset }
+    }
 }
 
 /// Index in [`Script::variables`].
@@ -326,6 +338,17 @@ pub enum Expr {
     Unknown(RemarkId),
 }
 
+impl Expr {
+    /// The variable that it is.
+    #[must_use]
+    pub fn variable(self) -> Option<VariableId> {
+        match self {
+            Self::Variable(variable) => Some(variable),
+            _ => None,
+        }
+    }
+}
+
 /// Why something is unknown, refused, or worth a word.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Remark {
@@ -334,30 +357,67 @@ pub struct Remark {
     /// How much it matters: at an error the target stays and the program is refused.
     pub severity: Severity,
     /// What is wrong: a sentence without its subject where `of_target`, else a whole one.
-    pub text: Box<str>,
+    pub text: Cow<'static, str>,
     /// The way out.
     pub hint: &'static str,
 }
 
 impl Remark {
-    /// Why a move or a target is refused.
-    #[must_use]
-    pub fn error(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Self {
+    const fn new(
+        id: &'static str,
+        severity: Severity,
+        text: Cow<'static, str>,
+        hint: &'static str,
+    ) -> Self {
         Self {
             id,
-            severity: Severity::Error,
-            text: text.into(),
+            severity,
+            text,
             hint,
         }
     }
 
+    /// Why a move or a target is refused.
+    #[must_use]
+    pub const fn error(id: &'static str, text: &'static str, hint: &'static str) -> Self {
+        Self::new(id, Severity::Error, Cow::Borrowed(text), hint)
+    }
+
+    /// Likewise, in words that name something.
+    #[must_use]
+    pub const fn error_about(id: &'static str, text: String, hint: &'static str) -> Self {
+        Self::new(id, Severity::Error, Cow::Owned(text), hint)
+    }
+
     /// What a person should look at.
     #[must_use]
-    pub fn warning(id: &'static str, text: impl Into<Box<str>>, hint: &'static str) -> Self {
-        Self {
-            severity: Severity::Warning,
-            ..Self::error(id, text, hint)
-        }
+    pub const fn warning(id: &'static str, text: &'static str, hint: &'static str) -> Self {
+        Self::new(id, Severity::Warning, Cow::Borrowed(text), hint)
+    }
+
+    /// Likewise, in words that name something.
+    #[must_use]
+    pub const fn warning_about(id: &'static str, text: String, hint: &'static str) -> Self {
+        Self::new(id, Severity::Warning, Cow::Owned(text), hint)
+    }
+
+    /// What a person may like to know.
+    #[must_use]
+    pub const fn note(id: &'static str, text: &'static str, hint: &'static str) -> Self {
+        Self::new(id, Severity::Note, Cow::Borrowed(text), hint)
+    }
+
+    /// Likewise, in words that name something.
+    #[must_use]
+    pub const fn note_about(id: &'static str, text: String, hint: &'static str) -> Self {
+        Self::new(id, Severity::Note, Cow::Owned(text), hint)
+    }
+
+    /// As a finding at a byte of a file.
+    #[must_use]
+    pub fn found_in(self, source: &Source, offset: u32) -> Finding {
+        let text = self.text.into_owned();
+        source.finding(offset as usize, self.id, self.severity, text, self.hint)
     }
 
     /// Why a target is refused whose external axis nobody knows; a value that is not a number is an
@@ -369,7 +429,7 @@ impl Remark {
         } else {
             value.to_string()
         };
-        Self::error(
+        Self::error_about(
             "external-axis-unknown",
             format!("external axis {name} is {to}, and the profile does not say what that carries"),
             "describe it under `external_axes` of the profile: as an axis of `track:` or of one of \

@@ -2,7 +2,7 @@
 
 use super::{
     DisplacementId, Expr, Label, ModalId, NOT_DISPLACED, Place, RemarkId, RoutineId, TURNED,
-    TableId, VariableId,
+    TableId, VariableId, short,
 };
 use crate::program::{Motion, SpeedZone};
 use std::ops::Range;
@@ -95,6 +95,18 @@ pub struct Span {
 }
 
 impl Span {
+    /// Of these bytes.
+    ///
+    /// # Panics
+    /// Beyond 4 GiB.
+    #[must_use]
+    pub fn of(range: Range<usize>) -> Self {
+        Self {
+            start: short(range.start),
+            end: short(range.end),
+        }
+    }
+
     /// As a range of indices; `None` where there is none.
     #[must_use]
     pub fn range(self) -> Option<Range<usize>> {
@@ -273,6 +285,25 @@ pub struct Call {
     pub arguments: Range<u32>,
 }
 
+impl Call {
+    /// A call of these routines; of one that is not in the files where they are none.
+    #[must_use]
+    pub fn of(
+        place: Place,
+        callees: Box<[RoutineId]>,
+        name: impl Into<Box<str>>,
+        arguments: Range<u32>,
+    ) -> Self {
+        Self {
+            place,
+            foreign: callees.is_empty(),
+            callees,
+            name: name.into(),
+            arguments,
+        }
+    }
+}
+
 /// An argument of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Argument {
@@ -282,4 +313,16 @@ pub struct Argument {
     pub value: Expr,
     /// The caller's variable that the routine may write through it.
     pub back: Option<VariableId>,
+}
+
+impl Argument {
+    /// What a parameter is given, and what may be written through it.
+    #[must_use]
+    pub fn new(parameter: Option<VariableId>, value: Expr, back: Option<VariableId>) -> Self {
+        Self {
+            parameter,
+            value,
+            back,
+        }
+    }
 }

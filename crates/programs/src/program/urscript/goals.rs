@@ -2,7 +2,6 @@
 
 use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
-use crate::finding::Severity;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
 use crate::program::script::{
@@ -79,52 +78,38 @@ pub(super) struct Common {
 impl Common {
     pub(super) fn new(script: &mut Script) -> Self {
         let base = script.frame(BASE, Some(Pose::identity()));
-        let mut remark = |id, severity, text: &str, hint| {
-            script.remark(Remark {
-                id,
-                severity,
-                text: text.into(),
-                hint,
-            })
-        };
-        let computed = remark(
+        let computed = script.remark(Remark::warning(
             "computed-target",
-            Severity::Warning,
             "where this move goes is known at run time only; the move stays as it is",
             "write the target with numbers, or as pose_trans or pose_add of them",
-        );
-        let expressions = remark(
+        ));
+        let expressions = script.remark(Remark::warning(
             "target-has-expressions",
-            Severity::Warning,
             "parts of the pose that this move goes to are expressions, not numbers; the move stays \
              as it is",
             "write the target with numbers in the offline system",
-        );
-        let not_called = remark(
+        ));
+        let not_called = script.remark(Remark::warning(
             "computed-target",
-            Severity::Warning,
             "this move goes to a parameter of a function that the file does not call; the move \
              stays as it is",
             "give the call too, or write the target in the move",
-        );
-        let frame_computed = remark(
+        ));
+        let frame_computed = script.remark(Remark::error(
             "frame-chosen-at-run-time",
-            Severity::Error,
             "only the running program knows its feature or tool",
             "assign the feature once, with numbers; call set_tcp with numbers before the move",
-        );
-        let frame_changes = remark(
+        ));
+        let frame_changes = script.remark(Remark::error(
             "frame-assigned-at-run-time",
-            Severity::Error,
             "a part of its feature or tool is assigned",
             "assign it as a whole, with numbers",
-        );
-        let somewhere = remark(
+        ));
+        let somewhere = script.remark(Remark::note(
             "motion-without-target",
-            Severity::Note,
             "the robot moves by speed, force or hand here; this is not compensated",
             "",
-        );
+        ));
         Self {
             base,
             actual: script.value(Held::Actual),
@@ -408,16 +393,14 @@ impl Goals<'_, '_, '_> {
         let script = &mut self.builder.script;
         let parsed = self.parsed;
         let remark = *self.unknown.entry(name).or_insert_with(|| {
-            script.remarks.push(Remark {
-                id: "target-not-in-files",
-                severity: Severity::Error,
-                text: format!(
+            script.remarks.push(Remark::error_about(
+                "target-not-in-files",
+                format!(
                     "`{}`: the file does not assign this variable; the move is not compensated",
                     parsed.spelling(name)
-                )
-                .into(),
-                hint: "save the program together with the installation's variables",
-            });
+                ),
+                "save the program together with the installation's variables",
+            ));
             script::short(script.remarks.len() - 1)
         });
         script::Expr::Unknown(remark)
@@ -490,7 +473,7 @@ impl Goals<'_, '_, '_> {
             NotConstant::Changing(variable) => self.held[variable as usize].frame,
             NotConstant::Computed => None,
             NotConstant::Endless(angle) => {
-                let remark = Remark::error(
+                let remark = Remark::error_about(
                     "angle-too-large",
                     format!(
                         "the rotation vector of its feature or tool has a part of {angle}; the \

@@ -50,8 +50,7 @@ use super::kit::not_this_language;
 use super::notation;
 use super::script::{Builder, Script, short};
 use super::{
-    About, Inserted, Insertion, Language, Layout, Marker, Program, ReadError, Role, Settings,
-    Source, Step,
+    About, Inserted, Insertions, Language, Layout, Marker, ReadError, Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -145,14 +144,8 @@ impl Language for UrScript {
         [if in_degrees(layout) { DEG } else { 1.0 }; 6]
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        _: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        MANNER.insert(sources, program, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        MANNER.insert(into)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {

@@ -1,7 +1,9 @@
 use super::*;
 use crate::finding::Severity;
 use crate::geometry::Pose;
-use crate::program::{Before, Displacement, Edits, Motion, Move, Shape, Shift, Stride, Value};
+use crate::program::{
+    Before, Displacement, Edits, Motion, Move, Program, Shape, Shift, Stride, Value,
+};
 
 mod flow;
 mod posts;

@@ -7,10 +7,9 @@ use self::loads::Present;
 use super::goals::{Common, Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
-use crate::finding::Severity;
 use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
-    Variable, VariableId, Write, Written, short,
+    Variable, VariableId, Written, short,
 };
 use crate::program::{Layout, Shape, Source, Target, TargetId, kit};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -67,7 +66,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         variables: &'m Variables<'n, 'a>,
     ) -> Self {
         let parsed = variables.parsed;
-        let place = Place { file, offset: 0 };
+        let place = Place::new(file, 0);
         let first_routine = short(builder.script.routines.len());
         for (at, function) in parsed.functions.iter().enumerate() {
             let name = function
@@ -80,7 +79,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 (_, false) => Start::Called,
             };
             let offset = function.offset;
-            builder.declare(name, Place { file, offset }, start);
+            builder.declare(name, Place::new(file, offset), start);
         }
         let script = &mut builder.script;
         let unknown = common.no_tool(script);
@@ -114,10 +113,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             vec![tracking, load_remark, stream],
             vec![tracking, load_remark, rotated],
         ]
-        .map(|of| {
-            script.guards.push(of.into());
-            short(script.guards.len() - 1)
-        });
+        .map(|of| script.guard(of));
         let unknown_load = script.unknown(kit::load_chosen(
             "load-chosen-at-run-time",
             "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
@@ -160,10 +156,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     fn at(&self, offset: u32) -> Place {
-        Place {
-            file: self.file,
-            offset,
-        }
+        Place::new(self.file, offset)
     }
 
     // ---- targets and variables
@@ -197,22 +190,21 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         for id in literals {
             let literal = parsed.literal(id);
             let is_known = literal.content != Content::Expressions;
+            let place = self.at(literal.offset);
+            let layout = Layout {
+                shape: if literal.pose {
+                    Shape::Pose
+                } else {
+                    Shape::Joints
+                },
+                variant: u8::from(literal.content == Content::Degrees),
+            };
             let targets = &mut self.goals.builder.script.targets;
             targets.push(Target {
                 name: names.get(&id).map(|name| parsed.spelling(*name).into()),
-                file: self.file,
-                offset: literal.offset,
-                end: literal.end,
-                layout: Layout {
-                    shape: if literal.pose {
-                        Shape::Pose
-                    } else {
-                        Shape::Joints
-                    },
-                    variant: u8::from(literal.content == Content::Degrees),
-                },
                 numbers: first + literal.numbers.start..first + literal.numbers.end,
                 blocked: !is_known,
+                ..Target::new(place, literal.end, layout)
             });
             let target = targets.len() - 1;
             self.goals.targets[id as usize] = Some(target);
@@ -229,16 +221,23 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     /// The target stays as it is; `because` says so.
-    fn block(&mut self, target: TargetId, id: &'static str, wrong: &str, hint: &str, because: u32) {
+    fn block(
+        &mut self,
+        target: TargetId,
+        id: &'static str,
+        wrong: &str,
+        hint: &'static str,
+        because: u32,
+    ) {
         let script = &mut self.goals.builder.script;
         script.targets[target].blocked = true;
         if !self.said.insert((target, id)) {
             return;
         }
         let found = &script.targets[target];
-        let severity = match found.layout.shape {
-            Shape::Pose => Severity::Error,
-            Shape::Joints => Severity::Warning,
+        let remark = match found.layout.shape {
+            Shape::Pose => Remark::error_about,
+            Shape::Joints => Remark::warning_about,
         };
         let see = if because == found.offset {
             String::new()
@@ -249,20 +248,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let name = found.name.as_ref().map(|name| format!("`{name}`: "));
         let message = format!("{}{wrong}{see}", name.unwrap_or_default());
         let offset = found.offset;
-        self.say(offset, id, severity, message, hint);
+        self.say(offset, remark(id, message, hint));
     }
 
-    fn say(
-        &mut self,
-        offset: u32,
-        id: &'static str,
-        severity: Severity,
-        message: String,
-        hint: &str,
-    ) {
-        let finding = self
-            .source
-            .finding(offset as usize, id, severity, message, hint);
+    fn say(&mut self, offset: u32, remark: Remark) {
+        let finding = remark.found_in(self.source, offset);
         self.goals.builder.script.findings.push(finding);
     }
 
@@ -414,11 +404,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     fn write(&mut self, variable: Option<VariableId>, how: How, offset: u32) {
         let place = self.at(offset);
         if let Some(variable) = variable {
-            self.goals.builder.write(Write {
-                place,
-                variable: Written::One(variable),
-                how,
-            });
+            self.goals.builder.write(place, Written::One(variable), how);
         }
     }
 
@@ -483,11 +469,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             for &(_, value) in parsed.arguments_of(call) {
                 if self.goals.has_target(value, call.function, MOST_STEPS) {
                     let value = self.goals.goal(value, call.function).target;
-                    arguments.push(Argument {
-                        parameter: None,
-                        value,
-                        back: None,
-                    });
+                    arguments.push(Argument::new(None, value, None));
                 }
             }
         }
@@ -502,22 +484,15 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     let outside = self.goals.common.given_outside();
                     held.map(|held| (held, outside)).into_iter().collect()
                 };
-                arguments.extend(values.into_iter().map(|(parameter, value)| Argument {
-                    parameter: Some(parameter),
-                    value,
-                    back: None,
-                }));
+                let given = |(parameter, value)| Argument::new(Some(parameter), value, None);
+                arguments.extend(values.into_iter().map(given));
             }
         }
         let place = self.at(call.offset);
         let builder = &mut *self.goals.builder;
-        let call = Call {
-            place,
-            callees: callees.iter().map(|f| self.first_routine + f).collect(),
-            foreign: callees.is_empty(),
-            name: parsed.spelling(call.name).into(),
-            arguments: builder.script.give(arguments),
-        };
+        let routines = callees.iter().map(|f| self.first_routine + f).collect();
+        let arguments = builder.script.give(arguments);
+        let call = Call::of(place, routines, parsed.spelling(call.name), arguments);
         let is_thread = |callee: &FunctionId| parsed.functions[*callee as usize].thread;
         if callees.iter().any(is_thread) {
             builder.start(call);
@@ -549,8 +524,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 let message = "the joints that the inverse starts from are known at run time only; \
                     it is taken to start from the present ones";
                 let hint = "write qnear with numbers, or as a variable that is assigned once";
-                let id = "inverse-start-unknown";
-                self.say(step.offset, id, Severity::Warning, message.into(), hint);
+                let remark = Remark::warning("inverse-start-unknown", message, hint);
+                self.say(step.offset, remark);
             }
             let is_stream = step.streamed && self.goals.may_be_pose(target, function, MOST_STEPS);
             instruction.target = goal.target;
@@ -586,9 +561,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         for &offset in &self.goals.parsed.forces {
             let remarks = &self.goals.builder.script.remarks;
-            let remark = &remarks[self.goals.common.somewhere as usize];
-            let (id, message) = (remark.id, remark.text.to_string());
-            self.say(offset, id, Severity::Note, message, "");
+            let remark = remarks[self.goals.common.somewhere as usize].clone();
+            self.say(offset, remark);
         }
         self.report_copies();
     }
@@ -619,7 +593,10 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 parsed.spelling(name)
             );
             let hint = "look where the new value is used";
-            self.say(offset, "target-copied", Severity::Warning, message, hint);
+            self.say(
+                offset,
+                Remark::warning_about("target-copied", message, hint),
+            );
         }
     }
 }

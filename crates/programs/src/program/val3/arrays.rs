@@ -3,7 +3,7 @@
 use super::code::Reference;
 use super::project::Declared;
 use super::reader::{Reader, functions};
-use super::remarks::{computed, unfollowed};
+use super::remarks::{COMPUTED, UNFOLLOWED};
 use super::targets::{Known, Of};
 use crate::program::script::{Argument, Expr, RoutineId, TableId};
 use crate::program::words::Words;
@@ -93,14 +93,14 @@ impl<'a> Reader<'a> {
             let value = match variable {
                 Some(variable) => Expr::Variable(variable),
                 // what another call gave is there no more
-                None => self.unknown(computed()),
+                None => self.unknown(COMPUTED),
             };
             self.copies.entry(own).or_default().extend(variable);
-            arguments.push(Argument {
-                parameter: Some(own),
+            arguments.push(Argument::new(
+                Some(own),
                 value,
-                back: variable.filter(|_| parameter.by_reference),
-            });
+                variable.filter(|_| parameter.by_reference),
+            ));
         }
         if keys.is_none() {
             self.do_not_follow(given);
@@ -118,11 +118,7 @@ impl<'a> Reader<'a> {
                 // the first is given already
                 for key in keys.into_iter().filter(|key| *key != b"0") {
                     let value = Expr::Variable(self.element(known, key));
-                    arguments.push(Argument {
-                        parameter: None,
-                        value,
-                        back: None,
-                    });
+                    arguments.push(Argument::new(None, value, None));
                 }
             }
             None => self.do_not_follow(given),
@@ -145,7 +141,7 @@ impl<'a> Reader<'a> {
             let entries = &self.builder.script.tables[*table as usize].entries;
             open.extend(entries.values().copied());
         }
-        let remark = self.builder.script.remark(unfollowed());
+        let remark = self.builder.script.remark(UNFOLLOWED);
         let mut seen = HashSet::default();
         while let Some(variable) = open.pop() {
             if !seen.insert(variable) {

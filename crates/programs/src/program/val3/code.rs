@@ -2,7 +2,7 @@
 //!
 //! A statement is a line; one with a bracket open goes on.
 
-use crate::program::words::{Kind, Spelling, Word, Words, in_names};
+use crate::program::words::{Kind, Spelling, Word, Words, in_names, unquoted};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -133,14 +133,6 @@ pub(super) fn plain_key(key: &[u8]) -> Cow<'_, [u8]> {
         return key.iter().copied().filter(|b| !is_blank(b)).collect();
     }
     Cow::Borrowed(key)
-}
-
-/// A text without its quotes.
-pub(super) fn unquoted(text: &[u8]) -> &[u8] {
-    let text = text.strip_prefix(b"&quot;").unwrap_or(text);
-    let text = text.strip_suffix(b"&quot;").unwrap_or(text);
-    let text = text.strip_prefix(b"\"").unwrap_or(text);
-    text.strip_suffix(b"\"").unwrap_or(text)
 }
 
 /// The key that words between brackets are: a number, a text, or `0,1` of arrays of more

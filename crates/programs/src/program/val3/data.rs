@@ -6,10 +6,10 @@
 //! left out stay as they are.
 
 use super::code::plain_key;
-use super::xml::{Attribute, Node, Nodes, Tag};
 use crate::geometry::units::MM;
 use crate::program::kit::Fault;
 use crate::program::script::short;
+use crate::program::xml::{Attribute, Node, Nodes, Tag};
 use crate::program::{Number, Source, SpeedZone};
 
 /// What a name is.

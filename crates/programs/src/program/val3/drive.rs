@@ -1,6 +1,6 @@
 //! A program through configurations.
 
-use crate::program::drive::Step;
+use crate::program::drive::{Step, add};
 
 /// See [`crate::program::Language::drive`]: a program of a project, which needs no data of it.
 pub(super) fn drive(steps: &[Step]) -> String {
@@ -13,16 +13,15 @@ pub(super) fn drive(steps: &[Step]) -> String {
         </Locals><Code><![CDATA[begin\n\
         l_mFast.vel=20\nl_mFast.blend=off\nl_mSlow.vel=5\nl_mSlow.blend=off\n"
         .to_owned();
-    for step in steps {
-        if let Some(number) = step.begins {
-            out += &format!("// configuration {number}\n");
-        }
-        let (axes, speed) = (step.degrees().join(","), step.measured);
-        let speed = if speed { "l_mSlow" } else { "l_mFast" };
-        out += &format!("movej({{{axes}}},flange,{speed})\n");
-        if step.measured {
-            out += "waitEndMove()\ndelay(3)\n";
-        }
-    }
+    add(
+        &mut out,
+        steps,
+        "// ",
+        "waitEndMove()\ndelay(3)\n",
+        |axes, measured| {
+            let speed = if measured { "l_mSlow" } else { "l_mFast" };
+            format!("movej({{{}}},flange,{speed})\n", axes.join(","))
+        },
+    );
     out + "end]]></Code></Program></Programs>\n"
 }

@@ -3,9 +3,10 @@
 use super::code::Reference;
 use super::data::{Element, Father, Kind};
 use super::reader::Reader;
-use super::remarks::{frame_assigned, frame_chosen};
+use super::remarks::{FRAME_CHOSEN, frame_assigned};
 use super::targets::pose_of;
 use crate::geometry::Pose;
+use crate::program::kit;
 use crate::program::script::{DisplacementId, Expr, Remark, VariableId};
 use crate::program::words::Words;
 use crate::program::{Displacement, Shift, Source};
@@ -40,9 +41,8 @@ impl<'a> Reader<'a> {
             name: name.name,
             index: name.key?,
         };
-        let nothing = Shift::along([0.0; 3]);
-        let script = &mut self.builder.script;
-        let displacement = script.displacement(Displacement::By(Box::new(nothing)));
+        let nothing = Displacement::By(Box::new(Shift::none()));
+        let displacement = self.builder.script.displacement(nothing);
         self.composed.push(Composed {
             displacement,
             base,
@@ -86,11 +86,11 @@ impl<'a> Reader<'a> {
     /// The tool that an argument is.
     pub(super) fn tool(&mut self, words: Words<'a, '_>) -> Expr {
         let Some(name) = Reference::whole(words) else {
-            return self.unknown(frame_chosen());
+            return self.unknown(FRAME_CHOSEN);
         };
         match self.meaning(&name) {
             Some(known) if known.kind == Kind::Tool => self.named(&name),
-            Some(_) => self.unknown(frame_chosen()),
+            Some(_) => self.unknown(FRAME_CHOSEN),
             None => {
                 if let Some(known) = self.variables.tools.get(name.name) {
                     return *known;
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
         for father in self.fathers(position) {
             let frame = self.frame(father);
             if found.is_some_and(|other| other != frame) {
-                return self.unknown(frame_chosen());
+                return self.unknown(FRAME_CHOSEN);
             }
             found = Some(frame);
         }
@@ -238,10 +238,9 @@ fn own_pose(element: &Element, name: &str) -> Result<Pose, Remark> {
     let angles = element.numbers[3..].iter().map(|number| number.value);
     match angles.into_iter().find(|angle| angle.abs() > MOST_ANGLE) {
         None => Ok(pose_of(&element.numbers)),
-        Some(angle) => Err(Remark::error(
-            "angle-too-large",
-            format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE} deg"),
-            "rx, ry and rz are in degrees: write them between -360 and 360",
-        )),
+        Some(angle) => {
+            let hint = "rx, ry and rz are in degrees: write them between -360 and 360";
+            Err(kit::angle_too_large(name, angle, MOST_ANGLE, hint))
+        }
     }
 }

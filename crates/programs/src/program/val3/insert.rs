@@ -1,10 +1,10 @@
 //! Moves between those of a program: the statement again, to a new point of the data.
 
 use super::data::{self, POSE, SIDES};
-use super::xml::{Node, Nodes, Tag};
-use crate::program::insert::{Repeated, indent};
+use crate::program::insert::{Added, Repeated, indent};
 use crate::program::kit::line_behind;
-use crate::program::{Inserted, Insertion, Program, Replacements, Shape, Source, Target};
+use crate::program::xml::{Node, Nodes, Tag};
+use crate::program::{Inserted, Insertion, Insertions, Replacements, Shape, Source, Target};
 use std::collections::BTreeMap;
 
 /// Names that are tried for new points.
@@ -21,42 +21,25 @@ struct NewPoints<'a> {
     blanks: &'a [u8],
     /// What their names begin with.
     stem: String,
-    count: usize,
-    text: Vec<u8>,
 }
 
 /// See [`crate::program::Language::insert`].
-pub(super) fn insert(
-    sources: &[Source],
-    program: &Program,
-    file: usize,
-    insertions: &[Insertion],
-) -> Inserted {
-    let mut inserted = Inserted::none(insertions);
-    let mut points: BTreeMap<usize, Option<NewPoints>> = BTreeMap::new();
-    for (insertion, done) in insertions.iter().zip(&mut inserted.moves) {
-        let motion = &program.moves[insertion.motion];
-        let Some(target) = program.target_of(motion) else {
-            continue;
-        };
+pub(super) fn insert(into: &Insertions) -> Inserted {
+    let mut files: BTreeMap<usize, Option<(NewPoints, Added)>> = BTreeMap::new();
+    let mut inserted = Inserted::each(into.list, |one| {
+        let target = into.program.target_of(&into.program.moves[one.motion])?;
         let data = target.file as usize;
-        let new = points
-            .entry(data)
-            .or_insert_with(|| NewPoints::of(sources, data, file));
-        if let Some(new) = new {
-            let before = (new.count, new.text.len());
-            *done = new.repeat(sources, program, target, insertion);
-            if done.is_none() {
-                (new.count, _) = before;
-                new.text.truncate(before.1);
-            }
-        }
-    }
-    for (data, new) in points {
-        if let Some(new) = new.filter(|new| new.count > 0) {
-            inserted
-                .elsewhere
-                .push((data, vec![(new.at..new.at, new.text)]));
+        let known = files.entry(data).or_insert_with(|| {
+            let new = NewPoints::of(into.sources, data, into.file);
+            new.map(|new| (new, Added::default()))
+        });
+        let (new, added) = known.as_mut()?;
+        added.attempt(|added| new.repeat(into, target, one, added))
+    });
+    for (data, known) in files {
+        if let Some((new, added)) = known.filter(|(_, added)| added.count > 0) {
+            let text = vec![(new.at..new.at, added.text)];
+            inserted.elsewhere.push((data, text));
         }
     }
     inserted
@@ -81,21 +64,19 @@ impl<'a> NewPoints<'a> {
             at,
             blanks: indent(&source.bytes, first).unwrap_or_default(),
             stem,
-            count: 0,
-            text: Vec::new(),
         })
     }
 
     fn repeat(
-        &mut self,
-        sources: &[Source],
-        program: &Program,
+        &self,
+        into: &Insertions,
         target: &Target,
         insertion: &Insertion,
+        added: &mut Added,
     ) -> Option<Replacements> {
-        let motion = &program.moves[insertion.motion];
-        let instruction = &program.instructions[motion.instruction as usize];
-        let bytes = &sources[motion.file as usize].bytes;
+        let motion = &into.program.moves[insertion.motion];
+        let instruction = &into.program.instructions[motion.instruction as usize];
+        let bytes = &into.sources[motion.file as usize].bytes;
         let end = instruction.span().end;
         let rest = &bytes[end..line_behind(bytes, end).unwrap_or(bytes.len())];
         let rest = rest.trim_ascii_start();
@@ -105,14 +86,14 @@ impl<'a> NewPoints<'a> {
         if !is_plain || target.layout.shape != Shape::Pose {
             return None;
         }
-        let repeated = Repeated::of(sources, program, insertion, LONGEST_LINE)?;
-        repeated.insert(insertion, |numbers| self.add(target, numbers))
+        let repeated = Repeated::of(into, insertion, LONGEST_LINE)?;
+        repeated.insert(insertion, |_, numbers| self.add(target, numbers, added))
     }
 
     /// A point like a target with other numbers; its name.
-    fn add(&mut self, target: &Target, numbers: &[Vec<u8>]) -> Option<Vec<u8>> {
+    fn add(&self, target: &Target, numbers: &[Vec<u8>], added: &mut Added) -> Option<Vec<u8>> {
         let bytes: &'a [u8] = &self.source.bytes;
-        let name = format!("{}{}", self.stem, self.count);
+        let name = format!("{}{}", self.stem, added.count);
         let mut line = [self.source.line_end(), self.blanks].concat();
         let value = &bytes[target.span()];
         if self.is_old {
@@ -132,8 +113,8 @@ impl<'a> NewPoints<'a> {
             line.extend(written(tags(value).first()?, target, numbers)?);
             line.extend_from_slice(b"</Data>");
         }
-        self.text.extend(line);
-        self.count += 1;
+        added.text.extend(line);
+        added.count += 1;
         Some(name.into_bytes())
     }
 }

@@ -30,15 +30,14 @@ mod project;
 mod reader;
 mod remarks;
 mod targets;
-mod xml;
 
 use super::drive::Step;
 use super::kit::{line_behind, not_this_language};
 use super::notation;
 use super::script::Script;
 use super::{
-    About, Configuration, Inserted, Insertion, Language, Layout, Marker, Posture, Program,
-    ReadError, Role, Settings, Shape, Source,
+    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
+    Settings, Shape, Source,
 };
 use crate::geometry::Pose;
 use data::{JOINTS, POSE, SIDES};
@@ -162,26 +161,16 @@ impl Language for Val3 {
         out.extend_from_slice(words[usize::from(value > 0.5)].as_bytes());
     }
 
-    fn around_missing(&self, layout: Layout, index: usize) -> (&'static str, &'static str) {
-        const POSE_BEFORE: [&str; 6] = [" x=\"", " y=\"", " z=\"", " rx=\"", " ry=\"", " rz=\""];
-        const JOINTS_BEFORE: [&str; 6] =
-            [" j1=\"", " j2=\"", " j3=\"", " j4=\"", " j5=\"", " j6=\""];
-        let before = match layout.shape {
-            Shape::Pose => POSE_BEFORE[index],
-            Shape::Joints => JOINTS_BEFORE[index],
+    fn around_missing(&self, layout: Layout, index: usize) -> (String, &'static str) {
+        let names = match layout.shape {
+            Shape::Pose => POSE,
+            Shape::Joints => JOINTS,
         };
-        debug_assert!(before.contains(POSE[index]) || before.contains(JOINTS[index]));
-        (before, "\"")
+        (format!(" {}=\"", names[index]), "\"")
     }
 
-    fn insert(
-        &self,
-        sources: &[Source],
-        program: &Program,
-        file: usize,
-        insertions: &[Insertion],
-    ) -> Inserted {
-        insert::insert(sources, program, file, insertions)
+    fn insert(&self, into: &Insertions) -> Inserted {
+        insert::insert(into)
     }
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {

@@ -99,10 +99,7 @@ impl<'a> Reader<'a> {
             _ => None,
         };
         instruction.target = joints.unwrap_or_else(|| self.position(target));
-        instruction.target_span = Span {
-            start: short(target.span().start),
-            end: short(target.span().end),
-        };
+        instruction.target_span = Span::of(target.span());
         self.builder.go(instruction, modal);
     }
 

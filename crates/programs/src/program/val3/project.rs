@@ -2,11 +2,11 @@
 //! libraries.
 
 use super::data::{self, Datum, Kind};
-use super::remarks::{declared_again, finding, not_in_project};
-use super::xml::{Node, Nodes};
+use super::remarks::{declared_again, not_in_project};
 use crate::finding::Finding;
 use crate::program::kit::Fault;
 use crate::program::script::short;
+use crate::program::xml::{Node, Nodes};
 use crate::program::{ReadError, Source, number};
 use foldhash::{HashMap, HashMapExt};
 use std::ops::Range;
@@ -46,7 +46,7 @@ pub(super) struct Project<'a> {
     /// Folder and name of the .pjx; the folder alone where there is none.
     path: String,
     /// The .pjx names files of these kinds, and some are there: others do not belong to it.
-    names: [bool; 2],
+    names: Vec<FileKind>,
     /// Indices in [`World::data`].
     pub data: HashMap<&'a [u8], u32>,
     /// Indices in [`World::programs`].
@@ -118,19 +118,6 @@ fn below(folder: &str, name: &[u8]) -> String {
     }
 }
 
-/// The lists of a .pjx: data and programs.
-const DATA: usize = 0;
-const PROGRAMS: usize = 1;
-
-/// The list of a .pjx that a file belongs in.
-fn list_of(source: &Source) -> Option<usize> {
-    match kind_of(&source.bytes)? {
-        FileKind::Project => None,
-        FileKind::Data => Some(DATA),
-        FileKind::Programs => Some(PROGRAMS),
-    }
-}
-
 /// Files of a project, by path in small letters.
 type Claims = HashMap<String, u32>;
 
@@ -145,21 +132,21 @@ pub(super) fn read(sources: &[Source]) -> Result<World<'_>, ReadError> {
         }
     }
     for source in sources {
-        let named = claims.get(&clean(&source.name).to_lowercase()).copied();
-        if let (Some(project), Some(list)) = (named, list_of(source)) {
-            world.projects[project as usize].names[list] = true;
+        let named = claims.get(&clean(&source.name).to_lowercase());
+        if let Some(project) = named {
+            let names = &mut world.projects[*project as usize].names;
+            names.extend(kind_of(&source.bytes));
         }
     }
-    for (file, source) in sources.iter().enumerate() {
-        let Some(list) = list_of(source) else {
+    for (file, source) in (0..).zip(sources) {
+        let kind = kind_of(&source.bytes).filter(|kind| *kind != FileKind::Project);
+        let Some(kind) = kind else { continue };
+        let Some(project) = world.project_of(source, kind, &mut claims) else {
             continue;
         };
-        let Some(project) = world.project_of(source, list, &mut claims) else {
-            continue;
-        };
-        let read = match list {
-            DATA => world.data(source, short(file), project),
-            _ => world.programs(source, short(file), project),
+        let read = match kind {
+            FileKind::Data => world.data(source, file, project),
+            _ => world.programs(source, file, project),
         };
         read.map_err(|fault| fault.in_source(source))?;
     }
@@ -217,8 +204,8 @@ impl<'a> World<'a> {
     }
 
     /// The project of a file: the one that names it, else that of its folder; `None` where that
-    /// names others of its list.
-    fn project_of(&mut self, source: &Source, list: usize, claims: &mut Claims) -> Option<u32> {
+    /// names others of its kind.
+    fn project_of(&mut self, source: &Source, kind: FileKind, claims: &mut Claims) -> Option<u32> {
         let path = clean(&source.name);
         let folder = folder_of(&path).to_owned();
         if let Some(&project) = claims.get(&path.to_lowercase()) {
@@ -234,12 +221,17 @@ impl<'a> World<'a> {
             return Some(made);
         };
         let of = &self.projects[project as usize];
-        if of.names[list] {
+        if of.names.contains(&kind) {
             let remark = not_in_project(&of.path);
-            self.findings.push(finding(remark, source, 0));
+            self.findings.push(remark.found_in(source, 0));
             return None;
         }
         Some(project)
+    }
+
+    fn is_again(&mut self, name: &[u8], source: &Source, at: u32) {
+        let remark = declared_again(&Source::text(name));
+        self.findings.push(remark.found_in(source, at));
     }
 
     fn data(&mut self, source: &'a Source, file: u32, project: u32) -> Result<(), Fault> {
@@ -247,8 +239,7 @@ impl<'a> World<'a> {
             let own = &mut self.projects[project as usize].data;
             let known = own.insert(datum.name, short(self.data.len()));
             if known.is_some() && datum.kind != Kind::Other {
-                let remark = declared_again(&Source::text(datum.name));
-                self.findings.push(finding(remark, source, datum.at));
+                self.is_again(datum.name, source, datum.at);
             }
             self.data.push(datum);
         }
@@ -260,8 +251,7 @@ impl<'a> World<'a> {
             let own = &mut self.projects[project as usize].programs;
             let known = own.insert(program.name, short(self.programs.len()));
             if known.is_some() {
-                let remark = declared_again(&Source::text(program.name));
-                self.findings.push(finding(remark, source, program.at));
+                self.is_again(program.name, source, program.at);
             }
             self.programs.push(program);
         }

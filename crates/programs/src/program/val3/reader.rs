@@ -1,20 +1,20 @@
 //! Programs as statements: blocks, calls, and what they write.
 
 use super::arrays::Arrays;
-use super::code::{Code, Reference, unquoted};
+use super::code::{Code, Reference};
 use super::data::Kind;
 use super::frames::Composed;
 use super::moves::Verb;
 use super::project::{Program, World};
-use super::remarks::{computed, finding, frame_assigned, library};
+use super::remarks::{COMPUTED, frame_assigned, library};
 use super::targets::{Of, Variables};
 use crate::program::notation::{grown_by, mentions, turned_by};
 use crate::program::script::{
-    Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, Write, short,
+    Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, short,
 };
-use crate::program::words::{self, Words};
+use crate::program::words::{self, Words, unquoted};
 use crate::program::{Source, number};
-use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use foldhash::{HashMap, HashSet};
 
 /// Built-in instructions, and which of their arguments they write.
 ///
@@ -45,6 +45,7 @@ pub(super) struct Here {
     pub file: u32,
 }
 
+#[derive(Default)]
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
     pub world: World<'a>,
@@ -79,18 +80,11 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         world,
         builder,
         variables,
-        assigned: HashSet::new(),
-        copies: HashMap::new(),
-        arrays: Arrays::default(),
         is_settled: !takes_arrays,
-        composed: Vec::new(),
-        here: Here::default(),
+        ..Reader::default()
     };
     for program in &reader.world.programs {
-        let place = Place {
-            file: program.file,
-            offset: program.at,
-        };
+        let place = Place::new(program.file, program.at);
         let name = Source::text(program.name);
         reader.builder.declare(name, place, Start::Called);
     }
@@ -124,10 +118,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn place(&self, offset: usize) -> Place {
-        Place {
-            file: self.here.file,
-            offset: short(offset),
-        }
+        Place::new(self.here.file, short(offset))
     }
 
     // ---- what is changed anywhere
@@ -250,9 +241,8 @@ impl<'a> Reader<'a> {
             ),
             None => format!("library {}", Source::text(alias)),
         };
-        let source = &self.sources[place.file as usize];
-        let finding = finding(library(&name), source, place.offset);
-        self.builder.script.findings.push(finding);
+        let script = &mut self.builder.script;
+        script.say(self.sources, place, library(&name));
     }
 
     /// `name = …`
@@ -302,7 +292,7 @@ impl<'a> Reader<'a> {
             let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
             letters.copied().collect()
         };
-        let remark = self.builder.script.remark(computed());
+        let remark = self.builder.script.remark(COMPUTED);
         let own = letters(field.whole());
         let last = field.len().checked_sub(3);
         let last = last.filter(|last| field.text(*last) == b"trsf");
@@ -345,7 +335,7 @@ impl<'a> Reader<'a> {
         let remark = match self.kind_of(target) {
             Kind::Tool => frame_assigned(&Source::text(target.name)),
             Kind::Point if relinks => frame_assigned(&Source::text(target.name)),
-            kind if kind.is_place() => computed(),
+            kind if kind.is_place() => COMPUTED,
             _ => return,
         };
         let value = self.unknown(remark);
@@ -355,11 +345,7 @@ impl<'a> Reader<'a> {
     fn write(&mut self, target: &Reference<'a>, offset: usize, how: How) {
         let place = self.place(offset);
         if let Ok(variable) = self.written_by(target) {
-            self.builder.write(Write {
-                place,
-                variable,
-                how,
-            });
+            self.builder.write(place, variable, how);
         }
     }
 
@@ -394,7 +380,7 @@ impl<'a> Reader<'a> {
                 self.given(kind, value)
             } else if parameter.is_some() {
                 // whatever it is: what another call gave is there no more
-                self.unknown(computed())
+                self.unknown(COMPUTED)
             } else {
                 continue;
             };
@@ -402,22 +388,12 @@ impl<'a> Reader<'a> {
                 let of = self.roots(value);
                 self.copies.entry(parameter).or_default().extend(of);
             }
-            arguments.push(Argument {
-                parameter,
-                value,
-                back: match value {
-                    Expr::Variable(variable) => Some(variable).filter(|_| by_reference),
-                    _ => None,
-                },
-            });
+            let back = value.variable().filter(|_| by_reference);
+            arguments.push(Argument::new(parameter, value, back));
         }
-        let call = Call {
-            place: self.place(line.span().start),
-            callees: callee.into_iter().collect(),
-            foreign: callee.is_none(),
-            name: Source::text(name).into(),
-            arguments: self.builder.script.give(arguments),
-        };
+        let (place, callees) = (self.place(line.span().start), callee.into_iter().collect());
+        let arguments = self.builder.script.give(arguments);
+        let call = Call::of(place, callees, Source::text(name), arguments);
         if line.text(0) == b"call" {
             self.builder.call(call);
         } else {

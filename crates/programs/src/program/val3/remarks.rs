@@ -1,57 +1,46 @@
 //! What is wrong with targets, frames and moves, in words.
 
-use crate::finding::{Finding, Severity};
-use crate::program::Source;
+use crate::program::kit;
 use crate::program::script::Remark;
-
-/// A remark on a byte of a file.
-pub(super) fn finding(remark: Remark, source: &Source, offset: u32) -> Finding {
-    let (id, severity, text) = (remark.id, remark.severity, remark.text.into_string());
-    source.finding(offset as usize, id, severity, text, remark.hint)
-}
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
-    Remark::error(
-        "target-not-in-files",
-        format!("{name} is not declared in the files; this move is not compensated"),
+    kit::not_in_files(
+        name,
         "give the whole project with its .dtx, and the libraries that it loads",
     )
 }
 
 /// A target that only the running program knows.
-pub(super) fn computed() -> Remark {
-    Remark::warning(
-        "computed-target",
-        "the position that this move goes to is known at run time only; the move stays as it \
-         is",
-        "move to a point of the .dtx where it must be exact",
-    )
-}
+pub(super) const COMPUTED: Remark =
+    kit::computed("move to a point of the .dtx where it must be exact");
 
 /// Against an array that a program is given.
-pub(super) fn unfollowed() -> Remark {
-    Remark::error(
-        "target-passed-to-routine",
-        "a program is given this array, and which of its elements it goes to or writes is not \
+pub(super) const UNFOLLOWED: Remark = Remark::error(
+    "target-passed-to-routine",
+    "a program is given this array, and which of its elements it goes to or writes is not \
          followed",
-        "give it the name alone of an array that has at most 32 elements, or one element as a \
+    "give it the name alone of an array that has at most 32 elements, or one element as a \
          parameter that is none",
-    )
-}
+);
 
 /// A declared point without numbers.
 pub(super) fn not_taught(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "target-uninitialised",
         format!("{name} has no numbers in the .dtx: it was never taught"),
         "teach the point, or leave the move out",
     )
 }
 
+/// Declared joints without numbers.
+pub(super) fn joints_not_taught(name: &str) -> Remark {
+    kit::joints_not_in_files(name, "teach the joints, to see the move checked")
+}
+
 /// Points without numbers among others that only the running program chooses from.
 pub(super) fn some_not_taught(name: &str, untaught: &str) -> Remark {
-    Remark::warning(
+    Remark::warning_about(
         "target-uninitialised",
         format!(
             "only the running program knows to which {name} a move goes, and {untaught} was never \
@@ -63,7 +52,7 @@ pub(super) fn some_not_taught(name: &str, untaught: &str) -> Remark {
 
 /// A name that files of one project declare more than once.
 pub(super) fn declared_again(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "target-name-ambiguous",
         format!("the files of this project declare {name} more than once"),
         "name in the .pjx only the files that the robot loads, with each name once",
@@ -72,19 +61,16 @@ pub(super) fn declared_again(name: &str) -> Remark {
 
 /// A file that the project file of its folder does not name.
 pub(super) fn not_in_project(project: &str) -> Remark {
-    Remark {
-        severity: Severity::Note,
-        ..Remark::warning(
-            "file-not-in-project",
-            format!("{project} does not name this file: it is left out"),
-            "name the file in the .pjx if the robot loads it",
-        )
-    }
+    Remark::note_about(
+        "file-not-in-project",
+        format!("{project} does not name this file: it is left out"),
+        "name the file in the .pjx if the robot loads it",
+    )
 }
 
 /// A point of an arm with other axes.
 pub(super) fn other_arm(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "target-not-six-axes",
         format!("{name} is a point or joints of an arm that does not have six axes"),
         "only robots with six joints are compensated",
@@ -93,7 +79,7 @@ pub(super) fn other_arm(name: &str) -> Remark {
 
 /// A tool or frame that the running program changes.
 pub(super) fn frame_assigned(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "frame-assigned-at-run-time",
         format!("the running program changes the tool or frame {name}"),
         "set it in the .dtx, or keep the moves with it out of the compensation",
@@ -101,27 +87,23 @@ pub(super) fn frame_assigned(name: &str) -> Remark {
 }
 
 /// A tool or frame that only the running program knows.
-pub(super) fn frame_chosen() -> Remark {
-    Remark::error(
-        "frame-chosen-at-run-time",
-        "only the running program knows which tool or frame the move has: it is chosen by a \
+pub(super) const FRAME_CHOSEN: Remark = Remark::error(
+    "frame-chosen-at-run-time",
+    "only the running program knows which tool or frame the move has: it is chosen by a \
          variable, or its points have different frames",
-        "name the tool in the move, and hang the points of one array on one frame",
-    )
-}
+    "name the tool in the move, and hang the points of one array on one frame",
+);
 
 /// A path that the running program alters.
-pub(super) fn altered() -> Remark {
-    Remark::warning(
-        "corrected-by-sensor",
-        "the running program alters this path (alter)",
-        "the correction of the target goes with it: look at the first part",
-    )
-}
+pub(super) const ALTERED: Remark = Remark::warning(
+    "corrected-by-sensor",
+    "the running program alters this path (alter)",
+    "the correction of the target goes with it: look at the first part",
+);
 
 /// Another kind of move.
 pub(super) fn move_not_known(name: &str) -> Remark {
-    Remark::error(
+    Remark::error_about(
         "move-not-supported",
         format!("{name} is not understood: its target is not compensated"),
         "use movej, movel or movec with a target, a tool and a mdesc",
@@ -130,7 +112,7 @@ pub(super) fn move_not_known(name: &str) -> Remark {
 
 /// A library that is loaded while the program runs.
 pub(super) fn library(name: &str) -> Remark {
-    Remark::warning(
+    Remark::warning_about(
         "library-at-run-time",
         format!(
             "{name} is loaded while the program runs: its data are taken to be those of the \

@@ -5,7 +5,8 @@ use super::data::{Datum, Element, Father, Kind};
 use super::project::{Declared, World};
 use super::reader::Reader;
 use super::remarks::{
-    altered, computed, finding, frame_chosen, not_in_files, not_taught, other_arm, some_not_taught,
+    ALTERED, COMPUTED, FRAME_CHOSEN, joints_not_taught, not_in_files, not_taught, other_arm,
+    some_not_taught,
 };
 use crate::geometry::Pose;
 use crate::program::script::{
@@ -13,9 +14,10 @@ use crate::program::script::{
     short,
 };
 use crate::program::words::{Words, six};
-use crate::program::{Displacement, Layout, Number, Shape, Shift, Source, Target, TargetId};
+use crate::program::{Layout, Number, Shape, Shift, Source, Target, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// What a name is: its values are the entries of a table.
 #[derive(Clone, Copy, Debug)]
@@ -81,14 +83,12 @@ const DEEPEST: u32 = 32;
 impl<'a> Variables<'a> {
     pub(super) fn of(builder: &mut Builder, world: &World<'a>) -> Self {
         let script = &mut builder.script;
-        let remark = script.remark(altered());
+        let remark = script.remark(ALTERED);
         let altered = script.held(Held::Remark(remark));
-        let nowhere = Place { file: 0, offset: 0 };
-        let altered = script.variable(Variable::new("alter", nowhere, altered));
-        script.guards.push([altered].into());
+        let altered = script.variable(Variable::new("alter", Place::NOWHERE, altered));
         let mut variables = Self {
             honoured: script.value(Held::Flag(true)),
-            altered: short(script.guards.len() - 1),
+            altered: script.guard([altered]),
             ..Self::default()
         };
         let mut known = HashMap::default();
@@ -148,17 +148,14 @@ fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId
     let variant = (0..3).filter(|_| is_point).map(|side| {
         u8::from(element.sides[side].is_some()) << side | u8::from(element.free[side]) << (3 + side)
     });
+    let layout = Layout {
+        shape: if is_point { Shape::Pose } else { Shape::Joints },
+        variant: variant.sum(),
+    };
+    let place = Place::new(datum.file, element.at);
     let target = Target {
         name: Some(datum.name_of(at).into()),
-        file: datum.file,
-        offset: element.at,
-        end: element.end,
-        layout: Layout {
-            shape: if is_point { Shape::Pose } else { Shape::Joints },
-            variant: variant.sum(),
-        },
-        numbers: 0..0,
-        blocked: false,
+        ..Target::new(place, element.end, layout)
     };
     let numbers = element.numbers.iter().chain(sides.flatten());
     Some(builder.script.target(target, numbers.copied()))
@@ -244,10 +241,7 @@ impl<'a> Reader<'a> {
             Of::Project(datum) => self.declared(datum, value.map(|(_, at)| at), key),
             Of::Program(routine) => {
                 let program = &self.world.programs[routine as usize];
-                let place = Place {
-                    file: program.file,
-                    offset: program.at,
-                };
+                let place = Place::new(program.file, program.at);
                 let script = &mut self.builder.script;
                 let name = script.tables[known.table as usize].name.clone();
                 let declared = script.unknown(unknown_value(known.kind));
@@ -278,16 +272,14 @@ impl<'a> Reader<'a> {
             Some(at) => of.name_of(at).into(),
             None => format!("{}[{}]", Source::text(of.name), Source::text(key)).into(),
         });
-        let place = Place {
-            file: of.file,
-            offset: of.at,
-        };
+        let place = Place::new(of.file, of.at);
         let declared = match (of.kind, at) {
             (Kind::Tool, Some(at)) => self.tool_value(datum, at, &name),
             (Kind::Tool, None) => self.frame_value(&name, None),
             (Kind::OtherArm, _) => self.unknown(other_arm(&name)),
             _ => match target {
                 Some(target) => Expr::Target(target),
+                None if of.kind == Kind::Joint => self.unknown(joints_not_taught(&name)),
                 None => self.unknown(not_taught(&name)),
             },
         };
@@ -394,9 +386,8 @@ impl<'a> Reader<'a> {
         let of = &self.world.data[datum as usize];
         let first = &script.variables[*first as usize].name;
         let remark = some_not_taught(&Source::text(of.name), first);
-        let source = &self.sources[of.file as usize];
-        let finding = finding(remark, source, of.at);
-        self.builder.script.findings.push(finding);
+        let place = Place::new(of.file, of.at);
+        self.builder.script.say(self.sources, place, remark);
         taught
     }
 
@@ -432,19 +423,19 @@ impl<'a> Reader<'a> {
                     in_frame: Pose::identity(),
                     in_tool,
                 });
-                self.displaced(base, by)
+                self.builder.script.shifted(base, by)
             }
             (b"compose", Some([point, frame, by])) => {
                 let base = self.position_within(*point, depth + 1);
                 let by = self.transformation(*by);
                 match by.and_then(|by| self.compose(base, *frame, by)) {
                     Some(by) => self.builder.script.displaced(base, by),
-                    None => self.displaced(base, None),
+                    None => self.builder.script.shifted(base, None),
                 }
             }
             _ => match Reference::whole(words) {
                 Some(name) => self.named(&name),
-                None => self.unknown(computed()),
+                None => self.unknown(COMPUTED),
             },
         }
     }
@@ -453,26 +444,9 @@ impl<'a> Reader<'a> {
     pub(super) fn joints(&mut self, words: Words<'a, '_>) -> Option<Expr> {
         let parts = words.rest_list(0).filter(|_| words.is(0, b'{'))?;
         let numbers = six(&parts)?;
-        let target = Target {
-            name: None,
-            file: self.here.file,
-            offset: short(words.span().start),
-            end: short(words.span().end),
-            layout: Layout {
-                shape: Shape::Joints,
-                variant: 0,
-            },
-            numbers: 0..0,
-            blocked: false,
-        };
+        let Range { start, end } = words.span();
+        let target = Target::new(self.place(start), short(end), Layout::of(Shape::Joints));
         Some(Expr::Target(self.builder.script.target(target, numbers)))
-    }
-
-    fn displaced(&mut self, base: Expr, by: Option<Shift>) -> Expr {
-        let script = &mut self.builder.script;
-        let by = by.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
-        let by = script.displacement(by);
-        script.displaced(base, by)
     }
 
     /// A transformation with numbers: written out, or a `trsf` that nothing changes.
@@ -490,7 +464,7 @@ impl<'a> Reader<'a> {
 /// Why nobody knows what a program's own name holds.
 fn unknown_value(kind: Kind) -> Remark {
     match kind {
-        Kind::Tool => frame_chosen(),
-        _ => computed(),
+        Kind::Tool => FRAME_CHOSEN,
+        _ => COMPUTED,
     }
 }

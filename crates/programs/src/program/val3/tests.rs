@@ -4,7 +4,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::geometry::units::DEG;
-use crate::program::{Displacement, Motion, Move, Shift, Stride, Value};
+use crate::program::{Displacement, Motion, Move, Program, Shift, Stride, Value};
 
 mod arrays;
 mod projects;
@@ -333,6 +333,7 @@ fn what_the_running_program_changes_is_refused_or_reported() {
             "key=\"1\" x=\"2\" fatherId=\"fA[0]\"",
         ],
     ) + &data("pNo", "pointRx", &["key=\"0\" fatherId=\"fA[0]\""])
+        + &data("jNo", "jointRx", &[])
         + &data("pRs", "pointRs", &["key=\"0\" x=\"1\""]);
     for (code, expected) in [
         ("fA.trsf.z=nZ\nmovel(pA,tA,m)", "frame-assigned-at-run-time"),
@@ -352,6 +353,7 @@ fn what_the_running_program_changes_is_refused_or_reported() {
         ("movel(l_p,tA,m)", "target-not-in-files"),
         ("movel(lib:pA,tA,m)", "target-not-in-files"),
         ("movel(pNo,tA,m)", "target-uninitialised"),
+        ("movej(jNo,tA,m)", "joint-target-not-in-files"),
         ("movel(pRs,tA,m)", "target-not-six-axes"),
         ("lib:libLoad(sName)\nmovel(pA,tA,m)", "library-at-run-time"),
         (

@@ -1,7 +1,7 @@
 //! Moves between those of a program.
 
 use super::*;
-use crate::program::Between;
+use crate::program::{Between, Insertion};
 
 fn numbers(first: &str) -> Vec<Vec<u8>> {
     [first, "2", "3", "4", "5", "6"]
@@ -21,7 +21,12 @@ fn with(code: &str, motion: usize, between: Vec<Between>) -> Option<String> {
         between,
         own: None,
     };
-    let mut inserted = Kawasaki.insert(&sources, &program, 0, &[insertion]);
+    let mut inserted = Kawasaki.insert(&Insertions {
+        sources: &sources,
+        program: &program,
+        file: 0,
+        list: &[insertion],
+    });
     let mut changes = inserted.moves.pop().expect("one move")?;
     changes.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
     let mut bytes = text.into_bytes();

@@ -1,4 +1,4 @@
-//! Elements of a project's files, one after another, with the bytes where they stand.
+//! Elements of XML files, one after another, with the bytes where they stand.
 
 use crate::program::kit::{Fault, content_start};
 use crate::program::{Number, number};
@@ -100,7 +100,7 @@ pub(super) struct Nodes<'a> {
     depth: usize,
 }
 
-/// Elements in each other: a project has six.
+/// Elements in each other: files of programs have six.
 const DEEPEST: usize = 64;
 
 impl<'a> Nodes<'a> {
