@@ -187,14 +187,14 @@ def needed(report):
     return {"findings": report["findings"], "targets": [{k: t[k] for k in keys if k in t} for t in targets]}
 
 
-def judge(run, path):
-    """What a run says of one file."""
+def judge(run, path, parts=()):
+    """What a run says of one file; `parts` hold statements of the same program."""
     status, report, error, given = run
     if report is None:
         line = re.sub(r"`[^`]*`|/\S+|\d[\d.]*", "…", error.strip().split("\n")[0])
         return {"through": False, "targets": 0, "corrected": 0, "good": 0, "causes": {line[:100]: 1}, "given": given}
     errors = [f for f in report["findings"] if f["severity"] == "error"]
-    own = [f for f in errors if f.get("file") in (None, path)]
+    own = [f for f in errors if f.get("file") in (None, path, *parts)]
     wrong = {f["id"] for f in errors}
     # targets that a move goes to: with an answer, or with what speaks against one
     used = good = corrected = 0
@@ -227,8 +227,9 @@ def measure(runs, profiles, language, folder, name):
         own = [os.path.join(folder, n) for n in all_names if os.path.splitext(n)[0].lower() == stem]
     together = [os.path.join(folder, n) for n in all_names]
     # points of VAL 3 are nothing without the programs given them; each URScript is a whole program
+    parts = []
     if language == "val3":
-        own = together
+        parts = own = together
     sets = [own] if language == "urscript" or len(together) == len(own) else [own, together]
     starts = [None, STARTS[language]] if runs.takes_start else [None]
     best = None
@@ -243,7 +244,7 @@ def measure(runs, profiles, language, folder, name):
                             if axes and not EXTERNAL.search(" ".join(best["causes"])) and not best["axes"]:
                                 break
                             arm = runs.with_axes(profile, axes) if axes else profile
-                            found = judge(runs.run(language, files, arm, reach, place, start), path)
+                            found = judge(runs.run(language, files, arm, reach, place, start), path, parts)
                             found.update(arm=os.path.basename(profile)[:-5], axes=axes, scale=scale, files=len(files))
                             rank = (found["through"], found["good"], -sum(found["causes"].values()))
                             if best is None or rank > best["rank"]:

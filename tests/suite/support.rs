@@ -193,12 +193,15 @@ pub fn sources() -> Vec<(PathBuf, String)> {
     folders.push(repository("src"));
     folders.sort();
     let of_folder = |folder: PathBuf| {
+        // a crate that is one module has no folder of its name
+        let is_module = folder.ends_with("profile/src");
+        let module = PathBuf::from(if is_module { "profile" } else { "" });
         files_below(&folder)
             .into_iter()
             .filter(|file| file.extension().is_some_and(|ending| ending == "rs"))
             .map(move |file| {
                 let text = std::fs::read_to_string(folder.join(&file)).expect("source");
-                (file, text)
+                (module.join(file), text)
             })
     };
     folders.into_iter().flat_map(of_folder).collect()

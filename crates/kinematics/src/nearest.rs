@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_is_told_from_another_name() {
+    fn a_slip_of_the_keys_is_no_other_name() {
         let known = ["temperature_c", "time_s", "sigma_mm", "move1_deg", "dir1"];
         let cases = [
             ("tempreature_c", Some("temperature_c")),

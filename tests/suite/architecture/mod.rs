@@ -12,12 +12,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("nearest", &[]),
     ("model", &["geometry", "nearest", "printable"]),
     ("inverse", &["geometry", "model"]),
+    // and its own, in what its macro writes elsewhere
+    (
+        "profile",
+        &["file", "geometry", "model", "nearest", "printable", "shape"],
+    ),
     (
         "identify",
-        &["geometry", "inverse", "model", "nearest", "register"],
+        &[
+            "geometry", "inverse", "model", "nearest", "profile", "register",
+        ],
     ),
-    ("register", &["geometry", "inverse", "model", "printable"]),
-    ("diagnose", &["geometry", "identify", "model"]),
+    (
+        "register",
+        &["geometry", "inverse", "model", "printable", "profile"],
+    ),
+    ("diagnose", &["geometry", "identify", "model", "profile"]),
     ("program", &["geometry", "finding"]),
     (
         "motion",
@@ -28,13 +38,14 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "nearest",
             "printable",
+            "profile",
             "program",
         ],
     ),
     (
         "compensate",
         &[
-            "finding", "geometry", "inverse", "model", "motion", "program",
+            "finding", "geometry", "inverse", "model", "motion", "profile", "program",
         ],
     ),
     ("xml", &[]),
@@ -48,6 +59,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "inverse",
             "model",
             "motion",
+            "profile",
             "program",
             "xml",
         ],

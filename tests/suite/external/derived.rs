@@ -5,7 +5,6 @@
 //! and has no other error: at a value e along x everything lands (e − 1000)/1000 farther along x, so
 //! the correction of a target is that by hand.
 
-use super::checked::tooldata;
 use super::{errors, profile, profile_text, rapid, run, written};
 use crate::support::{poseshift, scratch};
 
@@ -182,7 +181,8 @@ fn where_external_axes_stand_at_the_start_tells_from_which_side_they_come() {
         &rail("eax_a"),
         &["{effect: track_backlash, axis: 1, width_mm: 0.2}"],
     );
-    let data = format!("{POINT}\n{}", tooldata());
+    let tool = "PERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[2,[10,0,60],[1,0,0,0],0,0,0]];";
+    let data = format!("{POINT}\n{tool}");
     let [program, profile] = ["t.mod", "p.yaml"].map(|name| folder.path().join(name));
     std::fs::write(&program, rapid(&data, "MoveJ p1,v100,fine,t;\n")).expect("scratch");
     std::fs::write(&profile, robot).expect("scratch");

@@ -472,7 +472,7 @@ fn a_part_that_is_written_of_data_that_the_files_do_not_declare_is_not_left_out(
     // a routine that is not in the files may write what it is given
     assert_eq!(
         run("setw w1;", "", "tool0\\WObj:=w1"),
-        ["frame-passed-to-routine"]
+        ["frame-chosen-at-run-time"]
     );
     // what is written as a whole is known
     let whole = "w1 := [FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[5,0,0],[1,0,0,0]]];";

@@ -164,9 +164,9 @@ pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), Gi
     let asked = tool_names
         .map(|name| ("--tool", "tool", name, &tools))
         .chain(frame_names.map(|name| ("--frame", "work frame", name, &frames)));
-    // moves whose tool or frame the running program changes are refused, and do not name it
+    // moves whose tool or frame only the running program knows are refused, and do not name it
     let mut findings = programs.iter().flat_map(|program| &program.findings);
-    let is_changed = findings.any(|finding| finding.id == "frame-assigned-at-run-time");
+    let is_changed = findings.any(|f| f.severity == Severity::Error && f.id.starts_with("frame-"));
     for (option, what, name, known) in asked {
         let name = name.clone();
         let mut of_name = known.iter().filter(|(of, _)| *of == name).peekable();

@@ -289,6 +289,7 @@ impl Translator<'_> {
                     && self
                         .resolved
                         .kind(name, self.context)
+                        .or_else(|| self.wanted.get(&name).copied())
                         .is_some_and(Type::is_frame) =>
                 {
                     Some(self.frame(name, self.resolved.parsed.index(index)))

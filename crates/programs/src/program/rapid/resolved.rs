@@ -500,8 +500,9 @@ impl<'a> Resolved<'a> {
                 .iter()
                 .filter_map(|argument| self.place_of(&argument.expression));
             places.extend(own.filter(|(name, _)| {
+                // of what the files do not declare, the moves say later what it is
                 self.kind(*name, given.context)
-                    .is_some_and(|kind| kind.is_target() || kind.is_frame())
+                    .is_none_or(|kind| kind.is_target() || kind.is_frame())
             }));
         }
         let mut changed = false;
