@@ -277,11 +277,9 @@ impl One {
                 seen.len() - 1
             })
         });
-        let stops: Vec<usize> = stops.collect();
         Self {
-            // reflectors that are measured at one stop share what moves the plate there
-            layout: Layout::of(&problem).by_configuration(&stops),
-            stops,
+            stops: stops.collect(),
+            layout: Layout::of(&problem),
             problem,
             estimate,
             residual,
