@@ -12,8 +12,10 @@ pub(super) const UNFOLLOWED: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark =
-    kit::computed("move to a name of .TRANS or .JOINTS where it must be exact");
+pub(super) const COMPUTED: Remark = kit::computed(
+    "computed-target",
+    "move to a name of .TRANS or .JOINTS where it must be exact",
+);
 
 /// A target without all numbers.
 pub(super) const PARTIAL: Remark = Remark::error(
@@ -78,7 +80,11 @@ pub(super) const SAVED: Remark = Remark::warning(
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
-    kit::not_in_files(name, "give the file with its .TRANS or .JOINTS too")
+    kit::not_in_files(
+        "target-not-in-files",
+        name,
+        "give the file with its .TRANS or .JOINTS too",
+    )
 }
 
 /// A target whose numbers a statement adds to those of others.

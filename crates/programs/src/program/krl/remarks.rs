@@ -52,8 +52,10 @@ pub(super) const ACCURATE: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark =
-    kit::computed("write the position with numbers where it must be exact");
+pub(super) const COMPUTED: Remark = kit::computed(
+    "computed-target",
+    "write the position with numbers where it must be exact",
+);
 
 /// Against a position whose external axis the program writes.
 pub(super) fn external_written(axis: &str) -> Remark {
