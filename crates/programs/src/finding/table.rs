@@ -145,7 +145,7 @@ pub const TABLE: &[Kind] = &[
     row("joint-limit", Error, "a joint leaves its range", "move the target, or take another configuration", &["compensate", "check"], &[]).never_accepted(),
     row("joint-never-moved", Warning, "a joint stands still: its parameters cannot be separated from those of its neighbours", "measure configurations in which every joint moves", &["calibrate", "validate", "diagnose"], &[]),
     row("joint-speed", Warning, "a joint would have to run faster than it can", "the controller will slow down: give the move more time", &["check"], &[]),
-    row("joint-target-not-in-files", Note, "a move goes to axes without a value in the files, such as XHOME", "give the file that declares them, if they matter", &["compensate", "check"], &[]),
+    row("joint-target-not-in-files", Note, "a move goes to axes without a value in the files, such as XHOME", "give the file that declares them, if they matter", &["compensate", "check"], &["rapid", "krl", "val3", "kawasaki"]),
     row("joint-target-stays", Error, "a joint target stays where it is while --work-offset moves the part; a warning of joint moves", "--joint-targets correct moves it with the part, or give the target as a pose", &["compensate"], &[]),
     row("keep-out", Warning, "a move of the program goes into a --keep-out-mm", "drive it by hand, over a pose between, or leave the configuration out", &["plan"], &[]),
     row("large-turn", Note, "a joint rotates by more than half a revolution in one move", "cables and hoses rotate along: look at them", &["check"], &[]),

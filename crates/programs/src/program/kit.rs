@@ -172,36 +172,42 @@ pub(super) fn comments(source: &Source, marker: &Marker, sign: &str) -> Vec<u8> 
 }
 
 /// A position that only the running program knows.
-pub(super) const fn computed(hint: &'static str) -> Remark {
+pub(super) const fn computed(id: &'static str, hint: &'static str) -> Remark {
     Remark::warning(
-        "computed-target",
+        id,
         "the position that this move goes to is known at run time only; the move stays as it is",
         hint,
     )
 }
 
 /// A target that the files do not have.
-pub(super) fn not_in_files(name: &str, hint: &'static str) -> Remark {
+pub(super) fn not_in_files(id: &'static str, name: &str, hint: &'static str) -> Remark {
     Remark::error_about(
-        "target-not-in-files",
+        id,
         format!("{name} is not declared in the files; this move is not compensated"),
         hint,
     )
 }
 
 /// Joints that the files do not have: a move to them needs no correction.
-pub(super) fn joints_not_in_files(name: &str, hint: &'static str) -> Remark {
+pub(super) fn joints_not_in_files(id: &'static str, name: &str, hint: &'static str) -> Remark {
     Remark::note_about(
-        "joint-target-not-in-files",
+        id,
         format!("{name} has no value in the files; as a joint target it stays"),
         hint,
     )
 }
 
 /// A tool or work frame with an angle that none has.
-pub(super) fn angle_too_large(name: &str, angle: f64, limit: f64, hint: &'static str) -> Remark {
+pub(super) fn angle_too_large(
+    id: &'static str,
+    name: &str,
+    angle: f64,
+    limit: f64,
+    hint: &'static str,
+) -> Remark {
     Remark::error_about(
-        "angle-too-large",
+        id,
         format!("`{name}` has an angle of {angle} deg; the limit is {limit} deg"),
         hint,
     )

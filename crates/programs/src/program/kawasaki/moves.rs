@@ -37,13 +37,7 @@ pub(super) enum Verb {
 impl Verb {
     /// The move that a statement is.
     pub(super) fn of(statement: &Statement) -> Option<Self> {
-        const STEPS: &[(&[u8], Motion)] = &[
-            (b"JOINT", Motion::Joint),
-            (b"LINEAR", Motion::Linear),
-            (b"LIN2", Motion::Linear),
-            (b"CIR1", Motion::ArcVia),
-            (b"CIR2", Motion::ArcEnd),
-        ];
+        let step = |motion| step_target(statement.words).map(|_| Self::Step(motion));
         Some(match statement.keyword {
             "JMove" => Self::To(Motion::Joint, false),
             "LMove" => Self::To(Motion::Linear, false),
@@ -59,11 +53,11 @@ impl Verb {
             "Xmove" => Self::Search,
             "" if is_other(statement.words) => Self::Other,
             "DRIve" | "ALign" | "HOme" => Self::Elsewhere,
-            _ => {
-                let words = statement.words;
-                let step = STEPS.iter().find(|(word, _)| words.is_word(0, word))?;
-                step_target(words).map(|_| Self::Step(step.1))?
-            }
+            "JOINT" => step(Motion::Joint)?,
+            "LINEAR" | "LIN2" => step(Motion::Linear)?,
+            "CIR1" => step(Motion::ArcVia)?,
+            "CIR2" => step(Motion::ArcEnd)?,
+            _ => return None,
         })
     }
 }

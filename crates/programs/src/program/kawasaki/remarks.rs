@@ -12,8 +12,10 @@ pub(super) const UNFOLLOWED: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark =
-    kit::computed("move to a name of .TRANS or .JOINTS where it must be exact");
+pub(super) const COMPUTED: Remark = kit::computed(
+    "computed-target",
+    "move to a name of .TRANS or .JOINTS where it must be exact",
+);
 
 /// A target without all numbers.
 pub(super) const PARTIAL: Remark = Remark::error(
@@ -88,9 +90,9 @@ pub(super) const SAVED: Remark = Remark::warning(
 pub(super) fn not_in_files(name: &str) -> Remark {
     let hint = "give the file with its .TRANS or .JOINTS too";
     if name.contains('#') {
-        kit::joints_not_in_files(name, hint)
+        kit::joints_not_in_files("joint-target-not-in-files", name, hint)
     } else {
-        kit::not_in_files(name, hint)
+        kit::not_in_files("target-not-in-files", name, hint)
     }
 }
 

@@ -361,7 +361,13 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
     }
     if let Some(angle) = numbers[3..6].iter().find(|angle| angle.abs() > MOST_ANGLE) {
         let hint = "A, B and C are in degrees: write them between -360 and 360";
-        return Err(kit::angle_too_large(name, *angle, MOST_ANGLE, hint));
+        return Err(kit::angle_too_large(
+            "angle-too-large",
+            name,
+            *angle,
+            MOST_ANGLE,
+            hint,
+        ));
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;
     Ok(NamedFrame {

@@ -52,8 +52,10 @@ pub(super) const ACCURATE: Remark = Remark::error(
 );
 
 /// A position that only the running program knows.
-pub(super) const COMPUTED: Remark =
-    kit::computed("write the position with numbers where it must be exact");
+pub(super) const COMPUTED: Remark = kit::computed(
+    "computed-target",
+    "write the position with numbers where it must be exact",
+);
 
 /// Against a position whose external axis the program writes.
 pub(super) fn external_written(axis: &str) -> Remark {
@@ -78,6 +80,7 @@ pub(super) const COPIED: Remark = Remark::error(
 /// A joint target without numbers in the files.
 pub(super) fn home(name: &str) -> Remark {
     kit::joints_not_in_files(
+        "joint-target-not-in-files",
         name,
         "give the $config.dat that declares it, too, to see it checked",
     )

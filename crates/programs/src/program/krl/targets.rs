@@ -263,6 +263,7 @@ impl Reader {
             home(spelled)
         } else {
             kit::not_in_files(
+                "target-not-in-files",
                 spelled,
                 "give the .dat file or the $config.dat that declares it, too",
             )

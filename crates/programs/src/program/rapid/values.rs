@@ -44,7 +44,11 @@ impl Translator<'_> {
 
     /// A position that only the running program knows.
     pub(super) fn computed(&mut self) -> Expr {
-        Expr::Unknown(self.builder.script.remark(kit::computed(AT_RUN_TIME)))
+        Expr::Unknown(
+            self.builder
+                .script
+                .remark(kit::computed("computed-target", AT_RUN_TIME)),
+        )
     }
 
     pub(super) fn computed_name(&mut self, name: Symbol) -> Expr {

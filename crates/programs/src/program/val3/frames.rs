@@ -240,7 +240,13 @@ fn own_pose(element: &Element, name: &str) -> Result<Pose, Remark> {
         None => Ok(pose_of(&element.numbers)),
         Some(angle) => {
             let hint = "rx, ry and rz are in degrees: write them between -360 and 360";
-            Err(kit::angle_too_large(name, angle, MOST_ANGLE, hint))
+            Err(kit::angle_too_large(
+                "angle-too-large",
+                name,
+                angle,
+                MOST_ANGLE,
+                hint,
+            ))
         }
     }
 }

@@ -6,14 +6,17 @@ use crate::program::script::Remark;
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
     kit::not_in_files(
+        "target-not-in-files",
         name,
         "give the whole project with its .dtx, and the libraries that it loads",
     )
 }
 
 /// A target that only the running program knows.
-pub(super) const COMPUTED: Remark =
-    kit::computed("move to a point of the .dtx where it must be exact");
+pub(super) const COMPUTED: Remark = kit::computed(
+    "computed-target",
+    "move to a point of the .dtx where it must be exact",
+);
 
 /// Against an array that a program is given.
 pub(super) const UNFOLLOWED: Remark = Remark::error(
@@ -35,7 +38,11 @@ pub(super) fn not_taught(name: &str) -> Remark {
 
 /// Declared joints without numbers.
 pub(super) fn joints_not_taught(name: &str) -> Remark {
-    kit::joints_not_in_files(name, "teach the joints, to see the move checked")
+    kit::joints_not_in_files(
+        "joint-target-not-in-files",
+        name,
+        "teach the joints, to see the move checked",
+    )
 }
 
 /// Points without numbers among others that only the running program chooses from.
