@@ -23,6 +23,7 @@
 
 pub mod csv;
 mod displacement;
+mod displacing;
 mod drive;
 mod edit;
 mod error;
@@ -38,6 +39,8 @@ mod marker;
 mod names;
 mod notation;
 pub mod number;
+mod numbers;
+mod quantity;
 pub mod rapid;
 pub mod script;
 mod source;
@@ -46,6 +49,7 @@ pub mod val3;
 mod words;
 
 pub use displacement::{Displacement, Shift, Stride};
+pub(crate) use displacing::SOMEHOW_M;
 pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;
