@@ -2,6 +2,7 @@
 
 use super::universal_robots::{UrError, link_geometry};
 use super::*;
+use crate::model::RowsError;
 
 const UR5: &str = include_str!("../../../robots/universal_robots_ur5.yaml");
 const CONF: &str = include_str!("../../../tests/data/ur_calibration/ur5_usual.calibration.conf");
@@ -139,12 +140,12 @@ fn what_is_no_calibration_of_this_arm_is_reported() {
     let moved = CONF.replacen(", 0]", ", 0.001]", 1);
     assert!(matches!(
         refusal(&moved),
-        UrError::Rows(crate::model::RowsError::Flange { .. })
+        UrError::Rows(RowsError::Flange { .. })
     ));
     let far = CONF.replace("439.846", "439.946");
     assert!(matches!(
         refusal(&far),
-        UrError::Rows(crate::model::RowsError::TooDifferent { .. })
+        UrError::Rows(RowsError::TooDifferent { .. })
     ));
     assert!(matches!(
         refusal("kinematics:\n  shoulder: {x: 0}\n"),

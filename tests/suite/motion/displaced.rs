@@ -135,3 +135,152 @@ fn growth_is_bounded_in_every_language() {
         assert_eq!(errors(&done), ["displacement-unknown"], "{}", files[0].0);
     }
 }
+
+/// How far off points land whose displacement the text tells, millimetres.
+fn told(done: &Compensation) -> Vec<f64> {
+    let found = done.findings.iter().filter(|f| f.id == "displaced-target");
+    found.map(|f| miss_mm(&f.message)).collect()
+}
+
+fn of_rapid(data: &str, body: &str) -> Compensation {
+    let text = program(body).replace("VAR num n;", &format!("VAR num n;\n{data}"));
+    done(&[PLAIN], &[("t.mod", &text)])
+}
+
+#[test]
+fn a_number_with_one_value_counts_as_that() {
+    let go = |by: &str| format!("MoveL Offs(p,{by}),v100,fine,tool0;");
+    let row =
+        |data: &str, by: &str| of_rapid(data, &format!("FOR i FROM 0 TO 9 DO\n{}\nENDFOR", go(by)));
+    let literal = row("", "0,-i*20,0");
+    assert_eq!(unknown(&literal).len(), 1, "{:?}", literal.findings);
+    assert_eq!(errors(&literal), ["displacement-unknown"]);
+    for data in [
+        "CONST num pitch:=20;",
+        "VAR num pitch:=20;",
+        "CONST num half:=10;\nCONST num pitch:=2*half;",
+    ] {
+        let named = row(data, "0,-i*pitch,0");
+        assert_eq!(unknown(&named), unknown(&literal), "{data}");
+        assert_eq!(errors(&named), ["displacement-unknown"], "{data}");
+    }
+    let numbers = "CONST num offPick:=90;\nCONST num n1:=2;";
+    let (one, other) = (
+        of_rapid(numbers, &go("0,-(offPick*n1+20),0")),
+        of_rapid("", &go("0,-200,0")),
+    );
+    assert_eq!(told(&one), told(&other));
+    assert_eq!(told(&one).len(), 1);
+}
+
+#[test]
+fn a_number_that_adds_up_displaces_as_a_copy_does_that_is_displaced_again_and_again() {
+    let copy = of_rapid(
+        "",
+        "q:=p;\nWHILE DInput(di1)=1 DO\nMoveL q,v100,fine,tool0;\nq:=Offs(q,0,-40,0);\nENDWHILE",
+    );
+    assert_eq!(errors(&copy), ["displacement-unknown"]);
+    let number = "VAR num e:=0;";
+    let go = "MoveL Offs(p,0,-e,0),v100,fine,tool0;";
+    for add in ["e:=e+40;", "Add e,40;", "e:=40+e;"] {
+        let body = format!("e:=0;\nWHILE DInput(di1)=1 DO\n{go}\n{add}\nENDWHILE");
+        let number = of_rapid(number, &body);
+        assert_eq!(errors(&number), ["displacement-unknown"], "{add}");
+        let (number, copy) = (unknown(&number)[0], unknown(&copy));
+        let copy = copy.into_iter().fold(0.0, f64::max);
+        assert!((number - copy).abs() < 0.0015, "{add}: {number}, {copy}");
+    }
+    // as often as the text counts
+    let counted = format!("e:=0;\nFOR i FROM 1 TO 5 DO\n{go}\ne:=e+40;\nENDFOR");
+    let counted = of_rapid(number, &counted);
+    let explicit = of_rapid(
+        "",
+        "FOR i FROM 0 TO 5 DO\nMoveL Offs(p,0,-i*40,0),v100,fine,tool0;\nENDFOR",
+    );
+    assert_eq!(unknown(&counted), unknown(&explicit));
+    // by what only the running program knows: nothing bounds it
+    let camera = format!("WHILE DInput(di1)=1 DO\n{go}\ne:=e+AInput(ai1);\nENDWHILE");
+    let camera = of_rapid(number, &camera);
+    assert!(message(&camera, "displacement-unknown").contains("nothing bounds"));
+    assert_eq!(errors(&camera), ["displacement-unknown"]);
+    // what is read from elsewhere is no number of the text
+    let read = of_rapid(number, &format!("TPReadNum e,\"e\";\n{go}"));
+    assert_eq!(errors(&read), [""; 0]);
+    assert!(message(&read, "displacement-unknown").contains("up to 5 mm"));
+}
+
+#[test]
+fn numbers_of_the_text_are_the_least_that_a_displacement_is() {
+    let go = |by: &str| format!("MoveL Offs(p,0,{by},0),v100,fine,tool0;");
+    let most = |of: &[f64]| of.iter().copied().fold(0.0, f64::max);
+    let explicit = |mm: f64| {
+        let both = format!("{}\n{}", go(&mm.to_string()), go(&(-mm).to_string()));
+        most(&told(&of_rapid("", &both)))
+    };
+    for (by, mm) in [("-n*200", 200.0), ("n*150+50", 200.0), ("(n-1)*100", 200.0)] {
+        let found = of_rapid("", &format!("n:=AInput(ai1);\n{}", go(by)));
+        let said = most(&unknown(&found));
+        assert!(
+            said > explicit(mm) - 0.0015,
+            "{by}: {said}, {}",
+            explicit(mm)
+        );
+        assert_eq!(errors(&found), ["displacement-unknown"], "{by}");
+        assert!(message(&found, "displacement-unknown").contains("with 1 for each factor"));
+    }
+    let small = of_rapid("", &format!("n:=AInput(ai1);\n{}", go("n*2")));
+    assert!(message(&small, "displacement-unknown").contains("up to 5 mm"));
+}
+
+/// What is said of a program of another language.
+fn of_language(robot: &str, files: &[(&str, &str)]) -> Compensation {
+    let effect = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
+    let sources = files.iter();
+    let sources = sources.map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()));
+    let sources: Vec<Source> = sources.collect();
+    let language = language_of(&sources[0]).expect("a language");
+    compensate(language, &sources, &profile_of(robot, &[effect]), &given()).expect("read")
+}
+
+#[test]
+fn numbers_of_other_languages_count_too() {
+    let script = |body: &str| {
+        let text = format!(
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  w = p[0.43,0.1,0.3,0.0,3.14159,0.0]\n  \
+             movej([0,-1.2,1.5,-1.8,-1.5,0])\n  movel(w)\n{body}end\n"
+        );
+        of_language("robots/universal_robots_ur5.yaml", &[("t.script", &text)])
+    };
+    let literal = script("  movel(pose_add(w, p[0,-0.2,0,0,0,0]))\n");
+    let named = script("  pitch = 0.04\n  movel(pose_add(w, p[0,-pitch*5,0,0,0,0]))\n");
+    assert_eq!(told(&literal).len(), 1);
+    assert_eq!(told(&named), told(&literal));
+    let grown = script(
+        "  e = 0\n  while True:\n    movel(pose_add(w, p[0,-e,0,0,0,0]))\n    e = e + 0.04\n  end\n",
+    );
+    assert_eq!(errors(&grown), ["displacement-unknown"]);
+
+    let kuka = |body: &str| {
+        let text = format!(
+            "DEF t()\nDECL INT i\nDECL E6POS q\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {{A1 0,A2 \
+             -90,A3 90,A4 0,A5 30,A6 0}}\nLIN XP\n{body}END\n"
+        );
+        let data =
+            "DEFDAT t\nDECL REAL PITCH=40\nDECL E6POS XP={X 500,Y 0,Z 600,A 0,B 90,C 0}\nENDDAT\n";
+        let files = [("t.src", text.as_str()), ("t.dat", data)];
+        of_language("robots/kuka_kr6_r900.yaml", &files)
+    };
+    let each = |k: i32| format!("q=XP\nq.Y=q.Y-{}\nLIN q\n", 40 * k);
+    let explicit = kuka(&(1..=9).map(each).collect::<String>());
+    let most = told(&explicit).into_iter().fold(0.0, f64::max);
+    assert!(most > 0.05, "{:?}", explicit.findings);
+    for by in ["i*40", "i*PITCH"] {
+        let counted = kuka(&format!(
+            "FOR i=0 TO 9\nq=XP\nq.Y=q.Y-{by}\nLIN q\nENDFOR\n"
+        ));
+        let said = unknown(&counted);
+        assert_eq!(said.len(), 1, "{by}: {:?}", counted.findings);
+        assert!((said[0] - most).abs() < 0.0015, "{by}: {said:?}, {most}");
+        assert_eq!(errors(&counted), ["displacement-unknown"], "{by}");
+    }
+}

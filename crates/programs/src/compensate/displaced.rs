@@ -5,11 +5,11 @@
 use super::approach::Approach;
 use super::{Job, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::{MM, mm_from_m};
+use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Separation, norm};
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
-use crate::program::{Displacement, Move, Shift};
+use crate::program::{Displacement, Move, SOMEHOW_M, Shift};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn is_displaced(motion: &Move) -> bool {
@@ -110,6 +110,19 @@ pub(super) fn check(
                 );
                 ("displacement-unknown", severity_of(most), message)
             }
+            Displacement::AtLeast(steps) => {
+                let reach_m = reach_m(job, approach);
+                let told = strides::places(steps, reach_m).into_iter();
+                let most = most_m(&mut told.chain(strides::along_each_axis(SOMEHOW_M)));
+                let message = format!(
+                    "a point derived from {name} at run time takes its correction along: the \
+                     numbers of the text alone, with 1 for each factor that only the running program \
+                     knows, lead it {}, and there it is {:.3} mm off (the limit is {limit_mm:.3} mm)",
+                    strides::in_words(steps),
+                    mm_from_m(most),
+                );
+                ("displacement-unknown", severity_of(most), message)
+            }
             Displacement::Accumulated => {
                 let message = format!(
                     "a copy of {name} is displaced again and again, by what only the running program \
@@ -194,9 +207,6 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
     };
     arrivals.iter().map(of).collect()
 }
-
-/// How far a sensor or a register usually displaces a point, metres.
-const SOMEHOW_M: f64 = 5.0 * MM;
 
 /// How far from its wanted pose a displaced use of a target lands whose numbers in the work frame
 /// are given; `None` where the controller does not reach it.

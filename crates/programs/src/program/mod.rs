@@ -23,6 +23,7 @@
 
 pub mod csv;
 mod displacement;
+mod displacing;
 mod drive;
 mod edit;
 mod error;
@@ -38,6 +39,8 @@ mod marker;
 mod names;
 mod notation;
 pub mod number;
+mod numbers;
+mod quantity;
 pub mod rapid;
 pub mod script;
 mod source;
@@ -47,6 +50,7 @@ mod words;
 mod xml;
 
 pub use displacement::{Displacement, Shift, Stride};
+pub(crate) use displacing::SOMEHOW_M;
 pub use drive::Step;
 pub use edit::Edits;
 pub use error::ReadError;

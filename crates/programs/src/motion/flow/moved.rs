@@ -133,8 +133,15 @@ impl Flow<'_> {
             _ => return ACCUMULATED,
         };
         let axes_of = |flow: &Self, id| match flow.displacement(id) {
-            Displacement::By(shift) if shift.in_tool == Pose::identity() => {
-                Some(shift.in_frame.translation.map(|part| part != 0.0))
+            Displacement::By(shift) => axes(shift),
+            Displacement::Within(of) | Displacement::AtLeast(of) => {
+                of.iter().try_fold([false; 3], |all, stride| match stride {
+                    Stride::By { shift, .. } => {
+                        let axes = axes(shift)?;
+                        Some([0, 1, 2].map(|axis| all[axis] || axes[axis]))
+                    }
+                    Stride::Turned(_) => None,
+                })
             }
             _ => None,
         };
@@ -202,10 +209,12 @@ impl Flow<'_> {
         let in_tool = |shift: &Shift| shift.in_tool != Pose::identity();
         let turns = |step: &&Added| match self.displacement(step.by) {
             Displacement::By(shift) => in_tool(shift),
-            Displacement::Within(of) => of.iter().any(|stride| match stride {
-                Stride::By { shift, .. } => in_tool(shift),
-                Stride::Turned(_) => true,
-            }),
+            Displacement::Within(of) | Displacement::AtLeast(of) => {
+                of.iter().any(|stride| match stride {
+                    Stride::By { shift, .. } => in_tool(shift),
+                    Stride::Turned(_) => true,
+                })
+            }
             _ => true,
         };
         // where the tool turns first is another place
@@ -235,6 +244,7 @@ impl Flow<'_> {
             Moved::Exactly(steps) | Moved::Within(steps) => steps,
         };
         let is_exact = matches!(moved, Moved::Exactly(_));
+        let mut is_least = false;
         let mut sum = Some(Shift::none()).filter(|_| is_exact);
         let mut strides = Vec::with_capacity(steps.len());
         for step in steps {
@@ -246,8 +256,10 @@ impl Flow<'_> {
                         most: (step.most != ENDLESS).then_some(step.most),
                     });
                 }
-                Displacement::Within(of) => {
+                Displacement::AtLeast(_) if step.most != 1 => return Displacement::Accumulated,
+                by @ (Displacement::Within(of) | Displacement::AtLeast(of)) => {
                     sum = None;
+                    is_least |= matches!(by, Displacement::AtLeast(_));
                     let once = step.most == 1;
                     strides.extend(of.iter().map(|stride| match stride {
                         Stride::Turned(_) if !once => Stride::Turned(None),
@@ -263,6 +275,7 @@ impl Flow<'_> {
         }
         match sum {
             Some(sum) => Displacement::By(Box::new(sum)),
+            None if is_least => Displacement::AtLeast(strides.into()),
             None => Displacement::Within(strides.into()),
         }
     }
@@ -328,6 +341,12 @@ impl Flow<'_> {
         }
         self.some_of(steps)
     }
+}
+
+/// Along which axes of the work frame a shift goes; `None` where it turns, or goes along the tool's.
+fn axes(shift: &Shift) -> Option<[bool; 3]> {
+    let is_along = shift.in_tool == Pose::identity() && shift.in_frame.rotation.angle() == 0.0;
+    is_along.then(|| shift.in_frame.translation.map(|part| part != 0.0))
 }
 
 fn once(by: DisplacementId, site: Site) -> Added {

@@ -29,6 +29,7 @@ mod frames;
 mod insert;
 mod moves;
 mod names;
+mod numbers;
 mod points;
 mod reader;
 mod remarks;

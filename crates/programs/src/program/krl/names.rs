@@ -156,6 +156,8 @@ pub(super) struct Names {
     pub touched: HashSet<Symbol>,
     /// Elements of arrays likewise.
     pub elements: BTreeSet<(Symbol, Index)>,
+    /// What is written into numbers.
+    pub known: super::numbers::Known,
     /// Names that choose tools, bases and loads.
     pub choosing: HashSet<Symbol>,
     /// Names that are given to routines: the name, the routine, which argument, and where.

@@ -150,8 +150,16 @@ impl Reader {
                     }
                 }
                 Line::EndData => self.in_data = None,
-                Line::Typed { kind, global, rest } => self.declared(kind, global, rest)?,
-                Line::Initial(name, rest) => self.initial(name, rest)?,
+                Line::Typed { kind, global, rest } => {
+                    self.declared(kind, global, rest)?;
+                    if matches!(kind, DataKind::Number | DataKind::Other) {
+                        self.numbers_declared(rest);
+                    }
+                }
+                Line::Initial(name, rest) => {
+                    self.number_initial(name, rest);
+                    self.initial(name, rest)?;
+                }
                 Line::Statement(first, rest) => {
                     if self.routine.is_none() {
                         self.add_routine(b"", short(start), false);
@@ -302,14 +310,16 @@ impl Reader {
             if token.kind != Kind::Name {
                 continue;
             }
+            let name = self.names.symbols.intern(cursor.text(token));
             let datum = Datum {
-                name: self.names.symbols.intern(cursor.text(token)),
+                name,
                 context,
                 kind: DataKind::Other,
                 place: self.place(token),
                 kept: false,
             };
             let datum = self.names.declare(datum, false);
+            self.lose_number(name);
             let mut by_reference = true;
             if cursor.take(b':') {
                 let manner = cursor.next();
@@ -332,6 +342,7 @@ impl Reader {
         };
         let name = self.names.symbols.intern(name);
         self.names.add_routine(name, head, global);
+        self.names.known.begin(self.routine.unwrap_or_default());
     }
 
     pub(super) fn context(&self) -> Context {

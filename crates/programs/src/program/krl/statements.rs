@@ -8,8 +8,9 @@ use super::reader::Reader;
 use super::remarks::{ASSIGNED, COMPUTED, external_written};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use crate::program::displacing::grown_by_any;
 use crate::program::names::Symbol;
-use crate::program::notation::{grown_by, mentions};
+use crate::program::notation::mentions;
 use crate::program::script::{Expr, Held, How, Written};
 use crate::program::{ExternalUse, Source, SpeedZone, number};
 
@@ -83,6 +84,7 @@ impl Reader {
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(first), &mut buffer);
         let next = cursor.blanks();
+        self.note_numbers(word, first, cursor);
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
             // WITH $BASE=BASE_DATA[n]
@@ -192,6 +194,7 @@ impl Reader {
                     let at = after.brackets().unwrap_or(None);
                     if matches!(after.blanks(), b',' | b')') {
                         let name = self.symbol(&cursor, token);
+                        self.lose_number(name);
                         self.touch(name, Index::of(at, &cursor));
                         cursor = after;
                     }
@@ -591,10 +594,9 @@ impl Reader {
         let names = [&b"X"[..], b"Y", b"Z", b"C", b"B", b"A"];
         let at = names.into_iter().position(is_named);
         if let Some(at) = at
-            && let Some((term, by)) = number::term_and_sum(value, number::parse)
-            && let Some(displacement) = grown_by(at, by)
+            && let Some((term, by)) = self.term_and_rest(value, &own, &letters)
+            && let Some(displacement) = grown_by_any(at, by)
         {
-            let term = letters(term);
             if term == own {
                 return self.builder.script.part_by(remark, displacement);
             }

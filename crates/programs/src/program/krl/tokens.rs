@@ -122,6 +122,11 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// Passes over the rest of the line, to its comment.
+    pub(super) fn skip_all(&mut self) {
+        while self.next().kind != Kind::End {}
+    }
+
     /// The next token; a comment ends the line.
     pub(super) fn next(&mut self) -> Token {
         let first = self.blanks();

@@ -178,73 +178,13 @@ impl Reader<'_> {
         Ok(Some(base))
     }
 
-    /// A number or a name, with signs before it.
+    /// A number, or an expression.
     fn amount(&mut self) -> Result<Amount, Fault> {
-        let (mark, mut sign) = (self.mark(), 1.0);
-        while let Kind::Sign(byte @ (b'-' | b'+')) = self.token.kind {
-            sign = if byte == b'-' { -sign } else { sign };
-            self.advance()?;
-        }
-        let token = self.token;
-        let amount = match token.kind {
-            Kind::Number => number::parse(self.text(token))
-                .map_or(Amount::Computed, |value| Amount::Number(sign * value)),
-            Kind::Name => {
-                let name = self.parsed.symbols.intern(self.text(token));
-                if self.loops.iter().any(|open| open.counter == Some(name)) {
-                    Amount::Computed
-                } else {
-                    Amount::Named(name, sign)
-                }
-            }
-            _ => Amount::Computed,
-        };
-        if amount != Amount::Computed {
-            self.advance()?;
-            if matches!(self.token.kind, Kind::Sign(b',' | b')' | b'\\')) {
-                return Ok(amount);
-            }
-        }
-        self.rewind(mark);
-        let start = self.token.start as usize;
+        let start = self.token.start;
         self.expression()?;
-        let text = &self.bytes[start..self.token.start as usize];
-        Ok(self.counted(text).unwrap_or(Amount::Computed))
-    }
-
-    /// `i*40`, `(i-1)*40`, `20-40*i` of a counter whose values the text tells.
-    fn counted(&mut self, text: &[u8]) -> Option<Amount> {
-        let (text, sign) = match text.trim_ascii().strip_prefix(b"-") {
-            Some(rest) if !rest.contains(&b'+') && !rest.contains(&b'-') => (rest, -1.0),
-            _ => (text, 1.0),
-        };
-        let (term, sum) = number::term_and_sum(text, number::parse)?;
-        let mut factors = term.splitn(2, |&b| b == b'*').map(<[u8]>::trim_ascii);
-        let (a, b) = (factors.next()?, factors.next());
-        let (counter, factor) = match b {
-            None => (a, 1.0),
-            Some(b) => match (number::parse(a), number::parse(b)) {
-                (Some(factor), None) => (b, factor),
-                (None, Some(factor)) => (a, factor),
-                _ => return None,
-            },
-        };
-        let inside = counter
-            .strip_prefix(b"(")
-            .and_then(|c| c.strip_suffix(b")"));
-        let (name, more) = number::term_and_sum(inside.unwrap_or(counter), number::parse)?;
-        let name = self.parsed.symbols.find(name)?;
-        let of = self
-            .loops
-            .iter()
-            .rev()
-            .find(|of| of.counter == Some(name))?;
-        let (from, step, most) = of.counts?;
-        Some(Amount::Counted {
-            first: sign * (sum + factor * (from + more)),
-            by: sign * factor * step,
-            most,
-        })
+        let end = self.token.start;
+        let text = self.bytes[start as usize..end as usize].trim_ascii();
+        Ok(number::parse(text).map_or(Amount::Text(start, end), Amount::Number))
     }
 
     /// `{2}` or `{1,3}` where it stands. Its names are of no expression; they stay in the list, as

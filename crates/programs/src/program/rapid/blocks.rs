@@ -1,7 +1,7 @@
 //! Statements that lead elsewhere: choices, loops, jumps, handlers.
 
 use super::reader::{OpenLoop, Reader};
-use super::syntax::{Expression, StatementKind};
+use super::syntax::{Counting, Expression, StatementKind};
 use super::tokens::{Fault, Kind};
 use crate::program::names::Symbol;
 use crate::program::number;
@@ -69,17 +69,29 @@ impl Reader<'_> {
                 let counter = is_name.then(|| self.parsed.symbols.intern(self.text(self.token)));
                 let first = self.token;
                 self.condition()?;
-                let counts = self.counts(first.start);
-                let (may_pass, most) = (true, counts.map(|(.., more)| more + 1));
+                let (may_pass, most) = (true, self.rounds(first.start));
+                let counting = counter.map(|counter| {
+                    let behind = self.token.start;
+                    self.parsed.loops.push(Counting {
+                        counter,
+                        file: self.file,
+                        range: (first.start, behind),
+                        inside: (behind, u32::MAX),
+                        context: self.context,
+                    });
+                    self.parsed.loops.len() - 1
+                });
                 self.note(start, StatementKind::Loop { may_pass, most });
                 self.loops.push(OpenLoop {
                     endless: false,
-                    counter,
-                    counts,
+                    counting,
                 });
             }
             b"endwhile" | b"endfor" => {
-                let endless = self.loops.pop().unwrap_or_default().endless;
+                let OpenLoop { endless, counting } = self.loops.pop().unwrap_or_default();
+                if let Some(counting) = counting {
+                    self.parsed.loops[counting].inside.1 = start;
+                }
                 self.note(start, StatementKind::EndLoop { endless });
             }
             b"test" => {
@@ -124,9 +136,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The first value of `i FROM 1 TO 10 STEP 2 DO`, what is added, and how often: its counter
-    /// cannot be written.
-    fn counts(&self, start: u32) -> Option<(f64, f64, u32)> {
+    /// How often `i FROM 1 TO 10 STEP 2 DO` runs: its counter cannot be written.
+    fn rounds(&self, start: u32) -> Option<u32> {
         let text = &self.bytes[start as usize..self.token.start as usize];
         let words: Vec<_> = text
             .split(u8::is_ascii_whitespace)
@@ -147,7 +158,7 @@ impl Reader<'_> {
         let more = ((to - from) / step).floor();
         let is_counted = is(1, "from") && is(3, "to") && (0.0..1e6).contains(&more);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let counts = is_counted.then_some((from, step, more as u32));
+        let counts = is_counted.then_some(more as u32 + 1);
         counts
     }
 

@@ -15,10 +15,14 @@ const WRITERS: &[(&str, u8)] = &[
     ("camgetresult", 1),
     ("clear", 0),
     ("decr", 0),
+    ("fricideval", 0),
     ("getdataval", 1),
     ("getsysdata", 0),
     ("incr", 0),
+    ("ivarvalue", 2),
     ("readanybin", 1),
+    ("readcfgdata", 2),
+    ("readerrdata", 1),
     ("readrawbytes", 1),
     ("tpreaddnum", 0),
     ("tpreadfk", 0),
@@ -40,16 +44,15 @@ const HARMLESS: &str = "\
     corrclear corrcon corrdiscon corrwrite dropsensor dropwobj egmactjoint egmactpose egmgetid \
         egmreset \
     egmsetupai egmsetupuc egmstop egmstreamstart egmstreamstop eoffsgoto erase errlog errwrite \
-        fricideval \
     fricidinit fricidsetfriclevels gettrapdata iactunit idelete idisable ienable ierror indamove \
         indcmove inddmove \
     indreset indrmove invertdo iodisable ioenable ipathpos ipers isignalai isignalao isignaldi \
         isignaldo isignalgi \
-    isignalgo isleep itimer ivarvalue iwatch load makedir mechunitload motionprocessmodeset \
+    isignalgo isleep itimer iwatch load makedir mechunitload motionprocessmodeset \
         motionsup moveextj nop \
     open opendir packdnheader packrawbytes pathacclim pathreclstart pathrecstart pathrecstop \
         pathresol \
-    procerrrecovery pulsedo readblock readcfgdata readerrdata removedir removefile renamefile \
+    procerrrecovery pulsedo readblock removedir removefile renamefile \
         reset resetppmoved \
     restopath rewind save setao setdatasearch setdo setgo setleadthrough setsysdata sismoveoff \
         skipwarn \

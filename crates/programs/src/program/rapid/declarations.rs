@@ -37,6 +37,7 @@ impl Reader<'_> {
         let mut value = Stored::Nothing;
         if self.token.kind == Kind::Assign {
             self.advance()?;
+            let start = self.token.start;
             value = match kind {
                 Type::Robtarget | Type::Jointtarget => self.targets(kind, name, dimensions)?,
                 Type::Tooldata if self.token.is(b'[') => self.frames(TOOLDATA, dimensions)?,
@@ -54,6 +55,12 @@ impl Reader<'_> {
                     Stored::Computed
                 }
             };
+            if kind == Type::Num && dimensions == 0 {
+                let bytes = (start, self.token.start);
+                self.parsed
+                    .values
+                    .insert(short(self.parsed.data.len()), bytes);
+            }
         } else if dimensions > 0 && kind != Type::Other {
             value = Stored::Computed;
         }

@@ -3,6 +3,7 @@
 use super::blocks::is_block_word;
 use super::builtins::Known;
 use super::reader::{KEYWORD, Reader, keyword};
+use super::resolved::named;
 use super::syntax::{Argument, Base, Expression, Function, Index, Part, StatementKind, Verb};
 use super::tokens::{Fault, Kind, Token};
 use super::verbs;
@@ -113,6 +114,12 @@ impl Reader<'_> {
             }
         }
         if verb == Verb::Harmless {
+            // what waits or asks may tell its result in an optional argument
+            let given = self.parsed.arguments[start..].iter();
+            let given = given.filter(|argument| argument.option.is_some());
+            let names = given.filter_map(|argument| named(&argument.expression));
+            let results = names.map(|name| (name, self.context));
+            self.parsed.results.extend(results);
             self.parsed.arguments.truncate(start);
         }
         Ok((short(start), short(self.parsed.arguments.len())))

@@ -28,6 +28,7 @@ mod handlers;
 mod insert;
 mod modes;
 mod moves;
+mod numbers;
 mod parts;
 mod reader;
 mod records;

@@ -1,10 +1,10 @@
 //! What assignments make of data, as a whole and part by part.
 
-use super::syntax::{Assigned, Base, Component, Expression, Index, Stored, Type};
+use super::syntax::{Assigned, Base, Component, Expression, Index, Type};
 use super::translate::Translator;
-use crate::program::names::{Meaning, Symbol};
-use crate::program::notation::grown_by;
-use crate::program::number;
+use crate::program::displacing::grown_by_any;
+use crate::program::names::Symbol;
+use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue};
 
 impl Translator<'_> {
@@ -113,8 +113,8 @@ impl Translator<'_> {
         let axes = [&b".trans.x"[..], b".trans.y", b".trans.z"];
         let axis = axes.into_iter().position(|axis| own.ends_with(axis));
         if let Some(axis) = axis
-            && let Some((term, by)) = number::term_and_sum(&text, |term| self.constant(term))
-            && let Some(displacement) = grown_by(axis, by)
+            && let Some((term, by)) = self.term_and_rest(&text, &own, axes[axis])
+            && let Some(displacement) = grown_by_any(axis, by)
         {
             if term == own {
                 return self.builder.script.part_by(changed, displacement);
@@ -148,22 +148,30 @@ impl Translator<'_> {
         }
     }
 
-    /// The number that a term is, or that a constant holds.
-    fn constant(&self, term: &[u8]) -> Option<f64> {
-        number::parse(term).or_else(|| {
-            let name = self.resolved.parsed.symbols.find(term)?;
-            self.constant_of(name)
-        })
+    /// The one part of a position that stands in a sum, and the rest of that.
+    fn term_and_rest(&self, text: &[u8], own: &[u8], axis: &[u8]) -> Option<(Vec<u8>, Quantity)> {
+        let mut term: Option<Vec<u8>> = None;
+        let mut is_one = true;
+        let value = self
+            .resolved
+            .quantity(text, self.here, self.context, &mut |operand| {
+                if operand != own && !self.is_part_of_position(operand, axis) {
+                    return None;
+                }
+                is_one &= term.is_none();
+                term = Some(operand.to_vec());
+                Some(Quantity::own())
+            });
+        let (count, rest) = value.apart();
+        term.filter(|_| is_one && count == 1.0)
+            .map(|term| (term, rest))
     }
 
-    /// The number that a constant holds.
-    pub(super) fn constant_of(&self, name: Symbol) -> Option<f64> {
-        match self.resolved.meaning(name, self.context) {
-            Meaning::One(datum) => match self.resolved.datum(datum).value {
-                Stored::Number(number) => Some(number),
-                _ => None,
-            },
-            _ => None,
-        }
+    /// Whether an operand is this part of a position.
+    fn is_part_of_position(&self, operand: &[u8], axis: &[u8]) -> bool {
+        let name = operand.strip_suffix(axis);
+        let name = name.and_then(|name| self.resolved.parsed.symbols.find(name));
+        let kind = name.and_then(|name| self.resolved.kind(name, self.context));
+        kind.is_some_and(Type::is_target)
     }
 }

@@ -25,10 +25,8 @@ pub(super) struct Mark<'a>(Scanner<'a>, Token, u32, Lengths);
 pub(super) struct OpenLoop {
     /// Only its own statements leave it.
     pub endless: bool,
-    /// What FOR counts with: it hides data of its name.
-    pub counter: Option<Symbol>,
-    /// Its first value, what is added each time, and how often, where the text tells.
-    pub counts: Option<(f64, f64, u32)>,
+    /// One of [`Parsed::loops`].
+    pub counting: Option<usize>,
 }
 
 /// Reads one file into the parsed of all.

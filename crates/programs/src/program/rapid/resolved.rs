@@ -2,6 +2,7 @@
 
 use super::builtins::Known;
 use super::derived::Holder;
+use super::numbers::Written;
 use super::shared::Group;
 use super::syntax::{
     Argument, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
@@ -10,6 +11,7 @@ use super::syntax::{
 use super::verbs::Verbs;
 use crate::program::Source;
 use crate::program::names::{Context, Meaning, Scopes, Symbol};
+use crate::program::numbers::Numbers;
 use crate::program::script::short;
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
@@ -33,6 +35,8 @@ pub(super) struct Resolved<'a> {
     in_parts: HashSet<u32>,
     /// Data and functions that are no targets, whose numbers all come from targets.
     pub(super) derived: HashSet<Holder>,
+    /// What is written into numbers.
+    pub(super) numbers: Numbers<Written>,
     /// The group of each datum that tasks share, and whether its declarations are alike.
     shared: HashMap<u32, (usize, bool)>,
 }
@@ -105,9 +109,11 @@ impl<'a> Resolved<'a> {
             filled: HashSet::new(),
             in_parts: HashSet::new(),
             derived: HashSet::new(),
+            numbers: Numbers::default(),
             shared,
         };
         resolved.find_written();
+        resolved.find_numbers();
         resolved.find_derived();
         resolved
     }
@@ -139,6 +145,11 @@ impl<'a> Resolved<'a> {
     /// Whether tasks share a datum.
     pub(super) fn is_shared(&self, entity: Entity) -> bool {
         matches!(entity, Entity::Declared(datum) if self.shared.contains_key(&datum))
+    }
+
+    /// The group of a datum that tasks share.
+    pub(super) fn group_of(&self, datum: u32) -> Option<u32> {
+        self.shared.get(&datum).map(|(group, _)| short(*group))
     }
 
     /// Whether tasks share any.

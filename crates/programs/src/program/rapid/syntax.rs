@@ -4,7 +4,7 @@ use super::aggregate::Leaf;
 use crate::program::names::{Context, Symbol, Symbols};
 use crate::program::script::{Place, short};
 use crate::program::{Number, Target, TargetId};
-use foldhash::HashSet;
+use foldhash::{HashMap, HashSet};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -49,6 +49,12 @@ pub(super) struct Parsed {
     pub functions: Vec<Function>,
     /// Their arguments.
     pub given: Vec<Argument>,
+    /// FOR loops, by file and place.
+    pub loops: Vec<Counting>,
+    /// What numbers are declared with, by datum: the bytes.
+    pub values: HashMap<u32, (u32, u32)>,
+    /// Names that optional arguments of instructions may write.
+    pub results: Vec<(Symbol, Context)>,
     /// Statements that matter, by file and place.
     pub statements: Vec<Statement>,
     /// Numbers of targets that no robot can use.
@@ -99,6 +105,16 @@ impl Parsed {
             let next = short(self.places.len()) + 1;
             self.places.entry((name, place)).or_insert(next);
         }
+    }
+
+    /// The innermost FOR loop around a place that counts with this name.
+    pub(super) fn counting(&self, name: Symbol, at: Place) -> Option<&Counting> {
+        let place = |of: &Counting| (of.file, of.inside.0);
+        let before = self
+            .loops
+            .partition_point(|of| place(of) <= (at.file, at.offset));
+        let mut around = self.loops[..before].iter().rev();
+        around.find(|of| of.counter == name && of.file == at.file && at.offset < of.inside.1)
     }
 
     /// The names in a value with expressions in it.
@@ -353,20 +369,23 @@ pub(super) enum Step {
     RelTool([Amount; 6]),
 }
 
+/// What a FOR loop counts with, which hides data of its name there and which nothing writes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Counting {
+    pub counter: Symbol,
+    pub file: u32,
+    /// The bytes from `FROM` to `DO`, and those of the loop.
+    pub range: (u32, u32),
+    pub inside: (u32, u32),
+    pub context: Context,
+}
+
 /// A number in a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Amount {
     Number(f64),
-    /// A name, which may be a constant, times 1 or -1.
-    Named(Symbol, f64),
-    /// What a loop counts: this, and up to so many times that more.
-    Counted {
-        first: f64,
-        by: f64,
-        most: u32,
-    },
-    /// Anything else.
-    Computed,
+    /// Anything else: its bytes.
+    Text(u32, u32),
 }
 
 /// An argument of an instruction or function.

@@ -13,6 +13,7 @@ mod text;
 
 use super::*;
 use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::motion;
 use crate::program::{Displacement, Motion, Program, Shape, Shift, Stride, Target, Tool, Value};
@@ -198,12 +199,19 @@ fn what_a_loop_counts_with_hides_a_constant() {
          RelTool(p1,0,0,-i),v5,z5,t;\nENDWHILE\nENDFOR\nMoveL Offs(p1,0,0,i),v5,z5,t;",
     );
     let by: Vec<_> = program.moves.iter().map(|m| &m.displacement).collect();
-    let counted = |most| Stride::By {
-        shift: Shift::along([0.0, 0.0, 0.001]),
-        most: Some(most),
+    let counted = |shift: Shift| {
+        let step = |most| Stride::By {
+            shift,
+            most: Some(most),
+        };
+        Displacement::Within(Box::new([step(1), step(39)]))
     };
-    let counted = Displacement::Within(Box::new([counted(1), counted(39)]));
-    assert_eq!(by[..2], [&counted, &Displacement::Unknown]);
+    let in_tool = Shift {
+        in_tool: Pose::from_translation(0.0, 0.0, -0.001),
+        ..Shift::none()
+    };
+    let up = Shift::along([0.0, 0.0, 0.001]);
+    assert_eq!(by[..2], [&counted(up), &counted(in_tool)]);
     assert!(matches!(by[2], Displacement::By(_)), "behind the loop");
 }
 

@@ -9,15 +9,15 @@ use super::syntax::{
 };
 use super::translate::Translator;
 use crate::finding::Severity;
-use crate::geometry::units::{DEG, m_from_mm};
-use crate::geometry::{Pose, add};
+use crate::geometry::units::{DEG, MM};
+use crate::program::displacing::Displacing;
 use crate::program::kit;
 use crate::program::names::{Context, Meaning, Symbol};
+use crate::program::quantity::Quantity;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, OVERWRITTEN, Place, Remark,
     RemarkId, Variable, VariableId, short,
 };
-use crate::program::{Displacement, Shift, Stride};
 
 /// Copies of copies of a target that are followed.
 pub(super) const DEEPEST: u32 = 8;
@@ -462,69 +462,37 @@ impl Translator<'_> {
         if steps.0 == steps.1 {
             return NOT_DISPLACED;
         }
-        let found = self.steps(&self.resolved.parsed.steps[indices(steps)]);
-        let displacement = match found {
-            None => Displacement::Unknown,
-            Some((shift, counted)) if !counted.is_empty() => {
-                let once = (shift != Shift::none()).then_some(Stride::By {
-                    shift,
-                    most: Some(1),
-                });
-                Displacement::Within(once.into_iter().chain(counted).collect())
-            }
-            Some((shift, _)) if shift == Shift::none() => Displacement::None,
-            Some((shift, _)) => Displacement::By(Box::new(shift)),
-        };
-        self.builder.script.displacement(displacement)
-    }
-
-    /// The displacement of some steps, and what loops count in them.
-    fn steps(&self, steps: &[Step]) -> Option<(Shift, Vec<Stride>)> {
-        let mut frame_mm = [0.0; 3];
-        let mut in_tool = Pose::identity();
-        let mut counted = Vec::new();
-        for step in steps {
+        let mut by = Displacing::new();
+        for step in &self.resolved.parsed.steps[indices(steps)] {
             match step {
                 Step::Offs(amounts) => {
-                    let mut plain = *amounts;
-                    for (axis, amount) in plain.iter_mut().enumerate() {
-                        if let Amount::Counted { first, by, most } = *amount {
-                            *amount = Amount::Number(first);
-                            let mut along = [0.0; 3];
-                            along[axis] = m_from_mm(by);
-                            counted.push(Stride::By {
-                                shift: Shift::along(along),
-                                most: Some(most),
-                            });
-                        }
-                    }
-                    frame_mm = add(frame_mm, self.amounts(&plain)?);
+                    by.along_frame(self.amounts(amounts).map(|mm| mm.in_unit(MM)));
                 }
                 Step::RelTool(amounts) => {
-                    let [x, y, z, rx, ry, rz] = self.amounts(amounts)?;
-                    let [x, y, z] = [x, y, z].map(m_from_mm);
-                    let by = Pose::from_xyz_rxryrz([x, y, z, rx * DEG, ry * DEG, rz * DEG]);
-                    in_tool = in_tool * by;
+                    let [x, y, z, rx, ry, rz] = self.amounts(amounts);
+                    let [x, y, z] = [x, y, z].map(|mm| mm.in_unit(MM));
+                    let [rx, ry, rz] = [rx, ry, rz].map(|degrees| degrees.in_unit(DEG));
+                    by.in_tool([x, y, z, rx, ry, rz]);
                 }
             }
         }
-        let shift = Shift {
-            in_tool,
-            ..Shift::along(frame_mm.map(m_from_mm))
-        };
-        Some((shift, counted))
+        self.builder.script.displacement(by.displacement())
     }
 
-    fn amounts<const N: usize>(&self, amounts: &[Amount; N]) -> Option<[f64; N]> {
-        let mut values = [0.0; N];
-        for (value, amount) in values.iter_mut().zip(amounts) {
-            *value = match *amount {
-                Amount::Number(number) => number,
-                Amount::Named(name, sign) => sign * self.constant_of(name)?,
-                Amount::Counted { .. } | Amount::Computed => return None,
-            };
-        }
-        values.iter().all(|v| v.is_finite()).then_some(values)
+    fn amounts<const N: usize>(&self, amounts: &[Amount; N]) -> [Quantity; N] {
+        amounts.map(|amount| match amount {
+            Amount::Number(number) => Quantity::exactly(number),
+            Amount::Text(start, end) => {
+                let here = Place {
+                    file: self.here.file,
+                    offset: start,
+                };
+                let bytes = &self.resolved.sources[here.file as usize].bytes;
+                let text = &bytes[start as usize..end as usize];
+                self.resolved
+                    .quantity(text, here, self.context, &mut |_| None)
+            }
+        })
     }
 }
 

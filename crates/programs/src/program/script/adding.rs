@@ -147,7 +147,7 @@ impl Script {
             Displacement::Unknown => DISPLACED_SOMEHOW,
             Displacement::Overwritten => OVERWRITTEN,
             Displacement::Accumulated => ACCUMULATED,
-            Displacement::By(_) | Displacement::Within(_) => {
+            Displacement::By(_) | Displacement::Within(_) | Displacement::AtLeast(_) => {
                 self.displacements.push(displacement);
                 short(self.displacements.len() - 1)
             }

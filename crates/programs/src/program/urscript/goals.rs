@@ -1,5 +1,6 @@
 //! What values mean as positions, features and tools.
 
+use super::numbers::{in_base, in_tool};
 use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::geometry::units::DEG;
@@ -230,6 +231,13 @@ impl Goals<'_, '_, '_> {
                     let goal = self.goal_within(a, function, steps);
                     self.note_offset(goal.target, b, function);
                     let by = self.variables.constant(b, function).ok();
+                    if by.is_none()
+                        && let Some(amounts) = self.variables.amounts(b, function)
+                        && let Some(by) = in_tool(amounts)
+                    {
+                        let by = self.builder.script.displacement(by);
+                        return self.displaced_by(goal, by);
+                    }
                     let by = by.map(|in_tool| Shift {
                         in_tool,
                         ..Shift::along([0.0; 3])
@@ -251,6 +259,14 @@ impl Goals<'_, '_, '_> {
                 let goal = self.goal_within(a, function, steps);
                 self.note_offset(goal.target, b, function);
                 let by = self.variables.constant(b, function).ok();
+                if by.is_none()
+                    && matches!(goal.feature, Feature::Base)
+                    && let Some(amounts) = self.variables.amounts(b, function)
+                    && let Some(by) = in_base(amounts)
+                {
+                    let by = self.builder.script.displacement(by);
+                    return self.displaced_by(goal, by);
+                }
                 self.shifted_in_base(goal, by)
             }
             Expr::Inverse(_) | Expr::Number(_) | Expr::Other => self.unknown(),

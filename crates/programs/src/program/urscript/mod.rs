@@ -35,6 +35,7 @@ mod drive;
 mod expressions;
 mod goals;
 mod literals;
+mod numbers;
 mod reader;
 mod rotation;
 mod sniff;

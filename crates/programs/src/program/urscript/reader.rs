@@ -41,6 +41,7 @@ pub(super) type Read<T> = Result<T, ReadError>;
 impl<'a> Reader<'a> {
     pub(super) fn new(source: &'a Source) -> Self {
         let mut parsed = Parsed::default();
+        parsed.text = &source.bytes;
         parsed.add(Expr::Other);
         parsed.functions.push(Function::default());
         Self {

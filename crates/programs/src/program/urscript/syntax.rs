@@ -266,6 +266,8 @@ pub(super) struct Parsed<'a> {
     /// Of such a pose the names in each of its coordinates, but for those that ask where the robot
     /// is: parts of `composed`.
     pub coordinates: HashMap<LiteralId, Vec<Range<u32>>>,
+    /// The file.
+    pub text: &'a [u8],
     symbols: HashMap<&'a [u8], Symbol>,
     spellings: Vec<&'a [u8]>,
 }
@@ -278,6 +280,11 @@ impl<'a> Parsed<'a> {
             spellings.push(name);
             next
         })
+    }
+
+    /// The symbol of a name that was read.
+    pub(super) fn known_symbol(&self, name: &[u8]) -> Option<Symbol> {
+        self.symbols.get(name).copied()
     }
 
     pub(super) fn spelling(&self, symbol: Symbol) -> Cow<'a, str> {

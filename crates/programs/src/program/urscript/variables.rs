@@ -93,6 +93,8 @@ pub(super) struct Variables<'n, 'a> {
     pub(super) mentioned: HashMap<VarId, Vec<VarId>>,
     /// The same of assignments of elements, each by its place.
     pub(super) mentioned_in_parts: HashMap<u32, Vec<VarId>>,
+    /// What is assigned to numbers.
+    pub(super) numbers: crate::program::numbers::Numbers<u32>,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
 }
@@ -117,6 +119,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             sets_tool: false,
             mentioned: HashMap::new(),
             mentioned_in_parts: HashMap::new(),
+            numbers: crate::program::numbers::Numbers::default(),
             targets: vec![false; parsed.literals.len()],
         };
         variables.declare_parameters();
@@ -124,6 +127,7 @@ impl<'n, 'a> Variables<'n, 'a> {
         variables.bind();
         variables.fix();
         variables.find_mentions();
+        variables.find_numbers();
         variables.find_targets();
         variables.find_frames();
         variables

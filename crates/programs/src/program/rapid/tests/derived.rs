@@ -152,9 +152,15 @@ fn what_counted_loops_add_is_each_of_their_rounds() {
         by([0.0, 0.05, 0.0], 4),
     ];
     assert_eq!(displaced(pallet), [Displacement::Within(Box::new(steps))]);
-    // nobody knows how many
+    // nobody knows how many: one at least
     let open = pallet.replace("TO 3", "TO n");
-    assert_eq!(displaced(&open), [Displacement::Unknown]);
+    let steps = [
+        by([0.0, 0.0, -0.005], 1),
+        by([0.04, 0.0, 0.0], 1),
+        by([-0.04, 0.0, 0.0], 1),
+        by([0.0, 0.05, 0.0], 4),
+    ];
+    assert_eq!(displaced(&open), [Displacement::AtLeast(Box::new(steps))]);
 }
 
 /// What a step of the text may come to in a loop.

@@ -1,0 +1,335 @@
+//! What numbers may be: what FOR counts, and variables with all that is written into them.
+//!
+//! Variables of one name are taken for one, but for those that routines declare.
+
+use super::names::DataKind;
+use super::reader::Reader;
+use super::statements::action;
+use super::tokens::{Cursor, Kind, Token};
+use crate::program::names::{Context, Symbol};
+use crate::program::numbers::{Blocks, Numbers, counted, word};
+use crate::program::quantity::{Quantity, evaluate};
+use crate::program::script::{Place, short};
+use foldhash::HashSet;
+
+/// Variables that routines declare have their number above this.
+const OF_ROUTINE: u32 = 1 << 31;
+
+/// `FOR i=0 TO 9 STEP 2`
+#[derive(Debug)]
+struct Counting {
+    counter: u32,
+    context: Context,
+    file: u32,
+    /// The bytes between FOR and ENDFOR.
+    inside: (u32, u32),
+    /// In capitals, from `=` on.
+    text: Box<[u8]>,
+}
+
+/// What is written into a variable.
+#[derive(Debug)]
+enum Written {
+    Value(Box<[u8]>, Place, Context),
+    /// What a loop counts, and once more.
+    Counted(usize),
+}
+
+/// What is known of numbers.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    numbers: Numbers<Written>,
+    blocks: Blocks,
+    loops: Vec<Counting>,
+    /// Those that are not closed yet.
+    open: Vec<usize>,
+    declared: HashSet<u32>,
+    /// Not by FOR alone.
+    assigned: HashSet<u32>,
+}
+
+impl Known {
+    pub(super) fn begin(&mut self, routine: u32) {
+        self.blocks.begin(routine);
+        self.open.clear();
+    }
+
+    fn counting(&self, name: u32, at: Place) -> Option<usize> {
+        if self.assigned.contains(&name) {
+            return None;
+        }
+        let start = |of: &Counting| (of.file, of.inside.0);
+        let before = self
+            .loops
+            .partition_point(|of| start(of) <= (at.file, at.offset));
+        (0..before).rev().find(|of| {
+            let of = &self.loops[*of];
+            of.counter == name && of.file == at.file && at.offset < of.inside.1
+        })
+    }
+}
+
+impl Reader {
+    /// What a name is called in the numbers.
+    fn number(&self, name: Symbol, context: Context) -> u32 {
+        let datum = self.names.datum(name, context);
+        let is_own = |datum: &u32| self.names.data[*datum as usize].context.routine.is_some();
+        datum
+            .filter(is_own)
+            .map_or(name.0, |datum| OF_ROUTINE | datum)
+    }
+
+    /// A variable may be anything.
+    pub(super) fn lose_number(&mut self, name: Symbol) {
+        let number = self.number(name, self.context());
+        let known = &mut self.names.known;
+        known.assigned.insert(number);
+        known.numbers.lose(number);
+    }
+
+    /// Names behind a type, with values or without.
+    pub(super) fn numbers_declared(&mut self, mut cursor: Cursor) {
+        loop {
+            let name = cursor.next();
+            if name.kind != Kind::Name {
+                return;
+            }
+            let Ok(sizes) = cursor.brackets() else { return };
+            let symbol = self.symbol(&cursor, name);
+            let number = self.number(symbol, self.context());
+            self.names.known.declared.insert(number);
+            if cursor.take(b'=') {
+                if cursor.blanks() == b'{' || sizes.is_some() {
+                    return;
+                }
+                let start = cursor.at;
+                while !matches!(cursor.blanks(), 0 | b';' | b',') {
+                    cursor.next();
+                }
+                self.number_written(symbol, start, &cursor, None);
+            }
+            if !cursor.take(b',') {
+                return;
+            }
+        }
+    }
+
+    /// A value in a data list, behind the name.
+    pub(super) fn number_initial(&mut self, name: Token, mut cursor: Cursor) {
+        if cursor.take(b'=') && cursor.blanks() != b'{' {
+            let start = cursor.at;
+            cursor.skip_all();
+            let symbol = self.symbol(&cursor, name);
+            self.number_written(symbol, start, &cursor, None);
+        }
+    }
+
+    fn number_written(&mut self, name: Symbol, start: usize, cursor: &Cursor, site: Option<()>) {
+        let text = cursor.bytes[start..cursor.at.min(cursor.end)].trim_ascii();
+        let at = Place {
+            file: self.file,
+            offset: short(start),
+        };
+        let context = self.context();
+        let number = self.number(name, context);
+        let known = &mut self.names.known;
+        let site = site.map(|()| {
+            known.assigned.insert(number);
+            known.blocks.site()
+        });
+        let value = Written::Value(text.into(), at, context);
+        known.numbers.write(number, value, site);
+    }
+
+    /// What a statement writes into numbers, before any is read.
+    pub(super) fn note_numbers(&mut self, word: &[u8], first: Token, mut cursor: Cursor) {
+        let known = &mut self.names.known;
+        let next = cursor.blanks();
+        match word {
+            b"IF" | b"SWITCH" => known.blocks.open(Some(1)),
+            b"ELSE" | b"CASE" | b"DEFAULT" => known.blocks.branch(),
+            b"LOOP" | b"REPEAT" | b"WHILE" => known.blocks.open(None),
+            b"ENDIF" | b"ENDSWITCH" | b"ENDLOOP" | b"ENDWHILE" | b"UNTIL" => known.blocks.close(),
+            b"ENDFOR" => {
+                known.blocks.close();
+                if let Some(open) = known.open.pop() {
+                    known.loops[open].inside.1 = first.start;
+                }
+            }
+            b"GOTO" => {
+                if let Some(routine) = self.context().routine {
+                    self.names.known.numbers.jumps(routine);
+                }
+            }
+            b"FOR" => {
+                let name = cursor.next();
+                let start = cursor.at;
+                cursor.skip_all();
+                let text = cursor.bytes[start..cursor.at].to_ascii_uppercase();
+                let counter = self.symbol(&cursor, name);
+                let context = self.context();
+                let counter = self.number(counter, context);
+                let known = &mut self.names.known;
+                let at = known.loops.len();
+                known.loops.push(Counting {
+                    counter,
+                    context,
+                    file: self.file,
+                    inside: (short(cursor.end), u32::MAX),
+                    text: text.into(),
+                });
+                known.open.push(at);
+                let site = known.blocks.site();
+                known
+                    .numbers
+                    .write(counter, Written::Counted(at), Some(site));
+                let plain = evaluate_loop(&known.loops[at].text, &mut |_| Quantity::unknown());
+                let rounds = plain.filter(|plain| plain.unknown.is_none());
+                let rounds = rounds.map(|plain| {
+                    plain
+                        .steps
+                        .first()
+                        .map_or(1, |step| step.most.map_or(u32::MAX, |most| most + 1))
+                });
+                known.blocks.open(rounds);
+            }
+            b"INTERRUPT" | b"TRIGGER" => {
+                if let Some((name, _)) = action(cursor) {
+                    let name = self.symbol(&cursor, name);
+                    self.lose_number(name);
+                }
+            }
+            _ if next == b'=' => {
+                cursor.take(b'=');
+                if matches!(cursor.blanks(), b'=' | b'{') {
+                    return;
+                }
+                let start = cursor.at;
+                cursor.skip_all();
+                let name = self.symbol(&cursor, first);
+                self.number_written(name, start, &cursor, Some(()));
+            }
+            _ => {}
+        }
+    }
+
+    /// The value of an expression at the present statement; `own` gives that of operands that are
+    /// no variables.
+    pub(super) fn quantity(
+        &self,
+        text: &[u8],
+        own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+    ) -> Quantity {
+        let known = &self.names.known;
+        let mut of = |number| {
+            let written =
+                |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(what, of);
+            known.numbers.value(number, &written)
+        };
+        self.evaluated(text, (self.here, self.context()), &mut of, own)
+    }
+
+    /// The one part of a position that stands in a sum, and the rest of that.
+    pub(super) fn term_and_rest(
+        &self,
+        value: &[u8],
+        own: &[u8],
+        letters: &dyn Fn(&[u8]) -> Vec<u8>,
+    ) -> Option<(Vec<u8>, Quantity)> {
+        let (mut term, mut is_one) = (None, true);
+        let value = self.quantity(value, &mut |operand| {
+            let operand = letters(operand);
+            let name = operand.split(|b| matches!(b, b'.' | b'[')).next();
+            let name = name.and_then(|name| self.names.symbols.find(name));
+            let kind = name.and_then(|name| self.names.kind(name, self.context()));
+            let is_part = operand.contains(&b'.') && kind.is_some_and(DataKind::is_place);
+            if operand != own && !is_part {
+                return None;
+            }
+            is_one &= term.is_none();
+            term = Some(operand);
+            Some(Quantity::own())
+        });
+        let (count, rest) = value.apart();
+        term.filter(|_| is_one && count == 1.0)
+            .map(|term| (term, rest))
+    }
+
+    fn written_value(&self, what: &Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+        match what {
+            Written::Value(text, at, context) => {
+                self.evaluated(text, (*at, *context), of, &mut |_| None)
+            }
+            Written::Counted(at) => {
+                let counted = self.counted(*at, of);
+                // behind the loop the counter is beyond its last value
+                let step = counted.steps.first().map_or(1.0, |step| step.by);
+                let step = if step.abs() < 1.0 {
+                    step.signum()
+                } else {
+                    step
+                };
+                counted.plus(Quantity::counted(0.0, step, Some(1)))
+            }
+        }
+    }
+
+    fn counted(&self, at: usize, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+        let counting = &self.names.known.loops[at];
+        let at = Place {
+            file: counting.file,
+            offset: counting.inside.0.saturating_sub(1),
+        };
+        let value = evaluate_loop(&counting.text, &mut |text| {
+            self.evaluated(text, (at, counting.context), of, &mut |_| None)
+        });
+        value.unwrap_or_else(Quantity::unknown)
+    }
+
+    fn evaluated(
+        &self,
+        text: &[u8],
+        (at, context): (Place, Context),
+        of: &mut dyn FnMut(u32) -> Quantity,
+        own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+    ) -> Quantity {
+        let value = evaluate(text, &mut |operand| {
+            if let Some(own) = own(operand) {
+                return own;
+            }
+            let known = &self.names.known;
+            let Some(name) = self.names.symbols.find(operand) else {
+                return Quantity::unknown();
+            };
+            let number = self.number(name, context);
+            if let Some(counting) = known.counting(number, at) {
+                return self.counted(counting, of);
+            }
+            if known.declared.contains(&number) {
+                of(number)
+            } else {
+                Quantity::unknown()
+            }
+        });
+        value.unwrap_or_else(Quantity::unknown)
+    }
+}
+
+/// What `=0 TO 9 STEP 2` counts.
+fn evaluate_loop(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Option<Quantity> {
+    let text = text.trim_ascii().strip_prefix(b"=")?;
+    let to = word(text, "TO")?;
+    let rest = &text[to + 2..];
+    let step = word(rest, "STEP");
+    let mut value = |text: &[u8]| {
+        evaluate(text, &mut |_| Quantity::unknown())
+            .filter(|value| value.exact().is_some())
+            .unwrap_or_else(|| of(text))
+    };
+    let (from, last) = (
+        value(&text[..to]),
+        value(&rest[..step.unwrap_or(rest.len())]),
+    );
+    let step = step.map_or_else(|| Quantity::exactly(1.0), |at| value(&rest[at + 4..]));
+    Some(counted(&from, &last, Some(step)))
+}

@@ -1,0 +1,373 @@
+//! What the numbers of a program may be, from all that its text writes into them.
+//!
+//! A number that nothing writes but its declaration is that. One that is assigned itself and
+//! something more adds up: as often as the loops around that assignment count where the same
+//! routine sets it anew before, else any number of times.
+
+use super::quantity::Quantity;
+use foldhash::{HashMap, HashSet};
+use std::cell::RefCell;
+
+/// Numbers that are computed from each other that are followed.
+const DEEPEST: usize = 24;
+/// Rounds of a loop that are counted.
+const MOST_ROUNDS: f64 = 1e6;
+
+/// A block of statements, by its place in its routine; how often it runs at most, where the text
+/// tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Block {
+    number: u32,
+    most: Option<u32>,
+}
+
+/// Where a number is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Site {
+    routine: u32,
+    order: u32,
+    /// Outermost first.
+    blocks: Vec<Block>,
+}
+
+impl Site {
+    /// Where a routine begins.
+    pub(super) fn at_start(routine: u32) -> Self {
+        Self {
+            routine,
+            order: 0,
+            blocks: Vec::new(),
+        }
+    }
+}
+
+/// The blocks around the present statement.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Blocks {
+    routine: u32,
+    order: u32,
+    open: Vec<Block>,
+}
+
+impl Blocks {
+    /// A routine begins.
+    pub(super) fn begin(&mut self, routine: u32) {
+        (self.routine, self.order) = (routine, 0);
+        self.open.clear();
+    }
+
+    /// A block begins: a loop, or one of several branches, which run once.
+    pub(super) fn open(&mut self, most: Option<u32>) {
+        self.order += 1;
+        let number = self.order;
+        self.open.push(Block { number, most });
+    }
+
+    /// Another branch begins.
+    pub(super) fn branch(&mut self) {
+        self.close();
+        self.open(Some(1));
+    }
+
+    pub(super) fn close(&mut self) {
+        self.open.pop();
+    }
+
+    pub(super) fn site(&mut self) -> Site {
+        self.order += 1;
+        Site {
+            routine: self.routine,
+            order: self.order,
+            blocks: self.open.clone(),
+        }
+    }
+}
+
+/// What is known of a number; `W` is what the text writes into it.
+#[derive(Debug)]
+struct Facts<W> {
+    writes: Vec<(W, Option<Site>)>,
+    /// Something else may write it.
+    is_lost: bool,
+}
+
+impl<W> Default for Facts<W> {
+    fn default() -> Self {
+        Self {
+            writes: Vec::new(),
+            is_lost: false,
+        }
+    }
+}
+
+/// The numbers of a program, by what the language calls them.
+#[derive(Debug)]
+pub(super) struct Numbers<W> {
+    facts: HashMap<u32, Facts<W>>,
+    /// Routines in which the program goes elsewhere than to the next statement.
+    jumping: HashSet<u32>,
+    known: RefCell<HashMap<u32, Quantity>>,
+}
+
+impl<W> Default for Numbers<W> {
+    fn default() -> Self {
+        Self {
+            facts: HashMap::default(),
+            jumping: HashSet::default(),
+            known: RefCell::default(),
+        }
+    }
+}
+
+/// Evaluates what is written, with the values of the numbers in it.
+pub(super) type Evaluate<'a, W> = dyn Fn(&W, &mut dyn FnMut(u32) -> Quantity) -> Quantity + 'a;
+
+impl<W> Numbers<W> {
+    /// A number is written; without a site by its declaration.
+    pub(super) fn write(&mut self, number: u32, what: W, site: Option<Site>) {
+        self.facts
+            .entry(number)
+            .or_default()
+            .writes
+            .push((what, site));
+    }
+
+    /// What writes a number is not known.
+    pub(super) fn lose(&mut self, number: u32) {
+        self.facts.entry(number).or_default().is_lost = true;
+    }
+
+    /// The program jumps inside a routine.
+    pub(super) fn jumps(&mut self, routine: u32) {
+        self.jumping.insert(routine);
+    }
+
+    /// What a number may be, whenever it is looked at.
+    pub(super) fn value(&self, number: u32, evaluate: &Evaluate<W>) -> Quantity {
+        self.value_in(number, evaluate, &mut Vec::new())
+    }
+
+    fn value_in(&self, number: u32, evaluate: &Evaluate<W>, open: &mut Vec<u32>) -> Quantity {
+        if let Some(known) = self.known.borrow().get(&number) {
+            return known.clone();
+        }
+        // numbers that are computed from each other in a circle may add up
+        if open.contains(&number) || open.len() > DEEPEST {
+            return Quantity::endless();
+        }
+        open.push(number);
+        let value = self.computed(number, evaluate, open);
+        open.pop();
+        self.known.borrow_mut().insert(number, value.clone());
+        value
+    }
+
+    fn computed(&self, number: u32, evaluate: &Evaluate<W>, open: &mut Vec<u32>) -> Quantity {
+        let Some(facts) = self.facts.get(&number) else {
+            return Quantity::unknown();
+        };
+        let mut values = Vec::new();
+        let mut growing = Vec::new();
+        let mut is_turned = false;
+        for (what, site) in &facts.writes {
+            let mut of = |other: u32| {
+                if other == number {
+                    Quantity::own()
+                } else {
+                    self.value_in(other, evaluate, open)
+                }
+            };
+            let (own, rest) = evaluate(what, &mut of).apart();
+            if own == 0.0 {
+                values.push((rest, site.as_ref()));
+            } else if own == 1.0 {
+                growing.push((rest, site.as_ref()));
+            } else if own == -1.0 && rest.exact() == Some(0.0) {
+                is_turned = true;
+            } else {
+                return Quantity::endless();
+            }
+        }
+        let resets = values.iter().filter_map(|(_, site)| *site);
+        let resets: Vec<&Site> = resets.collect();
+        let mut all: Vec<Quantity> = values.iter().map(|(value, _)| value.clone()).collect();
+        if facts.is_lost {
+            all.push(Quantity::unknown());
+        }
+        if is_turned {
+            let turned: Vec<_> = all.iter().map(|value| value.clone().times(-1.0)).collect();
+            all.extend(turned);
+        }
+        let mut value = Quantity::any(&all);
+        for (by, site) in growing {
+            // what else writes it may be what sets it anew, or may not
+            let most = site.and_then(|site| self.most(site, &resets));
+            value = value.plus(again(&by, most));
+            if is_turned {
+                value = value.plus(again(&by.times(-1.0), most));
+            }
+        }
+        value
+    }
+
+    /// How often at most a write is come to between two that set the number anew.
+    fn most(&self, site: &Site, resets: &[&Site]) -> Option<u32> {
+        if self.jumping.contains(&site.routine) {
+            return None;
+        }
+        let mut before: Vec<_> = resets
+            .iter()
+            .filter(|reset| {
+                reset.routine == site.routine
+                    && reset.order < site.order
+                    && site.blocks.starts_with(&reset.blocks)
+            })
+            .collect();
+        before.sort_unstable_by_key(|reset| reset.order);
+        let inside = &site.blocks[before.last()?.blocks.len()..];
+        inside.iter().try_fold(1_u32, |product, block| {
+            Some(product.saturating_mul(block.most?))
+        })
+    }
+}
+
+/// What is added up to so often; `None` where nothing bounds that.
+fn again(by: &Quantity, most: Option<u32>) -> Quantity {
+    if most == Some(1) {
+        // made or not
+        return Quantity::any(&[Quantity::exactly(0.0), by.clone()]);
+    }
+    match by.ends() {
+        Some((least, greatest)) => [least.min(0.0), greatest.max(0.0)]
+            .into_iter()
+            .map(|by| Quantity::counted(0.0, by, most))
+            .fold(Quantity::exactly(0.0), Quantity::plus),
+        None => Quantity::endless(),
+    }
+}
+
+/// What a loop counts with, from one number to another.
+pub(super) fn counted(from: &Quantity, to: &Quantity, step: Option<Quantity>) -> Quantity {
+    if let (Some(first), Some(last)) = (from.exact(), to.exact()) {
+        let step = match step.map(|step| step.exact()) {
+            None => Some(1.0_f64.copysign(last - first)),
+            Some(step) => step,
+        };
+        if let Some(step) = step.filter(|step| *step != 0.0) {
+            // a loop that never runs counts nothing
+            let more = ((last - first) / step).floor().max(0.0);
+            if more >= MOST_ROUNDS {
+                return Quantity::between(first.min(last), first.max(last));
+            }
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let more = more as u32;
+            return Quantity::counted(first, step, Some(more));
+        }
+    }
+    match (from.ends(), to.ends()) {
+        (Some((a, b)), Some((c, d))) => Quantity::between(a.min(c), b.max(d)),
+        _ if from.is_endless() || to.is_endless() => Quantity::endless(),
+        _ => Quantity::unknown(),
+    }
+}
+
+/// Where a word stands by itself.
+pub(super) fn word(text: &[u8], word: &str) -> Option<usize> {
+    let is_letter =
+        |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
+    memchr::memmem::find_iter(text, word.as_bytes()).find(|&at| {
+        let before = at.checked_sub(1).and_then(|at| text.get(at));
+        !is_letter(before) && !is_letter(text.get(at + word.len()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::quantity::evaluate;
+
+    /// Number `a` is 0, and so on; each write is a text.
+    fn value(numbers: &Numbers<&str>, number: u32) -> Quantity {
+        numbers.value(number, &|text, of| {
+            let value = evaluate(text.as_bytes(), &mut |name| {
+                if name.len() == 1 {
+                    of(u32::from(name[0] - b'a'))
+                } else {
+                    Quantity::unknown()
+                }
+            });
+            value.expect("an expression")
+        })
+    }
+
+    #[test]
+    fn what_is_written_once_is_known_and_what_several_write_is_between_them() {
+        let mut numbers = Numbers::default();
+        numbers.write(0, "40", None);
+        numbers.write(1, "a/4", None);
+        numbers.write(2, "a", None);
+        numbers.write(2, "b", Some(Blocks::default().site()));
+        numbers.write(3, "a", None);
+        numbers.lose(3);
+        assert_eq!(value(&numbers, 1).exact(), Some(10.0));
+        assert_eq!(value(&numbers, 2).ends(), Some((10.0, 40.0)));
+        assert!(value(&numbers, 3).unknown.is_some());
+        assert_eq!(value(&numbers, 4), Quantity::unknown());
+    }
+
+    #[test]
+    fn what_is_added_counts_as_often_as_the_loops_behind_what_sets_it_anew() {
+        let grown = |inside: &dyn Fn(&mut Blocks), jumps: bool| {
+            let (mut numbers, mut blocks) = (Numbers::default(), Blocks::default());
+            blocks.begin(7);
+            numbers.write(0, "0", None);
+            numbers.write(0, "0", Some(blocks.site()));
+            inside(&mut blocks);
+            numbers.write(0, "a+40", Some(blocks.site()));
+            if jumps {
+                numbers.jumps(7);
+            }
+            value(&numbers, 0)
+        };
+        let counted = grown(&|blocks| blocks.open(Some(10)), false);
+        assert_eq!(counted, Quantity::counted(0.0, 40.0, Some(10)));
+        let nested = |blocks: &mut Blocks| {
+            blocks.open(Some(3));
+            blocks.open(Some(1));
+            blocks.branch();
+            blocks.open(Some(4));
+        };
+        assert_eq!(grown(&nested, false).ends(), Some((0.0, 480.0)));
+        let endless = Quantity::counted(0.0, 40.0, None);
+        assert_eq!(grown(&nested, true), endless);
+        assert_eq!(grown(&|blocks| blocks.open(None), false), endless);
+        // elsewhere: nothing says how often
+        assert_eq!(grown(&|blocks| blocks.begin(8), false), endless);
+        assert_eq!(grown(&|_| (), false), Quantity::counted(0.0, 40.0, Some(1)));
+    }
+
+    #[test]
+    fn what_is_set_in_one_branch_is_not_set_in_the_other() {
+        let (mut numbers, mut blocks) = (Numbers::default(), Blocks::default());
+        blocks.open(Some(1));
+        numbers.write(0, "0", Some(blocks.site()));
+        blocks.branch();
+        numbers.write(0, "a-5", Some(blocks.site()));
+        assert_eq!(value(&numbers, 0), Quantity::counted(0.0, -5.0, None));
+    }
+
+    #[test]
+    fn circles_and_growth_by_what_nobody_knows_have_no_bound() {
+        let mut numbers = Numbers::default();
+        numbers.write(0, "b+1", None);
+        numbers.write(1, "a+1", None);
+        numbers.write(2, "c+camera", Some(Blocks::default().site()));
+        numbers.write(3, "2*d", None);
+        for number in 0..4 {
+            assert!(value(&numbers, number).is_endless(), "{number}");
+        }
+        numbers.write(4, "1", None);
+        numbers.write(4, "-e", None);
+        assert_eq!(value(&numbers, 4).ends(), Some((-1.0, 1.0)));
+    }
+}

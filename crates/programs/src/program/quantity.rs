@@ -1,0 +1,620 @@
+//! What a number of a program comes to, as far as the text tells: sums and products of numbers of
+//! the text, of what loops count, and of what only the running program knows.
+//!
+//! All that a number may be is looked at, and more where that is simpler: two numbers count as if
+//! each went its own way.
+
+use super::number;
+
+/// A number: `first`, with each of the steps made none or more times, and what only the running
+/// program knows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Quantity {
+    pub first: f64,
+    pub steps: Vec<Step>,
+    pub unknown: Option<Unknown>,
+    /// How often the number itself that is assigned stands in it.
+    own: f64,
+}
+
+/// A step, made 0 times up to `most`; `None` where nothing bounds that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    pub by: f64,
+    pub most: Option<u32>,
+}
+
+/// What only the running program knows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Unknown {
+    /// The product of the numbers in the text that it is multiplied by.
+    scale: f64,
+    /// Whether there are any.
+    is_told: bool,
+    /// It is added again and again.
+    pub is_endless: bool,
+}
+
+/// So many steps are looked at between the ends of what is known by its ends alone.
+const SPAN: u32 = 64;
+/// Brackets in brackets that are followed.
+const DEEPEST: u32 = 32;
+/// Numbers that are less apart are one.
+const SAME: f64 = 1e-12;
+
+impl Quantity {
+    pub(super) fn exactly(first: f64) -> Self {
+        Self {
+            first,
+            steps: Vec::new(),
+            unknown: None,
+            own: 0.0,
+        }
+    }
+
+    /// `first`, and up to so many times `by` more.
+    pub(super) fn counted(first: f64, by: f64, most: Option<u32>) -> Self {
+        let mut steps = vec![Step { by, most }];
+        steps.retain(|step| step.by != 0.0 && step.most != Some(0));
+        Self {
+            steps,
+            ..Self::exactly(first)
+        }
+    }
+
+    /// What only the running program knows.
+    pub(super) fn unknown() -> Self {
+        Self {
+            unknown: Some(Unknown {
+                scale: 1.0,
+                is_told: false,
+                is_endless: false,
+            }),
+            ..Self::exactly(0.0)
+        }
+    }
+
+    /// Likewise, and nothing bounds it.
+    pub(super) fn endless() -> Self {
+        let mut endless = Self::unknown();
+        endless.unknown = endless.unknown.map(|unknown| Unknown {
+            is_endless: true,
+            ..unknown
+        });
+        endless
+    }
+
+    /// The number that is assigned, in what is assigned to it.
+    pub(super) fn own() -> Self {
+        Self {
+            own: 1.0,
+            ..Self::exactly(0.0)
+        }
+    }
+
+    /// How often the number that is assigned stands in this, and the rest.
+    pub(super) fn apart(self) -> (f64, Self) {
+        (self.own, Self { own: 0.0, ..self })
+    }
+
+    /// The one number that it is.
+    pub(super) fn exact(&self) -> Option<f64> {
+        let is_one = self.steps.is_empty() && self.unknown.is_none() && self.own == 0.0;
+        is_one
+            .then_some(self.first)
+            .filter(|first| first.is_finite())
+    }
+
+    pub(super) fn is_endless(&self) -> bool {
+        self.unknown.is_some_and(|unknown| unknown.is_endless)
+    }
+
+    /// The least and the greatest that it is; `None` where nothing bounds it.
+    pub(super) fn ends(&self) -> Option<(f64, f64)> {
+        if self.unknown.is_some() || self.own != 0.0 {
+            return None;
+        }
+        self.known_ends()
+    }
+
+    /// Likewise, of what the text tells.
+    fn known_ends(&self) -> Option<(f64, f64)> {
+        let (mut least, mut most) = (self.first, self.first);
+        for step in &self.steps {
+            let all = step.by * f64::from(step.most?);
+            (least, most) = (least + all.min(0.0), most + all.max(0.0));
+        }
+        Some((least, most))
+    }
+
+    /// What the numbers of the text in the unknown part come to.
+    pub(super) fn told(&self) -> f64 {
+        let told = self.unknown.filter(|unknown| unknown.is_told);
+        told.map_or(0.0, |unknown| unknown.scale)
+    }
+
+    /// What all numbers of the text come to, whatever their signs; one that adds up counts once.
+    fn magnitude(&self) -> f64 {
+        let steps = self.steps.iter();
+        let steps = steps.map(|step| (step.by * f64::from(step.most.unwrap_or(1))).abs());
+        self.first.abs() + steps.sum::<f64>() + self.told()
+    }
+
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        if factor == 0.0 {
+            return Self::exactly(0.0);
+        }
+        self.first *= factor;
+        self.own *= factor;
+        for step in &mut self.steps {
+            step.by *= factor;
+        }
+        if let Some(unknown) = &mut self.unknown {
+            unknown.scale *= factor.abs();
+            unknown.is_told |= (factor.abs() - 1.0).abs() > SAME;
+        }
+        self
+    }
+
+    /// In another unit: that is no factor of the text.
+    pub(super) fn in_unit(self, unit: f64) -> Self {
+        let is_told = self.unknown.is_some_and(|unknown| unknown.is_told);
+        let mut scaled = self.times(unit);
+        if let Some(unknown) = &mut scaled.unknown {
+            unknown.is_told = is_told;
+        }
+        scaled
+    }
+
+    pub(super) fn plus(mut self, other: Self) -> Self {
+        self.first += other.first;
+        self.own += other.own;
+        self.steps.extend(other.steps);
+        self.unknown = match (self.unknown, other.unknown) {
+            (Some(a), Some(b)) => {
+                let told = |of: Unknown| if of.is_told { of.scale } else { 0.0 };
+                let is_told = a.is_told || b.is_told;
+                Some(Unknown {
+                    scale: if is_told { told(a) + told(b) } else { 1.0 },
+                    is_told,
+                    is_endless: a.is_endless || b.is_endless,
+                })
+            }
+            (a, b) => a.or(b),
+        };
+        self.tidied()
+    }
+
+    /// One step that is bounded at most, and one each way that is not.
+    fn tidied(mut self) -> Self {
+        let bounded = |step: &&Step| step.most.is_some();
+        if self.steps.iter().filter(bounded).count() > 1 {
+            let (mut bounded, mut endless) = (Self::exactly(self.first), Vec::new());
+            for step in std::mem::take(&mut self.steps) {
+                if step.most.is_some() {
+                    bounded.steps.push(step);
+                } else {
+                    endless.push(step);
+                }
+            }
+            if let Some((least, most)) = bounded.known_ends() {
+                let span = Self::between(least, most);
+                (self.first, self.steps) = (span.first, span.steps);
+            }
+            self.steps.extend(endless);
+        }
+        for sign in [1.0, -1.0] {
+            let is = |step: &Step| step.most.is_none() && step.by * sign > 0.0;
+            let nearest = self.steps.iter().filter(|step| is(step));
+            let nearest = nearest.map(|step| step.by.abs()).reduce(f64::min);
+            if let Some(by) = nearest {
+                self.steps.retain(|step| !is(step));
+                self.steps.push(Step {
+                    by: sign * by,
+                    most: None,
+                });
+            }
+        }
+        self
+    }
+
+    /// Anything between two numbers.
+    pub(super) fn between(least: f64, most: f64) -> Self {
+        Self::counted(least, (most - least) / f64::from(SPAN), Some(SPAN))
+    }
+
+    pub(super) fn by(self, other: Self) -> Self {
+        if let Some(factor) = self.exact() {
+            return other.times(factor);
+        }
+        if let Some(factor) = other.exact() {
+            return self.times(factor);
+        }
+        if self.own != 0.0 || other.own != 0.0 {
+            return Self::endless();
+        }
+        if self.unknown.is_some() || other.unknown.is_some() {
+            let is_told = self.magnitude() > 0.0 || other.magnitude() > 0.0;
+            // a factor that nobody knows is at least 1
+            let scale = |of: &Self| {
+                if of.unknown.is_some() {
+                    of.magnitude().max(1.0)
+                } else {
+                    of.magnitude()
+                }
+            };
+            let unbounded = |of: &Self| of.steps.iter().any(|step| step.most.is_none());
+            return Self {
+                unknown: Some(Unknown {
+                    scale: scale(&self) * scale(&other),
+                    is_told,
+                    is_endless: self.is_endless()
+                        || other.is_endless()
+                        || unbounded(&self)
+                        || unbounded(&other),
+                }),
+                ..Self::exactly(0.0)
+            };
+        }
+        match (self.ends(), other.ends()) {
+            (Some((a, b)), Some((c, d))) => {
+                let corners = [a * c, a * d, b * c, b * d];
+                let least = corners.into_iter().fold(f64::INFINITY, f64::min);
+                let most = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                Self::between(least, most)
+            }
+            // along the line either way
+            _ => {
+                let by = self.magnitude() * other.magnitude();
+                let each = [by, -by].map(|by| Step { by, most: None });
+                Self {
+                    steps: each.into(),
+                    ..Self::exactly(0.0)
+                }
+            }
+        }
+    }
+
+    fn over(self, other: Self) -> Self {
+        if let Some(divisor) = other.exact() {
+            return if divisor == 0.0 {
+                Self::unknown()
+            } else {
+                self.times(1.0 / divisor)
+            };
+        }
+        match other.ends() {
+            Some((a, b)) if a > 0.0 || b < 0.0 => self.by(Self::between(1.0 / b, 1.0 / a)),
+            // a divisor that nobody knows is at least 1, as factors are
+            _ => self.by(Self::unknown()),
+        }
+    }
+
+    /// The whole part of a quotient.
+    fn div(self, other: Self) -> Self {
+        if let (Some(a), Some(b)) = (self.exact(), other.exact())
+            && b != 0.0
+        {
+            return Self::exactly((a / b).trunc());
+        }
+        let quotient = self.over(other);
+        match quotient.ends() {
+            Some((a, b)) => Self::between(a.min(0.0), b.max(0.0)),
+            None => quotient,
+        }
+    }
+
+    /// What is left of a quotient.
+    fn modulo(self, other: &Self) -> Self {
+        match (self.ends(), other.exact()) {
+            (Some((least, _)), Some(by)) if by != 0.0 => {
+                let most = by.abs();
+                Self::between(if least < 0.0 { -most } else { 0.0 }, most)
+            }
+            _ if self.own != 0.0 => Self::endless(),
+            _ => Self::unknown(),
+        }
+    }
+
+    /// Any of several.
+    pub(super) fn any(all: &[Self]) -> Self {
+        let [first, rest @ ..] = all else {
+            return Self::unknown();
+        };
+        if rest.iter().all(|other| other == first) {
+            return first.clone();
+        }
+        if all.iter().any(|one| one.own != 0.0) {
+            return Self::endless();
+        }
+        let mut steps: Vec<Step> = Vec::new();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut unknown: Option<Unknown> = None;
+        for one in all {
+            let mut bounded = one.clone();
+            bounded.steps.retain(|step| step.most.is_some());
+            let (a, b) = bounded.known_ends().unwrap_or((one.first, one.first));
+            (least, most) = (least.min(a), most.max(b));
+            steps.extend(one.steps.iter().filter(|step| step.most.is_none()));
+            unknown = match (unknown, one.unknown) {
+                (Some(a), Some(b)) => Some(Unknown {
+                    scale: match (a.is_told, b.is_told) {
+                        (true, false) => a.scale,
+                        (false, true) => b.scale,
+                        _ => a.scale.max(b.scale),
+                    },
+                    is_told: a.is_told || b.is_told,
+                    is_endless: a.is_endless || b.is_endless,
+                }),
+                (a, b) => a.or(b),
+            };
+        }
+        let is_either = all
+            .iter()
+            .all(|one| one.exact().is_some_and(|v| v == least || v == most));
+        let mut span = if is_either {
+            Self::counted(least, most - least, Some(1))
+        } else {
+            Self::between(least, most)
+        };
+        span.steps.extend(steps);
+        Self { unknown, ..span }.tidied()
+    }
+}
+
+/// The value of an expression of numbers, names and `+ - * /` (`DIV`, `MOD`, `%`) with brackets;
+/// `of` gives that of an operand that is none of these: a name with all that belongs to it, as
+/// `p.trans.z`, `q[2]`, `Abs(x)`. `None` where anything else stands there.
+pub(super) fn evaluate(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Option<Quantity> {
+    let mut reader = Reader { text, at: 0, of };
+    let value = reader.sum(0)?;
+    reader.blanks();
+    let is_finite = value.first.is_finite() && value.steps.iter().all(|step| step.by.is_finite());
+    (reader.at == text.len() && is_finite).then_some(value)
+}
+
+struct Reader<'a, 'b> {
+    text: &'a [u8],
+    at: usize,
+    of: &'b mut dyn FnMut(&[u8]) -> Quantity,
+}
+
+impl Reader<'_, '_> {
+    fn blanks(&mut self) -> Option<u8> {
+        let rest = &self.text[self.at..];
+        self.at += rest.iter().take_while(|b| b.is_ascii_whitespace()).count();
+        self.text.get(self.at).copied()
+    }
+
+    fn sum(&mut self, depth: u32) -> Option<Quantity> {
+        if depth > DEEPEST {
+            return None;
+        }
+        let mut sum = self.product(depth)?;
+        while let Some(sign @ (b'+' | b'-')) = self.blanks() {
+            self.at += 1;
+            let next = self.product(depth)?;
+            sum = sum.plus(if sign == b'-' { next.times(-1.0) } else { next });
+        }
+        Some(sum)
+    }
+
+    fn product(&mut self, depth: u32) -> Option<Quantity> {
+        let mut product = self.factor(depth)?;
+        loop {
+            let sign = match self.blanks() {
+                Some(sign @ (b'*' | b'/' | b'%')) => sign,
+                _ if self.is_word(b"div") => b'd',
+                _ if self.is_word(b"mod") => b'%',
+                _ => return Some(product),
+            };
+            self.at += if sign == b'd' || self.text[self.at] != sign {
+                3
+            } else {
+                1
+            };
+            let next = self.factor(depth)?;
+            product = match sign {
+                b'*' => product.by(next),
+                b'/' => product.over(next),
+                b'd' => product.div(next),
+                _ => product.modulo(&next),
+            };
+        }
+    }
+
+    fn is_word(&self, word: &[u8; 3]) -> bool {
+        let rest = &self.text[self.at..];
+        let is = rest
+            .get(..3)
+            .is_some_and(|text| text.eq_ignore_ascii_case(word));
+        is && !rest.get(3).copied().is_some_and(is_letter)
+    }
+
+    fn factor(&mut self, depth: u32) -> Option<Quantity> {
+        let mut sign = 1.0;
+        while let Some(byte @ (b'+' | b'-')) = self.blanks() {
+            sign = if byte == b'-' { -sign } else { sign };
+            self.at += 1;
+        }
+        let rest = &self.text[self.at..];
+        let value = match *rest.first()? {
+            b'(' => {
+                self.at += 1;
+                let inside = self.sum(depth + 1)?;
+                if self.blanks() != Some(b')') {
+                    return None;
+                }
+                self.at += 1;
+                inside
+            }
+            b'0'..=b'9' | b'.' => {
+                let (value, length) = number::parse_start(rest)?;
+                if rest.get(length).copied().is_some_and(is_letter) {
+                    return None;
+                }
+                self.at += length;
+                Quantity::exactly(value)
+            }
+            byte if is_letter(byte) => {
+                let start = self.at;
+                self.operand()?;
+                (self.of)(self.text[start..self.at].trim_ascii())
+            }
+            _ => return None,
+        };
+        Some(value.times(sign))
+    }
+
+    /// Passes over a name and what belongs to it.
+    fn operand(&mut self) -> Option<()> {
+        loop {
+            let rest = &self.text[self.at..];
+            self.at += rest.iter().take_while(|b| is_letter(**b)).count();
+            let behind = self.at;
+            match self.blanks() {
+                Some(b'.') => {
+                    self.at += 1;
+                    self.blanks();
+                }
+                Some(b'(' | b'[' | b'{') => self.brackets()?,
+                _ => {
+                    self.at = behind;
+                    return Some(());
+                }
+            }
+        }
+    }
+
+    fn brackets(&mut self) -> Option<()> {
+        let mut depth = 0_u32;
+        loop {
+            match self.text.get(self.at)? {
+                b'(' | b'[' | b'{' => depth += 1,
+                b')' | b']' | b'}' => depth -= 1,
+                b'"' | b'\'' => return None,
+                _ => {}
+            }
+            self.at += 1;
+            if depth == 0 {
+                return Some(());
+            }
+        }
+    }
+}
+
+fn is_letter(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `i` counts 0 to 9, `e` grows by 40, `c` is 5, `x` nobody knows.
+    fn value(text: &str) -> Option<Quantity> {
+        evaluate(text.as_bytes(), &mut |name| match name {
+            b"i" => Quantity::counted(0.0, 1.0, Some(9)),
+            b"e" => Quantity::counted(0.0, 40.0, None),
+            b"c" => Quantity::exactly(5.0),
+            b"me" => Quantity::own(),
+            _ => Quantity::unknown(),
+        })
+    }
+
+    #[test]
+    fn numbers_and_constants_are_computed() {
+        for (text, expected) in [
+            ("3", 3.0),
+            ("-c*4+2", -18.0),
+            ("2*(c-1)/4", 2.0),
+            ("- -c", 5.0),
+            ("17 DIV c", 3.0),
+            ("0*x", 0.0),
+        ] {
+            assert_eq!(
+                value(text).and_then(|q| q.exact()),
+                Some(expected),
+                "{text}"
+            );
+        }
+        for text in ["", "3 4", "(3", "3)", "c c", "\"a\"", "3+", "2^3", "0x10"] {
+            assert_eq!(value(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_counted_has_ends() {
+        let ends = |text: &str| value(text).and_then(|q| q.ends());
+        for (text, expected) in [
+            ("-i*40", (-360.0, 0.0)),
+            ("(i-1)*c", (-5.0, 40.0)),
+            ("i*i", (0.0, 81.0)),
+            ("i*40-i*10", (-90.0, 360.0)),
+            ("40/(i+1)", (4.0, 40.0)),
+            ("(i MOD 4)*10", (0.0, 40.0)),
+            ("i div 4", (0.0, 2.25)),
+        ] {
+            let found = ends(text).expect(text);
+            assert!((found.0 - expected.0).abs() < 1e-9, "{text}: {found:?}");
+            assert!((found.1 - expected.1).abs() < 1e-9, "{text}: {found:?}");
+        }
+        assert_eq!(
+            value("20-i*40"),
+            Some(Quantity::counted(20.0, -40.0, Some(9)))
+        );
+        assert_eq!(value("c-e"), Some(Quantity::counted(5.0, -40.0, None)));
+        assert_eq!(value("i*40").and_then(|q| q.exact()), None);
+    }
+
+    #[test]
+    fn numbers_of_the_text_are_the_least_that_a_product_comes_to() {
+        let told = |text: &str| value(text).map(|q| q.told());
+        for (text, expected) in [
+            ("x", 0.0),
+            ("x*y", 0.0),
+            ("-x*40", 40.0),
+            ("x*c*2", 10.0),
+            ("x/2", 0.5),
+            ("(x-3)*40", 40.0),
+            ("(x-3)*y", 3.0),
+            ("x*i*10", 90.0),
+            ("Abs(x)*40", 40.0),
+            ("x*40+y*10", 50.0),
+            ("40/x", 40.0),
+            ("p{i}.z*20", 20.0),
+        ] {
+            assert!((told(text).expect(text) - expected).abs() < 1e-9, "{text}");
+        }
+        assert_eq!(
+            value("c*x+3").map(|q| (q.first, q.told())),
+            Some((3.0, 5.0))
+        );
+        assert!(value("e*x").is_some_and(|q| q.is_endless()));
+    }
+
+    #[test]
+    fn what_is_assigned_is_told_apart_from_the_rest() {
+        let (own, rest) = value("me+40").expect("a sum").apart();
+        assert_eq!((own, rest.exact()), (1.0, Some(40.0)));
+        assert!(value("me*x").is_some_and(|q| q.is_endless()));
+        assert!(value("-(me-c)").is_some_and(|q| q.apart() == (-1.0, Quantity::exactly(5.0))));
+    }
+
+    #[test]
+    fn any_of_several_is_between_the_ends() {
+        let any = |all: &[f64]| {
+            Quantity::any(
+                &all.iter()
+                    .copied()
+                    .map(Quantity::exactly)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        assert_eq!(any(&[3.0, 3.0]).exact(), Some(3.0));
+        assert_eq!(any(&[3.0, 1.0]), Quantity::counted(1.0, 2.0, Some(1)));
+        assert_eq!(any(&[3.0, 1.0, 2.0]).ends(), Some((1.0, 3.0)));
+        let with = Quantity::any(&[Quantity::exactly(7.0), Quantity::unknown()]);
+        assert!(with.unknown.is_some() && with.known_ends() == Some((0.0, 7.0)));
+    }
+}

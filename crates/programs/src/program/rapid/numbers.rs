@@ -1,0 +1,360 @@
+//! What numbers may be: constants, what FOR counts, and data with all that is written into them.
+
+use super::resolved::Resolved;
+use super::syntax::{
+    Called, Callee, Component, Counting, Index, StatementKind, Storage, Type, Verb, indices,
+};
+use crate::program::names::{Context, Meaning, Symbol};
+use crate::program::numbers::{Blocks, Numbers, Site, counted, word};
+use crate::program::quantity::{Quantity, evaluate};
+use crate::program::script::Place;
+
+/// Data that tasks share have the number of their group, above this.
+const SHARED: u32 = 1 << 31;
+/// What is written into a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Written {
+    /// The value of these bytes.
+    Text {
+        file: u32,
+        bytes: (u32, u32),
+        context: Context,
+    },
+    /// What it is, and these bytes.
+    Added {
+        file: u32,
+        bytes: (u32, u32),
+        context: Context,
+    },
+    /// What it is, and this.
+    More(f64),
+    Zero,
+}
+
+impl Resolved<'_> {
+    /// What a number is called in [`Self::numbers`].
+    fn number(&self, datum: u32) -> u32 {
+        self.group_of(datum).map_or(datum, |group| SHARED | group)
+    }
+
+    /// Notes all that is written into numbers.
+    pub(super) fn find_numbers(&mut self) {
+        let mut numbers = Numbers::default();
+        self.declared(&mut numbers);
+        let mut blocks = Blocks::default();
+        let mut context = Context {
+            module: 0,
+            routine: None,
+        };
+        let mut file = 0;
+        for statement in &self.parsed.statements {
+            match statement.kind {
+                StatementKind::Text {
+                    file: in_file,
+                    context: now,
+                } => {
+                    (context, file) = (now, in_file);
+                    blocks.begin(context.routine.unwrap_or(u32::MAX));
+                }
+                StatementKind::Assign {
+                    name,
+                    index: Index::Whole,
+                    component: Component::Whole,
+                    ..
+                } => {
+                    let data = self.numbers_named(name, context);
+                    if !data.is_empty() {
+                        let bytes = self.assigned_bytes(file, statement.offset);
+                        let written = Written::Text {
+                            file,
+                            bytes,
+                            context,
+                        };
+                        let site = blocks.site();
+                        for datum in data {
+                            numbers.write(datum, written, Some(site.clone()));
+                        }
+                    }
+                }
+                StatementKind::Function(function) => {
+                    let of = self.parsed.functions[function as usize];
+                    let callee = Callee::Named(of.name);
+                    let is_built_in = !self.is_routine(of.name, context);
+                    if is_built_in {
+                        self.lose_all(true, of.arguments, context, &mut numbers);
+                    } else {
+                        self.lose_given(callee, (true, of.arguments), context, file, &mut numbers);
+                    }
+                }
+                StatementKind::Call(Called {
+                    callee,
+                    verb,
+                    arguments,
+                    ..
+                }) => {
+                    let name = match callee {
+                        Callee::Named(name) if self.is_routine(name, context) => None,
+                        Callee::Named(name) => Some(name),
+                        _ => None,
+                    };
+                    match (name, verb) {
+                        (Some(name), Verb::Writes(_)) => {
+                            let site = blocks.site();
+                            let at = (arguments, context, file);
+                            self.built_in(name, at, site, &mut numbers);
+                        }
+                        (Some(_), Verb::WritesTool) => {
+                            self.lose_all(false, arguments, context, &mut numbers);
+                        }
+                        (Some(_), Verb::WritesNamed) => {
+                            for (at, datum) in (0..).zip(&self.parsed.data) {
+                                if datum.storage != Storage::Constant {
+                                    numbers.lose(self.number(at));
+                                }
+                            }
+                        }
+                        (None, _) | (_, Verb::Other | Verb::CallByVar) => {
+                            let given = (false, arguments);
+                            self.lose_given(callee, given, context, file, &mut numbers);
+                        }
+                        _ => {}
+                    }
+                }
+                StatementKind::If(_) | StatementKind::Test => blocks.open(Some(1)),
+                StatementKind::Branch { .. } => blocks.branch(),
+                StatementKind::Loop { most, .. } => blocks.open(most),
+                StatementKind::EndChoice | StatementKind::EndLoop { .. } => blocks.close(),
+                StatementKind::Goto(_) | StatementKind::Handler | StatementKind::Retry => {
+                    numbers.jumps(context.routine.unwrap_or(u32::MAX));
+                }
+                _ => {}
+            }
+        }
+        for &(name, context) in &self.parsed.results {
+            for number in self.numbers_named(name, context) {
+                numbers.lose(number);
+            }
+        }
+        self.numbers = numbers;
+    }
+
+    /// What numbers are declared with.
+    fn declared(&self, numbers: &mut Numbers<Written>) {
+        for (at, datum) in (0..).zip(&self.parsed.data) {
+            if datum.kind != Type::Num {
+                continue;
+            }
+            let number = self.number(at);
+            let value = self.parsed.values.get(&at).copied();
+            let written = match (value, datum.storage) {
+                (Some(bytes), _) => Written::Text {
+                    file: datum.place.file,
+                    bytes,
+                    context: datum.context,
+                },
+                (None, Storage::Variable) => Written::Zero,
+                _ => {
+                    numbers.lose(number);
+                    continue;
+                }
+            };
+            // data of a routine begin anew with it
+            let routine = datum.context.routine;
+            let routine = routine.filter(|_| datum.storage == Storage::Variable);
+            numbers.write(number, written, routine.map(Site::at_start));
+        }
+    }
+
+    /// The numbers that a name may mean.
+    fn numbers_named(&self, name: Symbol, context: Context) -> Vec<u32> {
+        let data = match self.meaning(name, context) {
+            Meaning::One(datum) => vec![datum],
+            Meaning::Several(list) => self.several(list).to_vec(),
+            Meaning::Nothing => Vec::new(),
+        };
+        let data = data.into_iter();
+        let numbers = data.filter(|datum| self.datum(*datum).kind == Type::Num);
+        numbers.map(|datum| self.number(datum)).collect()
+    }
+
+    /// The value of the assignment that begins there.
+    fn assigned_bytes(&self, file: u32, offset: u32) -> (u32, u32) {
+        let text = &self.sources[file as usize].bytes[offset as usize..];
+        let end = memchr::memchr(b';', text).unwrap_or(text.len());
+        let start = memchr::memmem::find(&text[..end], b":=").map_or(end, |at| at + 2);
+        let at = |by: usize| offset + crate::program::script::short(by);
+        (at(start), at(end))
+    }
+
+    /// An instruction of the language that writes.
+    fn built_in(
+        &self,
+        name: Symbol,
+        (arguments, context, file): ((u32, u32), Context, u32),
+        site: Site,
+        numbers: &mut Numbers<Written>,
+    ) {
+        let given = &self.parsed.arguments[indices(arguments)];
+        let by = match self.spelling(name).to_ascii_lowercase().as_str() {
+            "incr" => Some(Written::More(1.0)),
+            "decr" => Some(Written::More(-1.0)),
+            "clear" => Some(Written::Zero),
+            "add" => given.get(1).map(|argument| Written::Added {
+                file,
+                bytes: argument.span,
+                context,
+            }),
+            _ => None,
+        };
+        let Some((by, of)) = by.zip(given.first()) else {
+            return self.lose_all(false, arguments, context, numbers);
+        };
+        if let Some((name, Index::Whole)) = self.place_of(&of.expression) {
+            for number in self.numbers_named(name, context) {
+                numbers.write(number, by, Some(site.clone()));
+            }
+        }
+    }
+
+    /// All arguments may be written.
+    fn lose_all(
+        &self,
+        of_function: bool,
+        arguments: (u32, u32),
+        context: Context,
+        numbers: &mut Numbers<Written>,
+    ) {
+        for argument in &self.list(of_function)[indices(arguments)] {
+            if let Some((name, _)) = self.place_of(&argument.expression) {
+                for number in self.numbers_named(name, context) {
+                    numbers.lose(number);
+                }
+            }
+        }
+    }
+
+    /// A routine may write what it is given by reference.
+    fn lose_given(
+        &self,
+        callee: Callee,
+        (of_function, arguments): (bool, (u32, u32)),
+        context: Context,
+        file: u32,
+        numbers: &mut Numbers<Written>,
+    ) {
+        let callees = self.callees(callee, arguments, context, file);
+        if callees.foreign {
+            self.lose_all(of_function, arguments, context, numbers);
+        }
+        let given = &self.list(of_function)[indices(arguments)];
+        for &routine in &callees.routines {
+            for (datum, argument) in self.parameters(routine, given) {
+                let place = argument.and_then(|argument| self.place_of(&argument.expression));
+                if let Some((name, _)) = place.filter(|_| self.is_written_back(datum)) {
+                    for number in self.numbers_named(name, context) {
+                        numbers.lose(number);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The value of an expression at a place; `own` gives that of operands that are no names.
+    pub(super) fn quantity(
+        &self,
+        text: &[u8],
+        at: Place,
+        context: Context,
+        own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+    ) -> Quantity {
+        let mut of = |number| {
+            let written =
+                |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(*what, of);
+            self.numbers.value(number, &written)
+        };
+        self.evaluated(text, at, context, &mut of, own)
+    }
+
+    fn written_value(&self, what: Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+        match what {
+            Written::Zero => Quantity::exactly(0.0),
+            Written::More(by) => Quantity::own().plus(Quantity::exactly(by)),
+            Written::Text {
+                file,
+                bytes,
+                context,
+            }
+            | Written::Added {
+                file,
+                bytes,
+                context,
+            } => {
+                let text = &self.sources[file as usize].bytes[indices(bytes)];
+                let at = Place {
+                    file,
+                    offset: bytes.0,
+                };
+                let value = self.evaluated(text, at, context, of, &mut |_| None);
+                if matches!(what, Written::Added { .. }) {
+                    return Quantity::own().plus(value);
+                }
+                value
+            }
+        }
+    }
+
+    fn evaluated(
+        &self,
+        text: &[u8],
+        at: Place,
+        context: Context,
+        of: &mut dyn FnMut(u32) -> Quantity,
+        own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+    ) -> Quantity {
+        let value = evaluate(text, &mut |operand| {
+            if let Some(own) = own(operand) {
+                return own;
+            }
+            let Some(name) = self.parsed.symbols.find(operand) else {
+                return Quantity::unknown();
+            };
+            if let Some(counting) = self.parsed.counting(name, at) {
+                return self.counted(counting, of);
+            }
+            match *self.numbers_named(name, context) {
+                [number] => of(number),
+                [] => Quantity::unknown(),
+                ref several => {
+                    let all: Vec<_> = several.iter().map(|number| of(*number)).collect();
+                    Quantity::any(&all)
+                }
+            }
+        });
+        value.unwrap_or_else(Quantity::unknown)
+    }
+
+    /// What a FOR loop counts with.
+    fn counted(&self, counting: &Counting, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+        let bytes = &self.sources[counting.file as usize].bytes;
+        let text = bytes[indices(counting.range)].to_ascii_lowercase();
+        let mut value = |from: &str, to: &[&str]| {
+            let start = word(&text, from)? + from.len();
+            let rest = &text[start..];
+            let end = to
+                .iter()
+                .find_map(|to| word(rest, to))
+                .unwrap_or(rest.len());
+            let at = Place {
+                file: counting.file,
+                offset: counting.range.0,
+            };
+            Some(self.evaluated(&rest[..end], at, counting.context, of, &mut |_| None))
+        };
+        let from = value("from", &["to"]);
+        let (Some(from), Some(to)) = (from, value("to", &["step", "do"])) else {
+            return Quantity::unknown();
+        };
+        let step = value("step", &["do"]);
+        counted(&from, &to, step)
+    }
+}
