@@ -132,6 +132,11 @@ impl<W> Numbers<W> {
             .push((what, site));
     }
 
+    /// Whether the text writes a number.
+    pub(super) fn is_written(&self, number: u32) -> bool {
+        self.facts.contains_key(&number)
+    }
+
     /// What writes a number is not known.
     pub(super) fn lose(&mut self, number: u32) {
         self.facts.entry(number).or_default().is_lost = true;

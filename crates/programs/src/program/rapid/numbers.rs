@@ -40,7 +40,7 @@ impl Resolved<'_> {
     /// Notes all that is written into numbers.
     pub(super) fn find_numbers(&mut self) {
         let mut numbers = Numbers::default();
-        self.declared(&mut numbers);
+        let blank = self.declared(&mut numbers);
         let mut blocks = Blocks::default();
         let mut context = Context {
             module: 0,
@@ -135,16 +135,29 @@ impl Resolved<'_> {
                 numbers.lose(number);
             }
         }
+        // data without a value begin with 0; where nothing writes them nothing is meant by that
+        for (number, site) in blank {
+            if numbers.is_written(number) {
+                numbers.write(number, Written::Zero, site);
+            } else {
+                numbers.lose(number);
+            }
+        }
         self.numbers = numbers;
     }
 
-    /// What numbers are declared with.
-    fn declared(&self, numbers: &mut Numbers<Written>) {
+    /// Notes what numbers are declared with; those without a value are left.
+    fn declared(&self, numbers: &mut Numbers<Written>) -> Vec<(u32, Option<Site>)> {
+        let mut blank = Vec::new();
         for (at, datum) in (0..).zip(&self.parsed.data) {
             if datum.kind != Type::Num {
                 continue;
             }
             let number = self.number(at);
+            // data of a routine begin anew with it
+            let routine = datum.context.routine;
+            let routine = routine.filter(|_| datum.storage == Storage::Variable);
+            let site = routine.map(Site::at_start);
             let value = self.parsed.values.get(&at).copied();
             let written = match (value, datum.storage) {
                 (Some(bytes), _) => Written::Text {
@@ -152,17 +165,18 @@ impl Resolved<'_> {
                     bytes,
                     context: datum.context,
                 },
-                (None, Storage::Variable) => Written::Zero,
+                (None, Storage::Variable) => {
+                    blank.push((number, site));
+                    continue;
+                }
                 _ => {
                     numbers.lose(number);
                     continue;
                 }
             };
-            // data of a routine begin anew with it
-            let routine = datum.context.routine;
-            let routine = routine.filter(|_| datum.storage == Storage::Variable);
-            numbers.write(number, written, routine.map(Site::at_start));
+            numbers.write(number, written, site);
         }
+        blank
     }
 
     /// The numbers that a name may mean.

@@ -463,10 +463,13 @@ impl Translator<'_> {
             return NOT_DISPLACED;
         }
         let mut by = Displacing::new();
+        let mut frame_mm = [0.0; 3].map(Quantity::exactly);
         for step in &self.resolved.parsed.steps[indices(steps)] {
             match step {
                 Step::Offs(amounts) => {
-                    by.along_frame(self.amounts(amounts).map(|mm| mm.in_unit(MM)));
+                    for (sum, amount) in frame_mm.iter_mut().zip(self.amounts(amounts)) {
+                        *sum = sum.clone().plus(amount);
+                    }
                 }
                 Step::RelTool(amounts) => {
                     let [x, y, z, rx, ry, rz] = self.amounts(amounts);
@@ -476,6 +479,7 @@ impl Translator<'_> {
                 }
             }
         }
+        by.along_frame(frame_mm.map(|mm| mm.in_unit(MM)));
         self.builder.script.displacement(by.displacement())
     }
 
