@@ -137,7 +137,7 @@ fn growth_is_bounded_in_every_language() {
 }
 
 /// How far off points land whose displacement the text tells, millimetres.
-fn told(done: &Compensation) -> Vec<f64> {
+fn misses(done: &Compensation) -> Vec<f64> {
     let found = done.findings.iter().filter(|f| f.id == "displaced-target");
     found.map(|f| miss_mm(&f.message)).collect()
 }
@@ -169,8 +169,8 @@ fn a_number_with_one_value_counts_as_that() {
         of_rapid(numbers, &go("0,-(offPick*n1+20),0")),
         of_rapid("", &go("0,-200,0")),
     );
-    assert_eq!(told(&one), told(&other));
-    assert_eq!(told(&one).len(), 1);
+    assert_eq!(misses(&one), misses(&other));
+    assert_eq!(misses(&one).len(), 1);
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn numbers_of_the_text_are_the_least_that_a_displacement_is() {
     let most = |of: &[f64]| of.iter().copied().fold(0.0, f64::max);
     let explicit = |mm: f64| {
         let both = format!("{}\n{}", go(&mm.to_string()), go(&(-mm).to_string()));
-        most(&told(&of_rapid("", &both)))
+        most(&misses(&of_rapid("", &both)))
     };
     for (by, mm) in [("-n*200", 200.0), ("n*150+50", 200.0), ("(n-1)*100", 200.0)] {
         let found = of_rapid("", &format!("n:=AInput(ai1);\n{}", go(by)));
@@ -253,8 +253,8 @@ fn numbers_of_other_languages_count_too() {
     };
     let literal = script("  movel(pose_add(w, p[0,-0.2,0,0,0,0]))\n");
     let named = script("  pitch = 0.04\n  movel(pose_add(w, p[0,-pitch*5,0,0,0,0]))\n");
-    assert_eq!(told(&literal).len(), 1);
-    assert_eq!(told(&named), told(&literal));
+    assert_eq!(misses(&literal).len(), 1);
+    assert_eq!(misses(&named), misses(&literal));
     let grown = script(
         "  e = 0\n  while True:\n    movel(pose_add(w, p[0,-e,0,0,0,0]))\n    e = e + 0.04\n  end\n",
     );
@@ -272,7 +272,7 @@ fn numbers_of_other_languages_count_too() {
     };
     let each = |k: i32| format!("q=XP\nq.Y=q.Y-{}\nLIN q\n", 40 * k);
     let explicit = kuka(&(1..=9).map(each).collect::<String>());
-    let most = told(&explicit).into_iter().fold(0.0, f64::max);
+    let most = misses(&explicit).into_iter().fold(0.0, f64::max);
     assert!(most > 0.05, "{:?}", explicit.findings);
     for by in ["i*40", "i*PITCH"] {
         let counted = kuka(&format!(

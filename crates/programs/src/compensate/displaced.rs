@@ -112,8 +112,8 @@ pub(super) fn check(
             }
             Displacement::AtLeast(steps) => {
                 let reach_m = reach_m(job, approach);
-                let told = strides::places(steps, reach_m).into_iter();
-                let most = most_m(&mut told.chain(strides::along_each_axis(SOMEHOW_M)));
+                let known = strides::places(steps, reach_m).into_iter();
+                let most = most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M)));
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along: the \
                      numbers of the text alone, with 1 for each factor that only the running program \

@@ -64,7 +64,7 @@ impl Displacing {
             } else {
                 self.is_unknown = true;
                 self.is_endless |= by.is_endless();
-                let angle = by.told();
+                let angle = by.of_text();
                 if angle > 0.0 || by.unknown.is_none() {
                     self.strides
                         .push(Stride::Turned((angle > 0.0).then_some(angle)));
@@ -89,10 +89,10 @@ impl Displacing {
         self.is_unknown |= by.unknown.is_some();
         self.is_endless |= by.is_endless();
         let steps = by.steps.iter().map(|step| (step.by, step.most));
-        let told = by.told();
-        let told = [told, -told].map(|by| (by, Some(1)));
-        let told = told.into_iter().filter(|(by, _)| *by != 0.0);
-        for (by, most) in steps.chain(told) {
+        let of_text = by.of_text();
+        let of_text = [of_text, -of_text].map(|by| (by, Some(1)));
+        let of_text = of_text.into_iter().filter(|(by, _)| *by != 0.0);
+        for (by, most) in steps.chain(of_text) {
             let shift = shift(by);
             self.strides.push(Stride::By { shift, most });
         }

@@ -30,7 +30,7 @@ pub(super) struct Unknown {
     /// The product of the numbers in the text that it is multiplied by.
     scale: f64,
     /// Whether there are any.
-    is_told: bool,
+    is_of_text: bool,
     /// It is added again and again.
     pub is_endless: bool,
 }
@@ -67,7 +67,7 @@ impl Quantity {
         Self {
             unknown: Some(Unknown {
                 scale: 1.0,
-                is_told: false,
+                is_of_text: false,
                 is_endless: false,
             }),
             ..Self::exactly(0.0)
@@ -128,16 +128,16 @@ impl Quantity {
     }
 
     /// What the numbers of the text in the unknown part come to.
-    pub(super) fn told(&self) -> f64 {
-        let told = self.unknown.filter(|unknown| unknown.is_told);
-        told.map_or(0.0, |unknown| unknown.scale)
+    pub(super) fn of_text(&self) -> f64 {
+        let of_text = self.unknown.filter(|unknown| unknown.is_of_text);
+        of_text.map_or(0.0, |unknown| unknown.scale)
     }
 
     /// What all numbers of the text come to, whatever their signs; one that adds up counts once.
     fn magnitude(&self) -> f64 {
         let steps = self.steps.iter();
         let steps = steps.map(|step| (step.by * f64::from(step.most.unwrap_or(1))).abs());
-        self.first.abs() + steps.sum::<f64>() + self.told()
+        self.first.abs() + steps.sum::<f64>() + self.of_text()
     }
 
     pub(super) fn times(mut self, factor: f64) -> Self {
@@ -151,17 +151,17 @@ impl Quantity {
         }
         if let Some(unknown) = &mut self.unknown {
             unknown.scale *= factor.abs();
-            unknown.is_told |= (factor.abs() - 1.0).abs() > SAME;
+            unknown.is_of_text |= (factor.abs() - 1.0).abs() > SAME;
         }
         self
     }
 
     /// In another unit: that is no factor of the text.
     pub(super) fn in_unit(self, unit: f64) -> Self {
-        let is_told = self.unknown.is_some_and(|unknown| unknown.is_told);
+        let is_of_text = self.unknown.is_some_and(|unknown| unknown.is_of_text);
         let mut scaled = self.times(unit);
         if let Some(unknown) = &mut scaled.unknown {
-            unknown.is_told = is_told;
+            unknown.is_of_text = is_of_text;
         }
         scaled
     }
@@ -172,11 +172,15 @@ impl Quantity {
         self.steps.extend(other.steps);
         self.unknown = match (self.unknown, other.unknown) {
             (Some(a), Some(b)) => {
-                let told = |of: Unknown| if of.is_told { of.scale } else { 0.0 };
-                let is_told = a.is_told || b.is_told;
+                let of_text = |of: Unknown| if of.is_of_text { of.scale } else { 0.0 };
+                let is_of_text = a.is_of_text || b.is_of_text;
                 Some(Unknown {
-                    scale: if is_told { told(a) + told(b) } else { 1.0 },
-                    is_told,
+                    scale: if is_of_text {
+                        of_text(a) + of_text(b)
+                    } else {
+                        1.0
+                    },
+                    is_of_text,
                     is_endless: a.is_endless || b.is_endless,
                 })
             }
@@ -234,7 +238,7 @@ impl Quantity {
             return Self::endless();
         }
         if self.unknown.is_some() || other.unknown.is_some() {
-            let is_told = self.magnitude() > 0.0 || other.magnitude() > 0.0;
+            let is_of_text = self.magnitude() > 0.0 || other.magnitude() > 0.0;
             // a factor that nobody knows is at least 1
             let scale = |of: &Self| {
                 if of.unknown.is_some() {
@@ -247,7 +251,7 @@ impl Quantity {
             return Self {
                 unknown: Some(Unknown {
                     scale: scale(&self) * scale(&other),
-                    is_told,
+                    is_of_text,
                     is_endless: self.is_endless()
                         || other.is_endless()
                         || unbounded(&self)
@@ -338,12 +342,12 @@ impl Quantity {
             steps.extend(one.steps.iter().filter(|step| step.most.is_none()));
             unknown = match (unknown, one.unknown) {
                 (Some(a), Some(b)) => Some(Unknown {
-                    scale: match (a.is_told, b.is_told) {
+                    scale: match (a.is_of_text, b.is_of_text) {
                         (true, false) => a.scale,
                         (false, true) => b.scale,
                         _ => a.scale.max(b.scale),
                     },
-                    is_told: a.is_told || b.is_told,
+                    is_of_text: a.is_of_text || b.is_of_text,
                     is_endless: a.is_endless || b.is_endless,
                 }),
                 (a, b) => a.or(b),

@@ -60,7 +60,7 @@ fn what_is_counted_has_ends() {
 
 #[test]
 fn numbers_of_the_text_are_the_least_that_a_product_comes_to() {
-    let told = |text: &str| value(text).map(|q| q.told());
+    let of_text = |text: &str| value(text).map(|q| q.of_text());
     for (text, expected) in [
         ("x", 0.0),
         ("x*y", 0.0),
@@ -75,17 +75,20 @@ fn numbers_of_the_text_are_the_least_that_a_product_comes_to() {
         ("40/x", 40.0),
         ("p{i}.z*20", 20.0),
     ] {
-        assert!((told(text).expect(text) - expected).abs() < 1e-9, "{text}");
+        assert!(
+            (of_text(text).expect(text) - expected).abs() < 1e-9,
+            "{text}"
+        );
     }
     assert_eq!(
-        value("c*x+3").map(|q| (q.first, q.told())),
+        value("c*x+3").map(|q| (q.first, q.of_text())),
         Some((3.0, 5.0))
     );
     assert!(value("e*x").is_some_and(|q| q.is_endless()));
 }
 
 #[test]
-fn what_is_assigned_is_told_apart_from_the_rest() {
+fn what_is_assigned_is_kept_apart_from_the_rest() {
     let (own, rest) = value("me+40").expect("a sum").apart();
     assert_eq!((own, rest.exact()), (1.0, Some(40.0)));
     assert!(value("me*x").is_some_and(|q| q.is_endless()));
