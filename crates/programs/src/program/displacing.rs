@@ -30,7 +30,7 @@ impl Displacing {
     }
 
     /// Along the axes of the work frame, metres.
-    pub(super) fn along_frame(&mut self, by: [Quantity; 3]) {
+    pub(super) fn along_frame(&mut self, by: &[Quantity; 3]) {
         self.exact = self
             .exact
             .then(&Shift::along([by[0].first, by[1].first, by[2].first]));
@@ -40,7 +40,7 @@ impl Displacing {
     }
 
     /// Along the axes of the tool, metres, and then about its x, the new y, the new z, radians.
-    pub(super) fn in_tool(&mut self, by: [Quantity; 6]) {
+    pub(super) fn in_tool(&mut self, by: &[Quantity; 6]) {
         let first: [f64; 6] = std::array::from_fn(|at| by[at].first);
         let step = Pose::from_xyz_rxryrz(first);
         self.in_tool_exactly(step);
@@ -137,7 +137,7 @@ pub(super) fn grown_by_any(at: usize, by: Quantity) -> Option<Displacement> {
     let mut along = [0.0; 3].map(Quantity::exactly);
     along[at] = by.in_unit(MM);
     let mut displacing = Displacing::new();
-    displacing.along_frame(along);
+    displacing.along_frame(&along);
     Some(displacing.displacement()).filter(|by| *by != Displacement::Unknown)
 }
 
@@ -185,8 +185,8 @@ mod tests {
         let mut by = Displacing::new();
         let mut first = exactly([0.0, 0.0, 0.0, 0.0, 0.0, FRAC_PI_2]);
         first[0] = Quantity::counted(0.5, 0.1, Some(2));
-        by.in_tool(first);
-        by.in_tool(exactly([0.3, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        by.in_tool(&first);
+        by.in_tool(&exactly([0.3, 0.0, 0.0, 0.0, 0.0, 0.0]));
         let Displacement::Within(strides) = by.displacement() else {
             panic!("the text tells it");
         };
@@ -209,7 +209,7 @@ mod tests {
     fn what_nobody_knows_is_as_large_as_the_text_or_as_anything() {
         let along = |by: Quantity| {
             let mut displacing = Displacing::new();
-            displacing.along_frame([by, Quantity::exactly(0.0), Quantity::exactly(0.0)]);
+            displacing.along_frame(&[by, Quantity::exactly(0.0), Quantity::exactly(0.0)]);
             displacing.displacement()
         };
         assert_eq!(along(Quantity::unknown()), Displacement::Unknown);

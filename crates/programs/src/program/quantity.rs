@@ -260,26 +260,22 @@ impl Quantity {
                 ..Self::exactly(0.0)
             };
         }
-        match (self.ends(), other.ends()) {
-            (Some((a, b)), Some((c, d))) => {
-                let corners = [a * c, a * d, b * c, b * d];
-                let least = corners.into_iter().fold(f64::INFINITY, f64::min);
-                let most = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
-                Self::between(least, most)
-            }
-            // along the line either way
-            _ => {
-                let by = self.magnitude() * other.magnitude();
-                let each = [by, -by].map(|by| Step { by, most: None });
-                Self {
-                    steps: each.into(),
-                    ..Self::exactly(0.0)
-                }
-            }
+        if let (Some((a, b)), Some((c, d))) = (self.ends(), other.ends()) {
+            let corners = [a * c, a * d, b * c, b * d];
+            let least = corners.into_iter().fold(f64::INFINITY, f64::min);
+            let most = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            return Self::between(least, most);
+        }
+        // along the line either way
+        let by = self.magnitude() * other.magnitude();
+        let each = [by, -by].map(|by| Step { by, most: None });
+        Self {
+            steps: each.into(),
+            ..Self::exactly(0.0)
         }
     }
 
-    fn over(self, other: Self) -> Self {
+    fn over(self, other: &Self) -> Self {
         if let Some(divisor) = other.exact() {
             return if divisor == 0.0 {
                 Self::unknown()
@@ -295,7 +291,7 @@ impl Quantity {
     }
 
     /// The whole part of a quotient.
-    fn div(self, other: Self) -> Self {
+    fn div(self, other: &Self) -> Self {
         if let (Some(a), Some(b)) = (self.exact(), other.exact())
             && b != 0.0
         {
@@ -408,8 +404,8 @@ impl Reader<'_, '_> {
         loop {
             let sign = match self.blanks() {
                 Some(sign @ (b'*' | b'/' | b'%')) => sign,
-                _ if self.is_word(b"div") => b'd',
-                _ if self.is_word(b"mod") => b'%',
+                _ if self.is_word(*b"div") => b'd',
+                _ if self.is_word(*b"mod") => b'%',
                 _ => return Some(product),
             };
             self.at += if sign == b'd' || self.text[self.at] != sign {
@@ -420,18 +416,18 @@ impl Reader<'_, '_> {
             let next = self.factor(depth)?;
             product = match sign {
                 b'*' => product.by(next),
-                b'/' => product.over(next),
-                b'd' => product.div(next),
+                b'/' => product.over(&next),
+                b'd' => product.div(&next),
                 _ => product.modulo(&next),
             };
         }
     }
 
-    fn is_word(&self, word: &[u8; 3]) -> bool {
+    fn is_word(&self, word: [u8; 3]) -> bool {
         let rest = &self.text[self.at..];
         let is = rest
             .get(..3)
-            .is_some_and(|text| text.eq_ignore_ascii_case(word));
+            .is_some_and(|text| text.eq_ignore_ascii_case(&word));
         is && !rest.get(3).copied().is_some_and(is_letter)
     }
 

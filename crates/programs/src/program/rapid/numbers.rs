@@ -101,7 +101,7 @@ impl Resolved<'_> {
                         (Some(name), Verb::Writes(_)) => {
                             let site = blocks.site();
                             let at = (arguments, context, file);
-                            self.built_in(name, at, site, &mut numbers);
+                            self.built_in(name, at, &site, &mut numbers);
                         }
                         (Some(_), Verb::WritesTool) => {
                             self.lose_all(false, arguments, context, &mut numbers);
@@ -205,7 +205,7 @@ impl Resolved<'_> {
         &self,
         name: Symbol,
         (arguments, context, file): ((u32, u32), Context, u32),
-        site: Site,
+        site: &Site,
         numbers: &mut Numbers<Written>,
     ) {
         let given = &self.parsed.arguments[indices(arguments)];

@@ -475,11 +475,11 @@ impl Translator<'_> {
                     let [x, y, z, rx, ry, rz] = self.amounts(amounts);
                     let [x, y, z] = [x, y, z].map(|mm| mm.in_unit(MM));
                     let [rx, ry, rz] = [rx, ry, rz].map(|degrees| degrees.in_unit(DEG));
-                    by.in_tool([x, y, z, rx, ry, rz]);
+                    by.in_tool(&[x, y, z, rx, ry, rz]);
                 }
             }
         }
-        by.along_frame(frame_mm.map(|mm| mm.in_unit(MM)));
+        by.along_frame(&frame_mm.map(|mm| mm.in_unit(MM)));
         self.builder.script.displacement(by.displacement())
     }
 

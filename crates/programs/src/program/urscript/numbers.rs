@@ -110,7 +110,7 @@ pub(super) fn in_base(amounts: [Quantity; 6]) -> Option<Displacement> {
     let [x, y, z, rotation @ ..] = amounts;
     let turned = turned(&rotation)?;
     let mut by = Displacing::new();
-    by.along_frame([x, y, z]);
+    by.along_frame(&[x, y, z]);
     by.in_tool_exactly(turned);
     Some(by.displacement())
 }
@@ -121,7 +121,7 @@ pub(super) fn in_tool(amounts: [Quantity; 6]) -> Option<Displacement> {
     let turned = turned(&rotation)?;
     let mut by = Displacing::new();
     let none = || Quantity::exactly(0.0);
-    by.in_tool([x, y, z, none(), none(), none()]);
+    by.in_tool(&[x, y, z, none(), none(), none()]);
     by.in_tool_exactly(turned);
     Some(by.displacement())
 }
