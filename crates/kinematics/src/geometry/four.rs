@@ -118,11 +118,12 @@ impl Scalar for Four {
     }
     #[inline(always)]
     fn every_below(self, limit: f64) -> bool {
-        // all lanes without a branch
-        #[allow(clippy::needless_bitwise_bool)]
-        let [a, b, c, d] = self.0;
-        let below = (a < limit) & (b < limit) & (c < limit) & (d < limit);
-        below
+        // all four without a branch
+        #[expect(clippy::needless_bitwise_bool, reason = "no branch")]
+        {
+            let [a, b, c, d] = self.0;
+            (a < limit) & (b < limit) & (c < limit) & (d < limit)
+        }
     }
     #[inline(always)]
     fn round(self) -> Self {
