@@ -9,9 +9,9 @@ pub const WIDTH: usize = 4;
 /// Four numbers on which every operation acts alike; the compiler turns it into vector
 /// instructions.
 ///
-/// The four are written out: a loop over them in every operation would be unrolled to the same
-/// instructions, but the kernels hold thousands of operations, and that took most of the time that
-/// this crate is compiled.
+/// The four are written out: the kernels hold thousands of operations, and to unroll a loop in each
+/// of them took most of the time that this crate is compiled (docs/performance.md has what that
+/// costs the batched kernels).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct Four(pub [f64; WIDTH]);
