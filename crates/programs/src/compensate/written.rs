@@ -30,13 +30,8 @@ pub struct Written {
 /// in place before that.
 #[derive(Debug)]
 pub struct Check {
-    /// The targets as they were, and the numbers of all of them.
-    targets: Vec<Target>,
-    numbers: Vec<Number>,
-    /// The changes to each file.
-    edits: Vec<Edits>,
-    /// See [`Compensation::meant`].
-    computed: Vec<(u32, f64)>,
+    /// What each file is to hold.
+    meant: Vec<Meant>,
     added: Added,
     settings: Settings,
     /// How many moves there were; `None` where not all files are written.
@@ -96,26 +91,33 @@ impl Compensation {
             }
             all_edits.push(edits);
         }
-        let all = sources.iter().zip(&all_edits);
-        let written = all.map(|(source, edits)| {
-            let bytes = edits.apply(&source.bytes);
-            if source.is_context {
-                Source::context(source.name.clone(), bytes)
-            } else {
-                Source::new(source.name.clone(), bytes)
-            }
-        });
-        let written = written.collect();
+        let numbers = numbers_by_file(&self.program.targets, &self.program.numbers, sources.len());
+        let new_bytes = || -> Vec<Source> {
+            let all = sources.iter().zip(&all_edits);
+            let written = all.map(|(source, edits)| {
+                let bytes = edits.apply(&source.bytes);
+                if source.is_context {
+                    Source::context(source.name.clone(), bytes)
+                } else {
+                    Source::new(source.name.clone(), bytes)
+                }
+            });
+            written.collect()
+        };
+        let new_numbers = || -> Vec<Meant> {
+            let all = numbers.into_iter().zip(&all_edits);
+            all.map(|(own, edits)| Meant::of(&self, own, edits))
+                .collect()
+        };
+        let (written, meant) = rayon::join(new_bytes, new_numbers);
         let all_written = is_written
             .iter()
             .zip(sources)
             .all(|(is, s)| *is || s.is_context);
+        // what was computed goes here, so that a long program is not in memory twice
         let check = Check {
+            meant,
             moves: all_written.then_some(self.program.instructions.len()),
-            targets: self.program.targets,
-            numbers: self.program.numbers,
-            edits: all_edits,
-            computed: self.meant,
             added: self.added,
             settings: self.settings,
         };
@@ -138,19 +140,17 @@ impl Check {
             file: sources[file].name.clone(),
             what,
         };
-        let (settings, moves) = (self.settings.clone(), self.moves);
-        // what was meant is gathered while the files are read
-        let (after, (all_meant, added)) =
-            rayon::join(|| language.script(sources, &settings), || self.meant());
+        let after = language.script(sources, &self.settings);
         let after = after.map_err(|error| differs(0, error.to_string()))?;
         let mut new: Vec<Vec<f64>> = Vec::new();
         let found = numbers_by_file(&after.targets, &after.numbers, sources.len());
-        for (file, (meant, found)) in all_meant.iter().zip(found).enumerate() {
+        for (file, (meant, found)) in self.meant.iter().zip(found).enumerate() {
             meant
                 .compare(&after, (file, found), language, &mut new)
                 .map_err(|what| differs(file, what))?;
         }
-        if let Some(moves) = moves {
+        if let Some(moves) = self.moves {
+            let added = &self.added;
             if after.instructions.len() != moves + added.moves {
                 let what = format!(
                     "{} moves where {} are meant",
@@ -168,15 +168,6 @@ impl Check {
             }
         }
         Ok(())
-    }
-
-    /// What each file is to hold, and what is added to them. Takes what was computed, so that a
-    /// long program is not in memory twice.
-    fn meant(self) -> (Vec<Meant>, Added) {
-        let numbers = numbers_by_file(&self.targets, &self.numbers, self.edits.len());
-        let all = numbers.into_iter().zip(&self.edits);
-        let meant = all.map(|(own, edits)| Meant::of(&self, own, edits));
-        (meant.collect(), self.added)
     }
 }
 
@@ -199,25 +190,25 @@ struct Meant {
 
 impl Meant {
     /// `numbers`: those of the file's targets, in its order.
-    fn of(check: &Check, numbers: Vec<u32>, edits: &Edits) -> Self {
+    fn of(compensation: &Compensation, numbers: Vec<u32>, edits: &Edits) -> Self {
+        let program = &compensation.program;
         let mut next = numbers.into_iter().peekable();
         let mut meant = Self {
             numbers: Vec::with_capacity(next.len()),
             freed: BTreeSet::new(),
             new: Vec::new(),
         };
-        let freed = &check.added.freed;
-        let freed: Vec<&Range<u32>> = freed.iter().map(|t| &check.targets[*t].numbers).collect();
+        let freed = &compensation.added.freed;
+        let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
         let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
         let computed = |index: u32| {
-            let at = check
-                .computed
-                .binary_search_by_key(&index, |(index, _)| *index);
-            at.ok().map(|at| check.computed[at].1)
+            let computed = &compensation.meant;
+            let at = computed.binary_search_by_key(&index, |(index, _)| *index);
+            at.ok().map(|at| computed[at].1)
         };
         // what is reported of a number counts where the file is written
         let kept = |index: u32| {
-            let number = &check.numbers[index as usize];
+            let number = &program.numbers[index as usize];
             let put_in = computed(index).filter(|_| number.length == 0 && !edits.is_empty());
             put_in.unwrap_or(number.value)
         };
@@ -227,11 +218,11 @@ impl Meant {
         for (span, text) in edits.changes() {
             let start = crate::program::script::short(span.start);
             while let Some(index) = next.next_if(|i| {
-                let number = &check.numbers[*i as usize];
+                let number = &program.numbers[*i as usize];
                 number.start < start || number.start == start && number.length == 0
             }) {
-                if check.numbers[index as usize].length == 0 {
-                    missing = Some(check.numbers[index as usize].start);
+                if program.numbers[index as usize].length == 0 {
+                    missing = Some(program.numbers[index as usize].start);
                 }
                 meant.keep(kept(index), is_freed(index));
             }
@@ -240,7 +231,7 @@ impl Meant {
                 continue;
             }
             let here = next.peek().copied().filter(|index| {
-                let number = &check.numbers[*index as usize];
+                let number = &program.numbers[*index as usize];
                 number.start == start && usize::from(number.length) == span.len()
             });
             let at = span.start + behind - before;
@@ -251,7 +242,7 @@ impl Meant {
                 meant.numbers.push(value.unwrap_or(f64::NAN));
             } else {
                 while next
-                    .next_if(|i| (check.numbers[*i as usize].start as usize) < span.end)
+                    .next_if(|i| (program.numbers[*i as usize].start as usize) < span.end)
                     .is_some()
                 {}
                 if !text.is_empty() {

@@ -157,7 +157,7 @@ pub(crate) fn walk(
         },
         open: BinaryHeap::new(),
         many: false,
-        named: HashMap::new(),
+        named: ground.program.named.iter().copied().collect(),
     };
     let behind = Behind::of(ground);
     for at in 0..count {

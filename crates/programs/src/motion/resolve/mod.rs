@@ -35,6 +35,7 @@ pub(super) fn resolve(
         targets: std::mem::take(&mut script.targets),
         numbers: std::mem::take(&mut script.numbers),
         findings: std::mem::take(&mut script.findings),
+        named: std::mem::take(&mut script.named),
         externals: std::mem::take(&mut script.externals),
         externals_of_moves: std::mem::take(&mut script.externals_of_moves),
         external_shifts: std::mem::take(&mut script.external_shifts),

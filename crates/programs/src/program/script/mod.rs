@@ -119,6 +119,9 @@ pub struct Script {
     pub externals_of_moves: Vec<(u32, External)>,
     /// What moves add to where their targets say that external axes stand, likewise.
     pub external_shifts: Vec<(u32, External)>,
+    /// Joints, radians, near which moves that never run say that they come to a target: programs
+    /// keep taught points so.
+    pub named: Vec<(TargetId, [f64; 6])>,
     /// Sets of what moves expect variables to hold, see [`Modal::expected`].
     pub expected: Vec<Box<[Expected]>>,
     /// What no move in the files uses, nothing uses: targets cannot be named from other files.
@@ -158,6 +161,7 @@ impl Default for Script {
             arguments: Vec::new(),
             conditions: Vec::new(),
             guards: vec![Box::default()],
+            named: Vec::new(),
             refused: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),

@@ -508,7 +508,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Six joint angles that the text tells, radians.
-    fn joints(&self, value: ExprId, function: FunctionId) -> Option<[f64; 6]> {
+    pub(super) fn joints(&self, value: ExprId, function: FunctionId) -> Option<[f64; 6]> {
         let (Expr::Literal(id), _) = self.variables.follow(value, function) else {
             return None;
         };

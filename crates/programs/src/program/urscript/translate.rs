@@ -1,8 +1,10 @@
 //! The statements of one file.
 
+mod dead;
 mod loads;
 mod parts;
 
+use self::dead::Dead;
 use self::loads::Present;
 use super::goals::{Common, Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
@@ -325,24 +327,13 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             ..Present::default()
         };
         let calm = self.calm(&of.events);
-        // blocks around that never run, from the outermost such `if` on
-        let mut dead = 0_u32;
+        let mut dead = Dead::default();
         for (event, calm) in of.events.iter().zip(calm) {
-            match event {
-                Event::Never if dead == 0 => dead = 1,
-                Event::Branch { .. } if dead == 1 => dead = 0,
-                Event::If | Event::Never | Event::Switch | Event::Loop if dead > 0 => {
-                    dead += 1;
-                    continue;
+            if dead.takes(event) {
+                if let Event::Step(step) = event {
+                    self.name_posture(&parsed.steps[*step as usize], function);
                 }
-                Event::EndIf | Event::EndLoop { .. } if dead > 0 => {
-                    dead -= 1;
-                    if dead > 0 {
-                        continue;
-                    }
-                }
-                _ if dead > 0 => continue,
-                _ => {}
+                continue;
             }
             if event.is_crossing() && !calm {
                 self.present = Present::default();
