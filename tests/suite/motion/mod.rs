@@ -2,6 +2,7 @@
 //! tool holds.
 
 mod arcs;
+mod bounds;
 mod decided;
 mod displaced;
 mod krl;

@@ -521,7 +521,7 @@ fn from_a_height(height: &str, first: &str) -> String {
          MoveJ Offs(at,0,0,{height}),v100,fine,tool0;\nMoveL at,v100,fine,tool0;\nENDPROC\n\
          PROC main()\n\
          MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n{first}rGo \
-         p,44;\nENDPROC\nENDMODULE\n"
+         p,AInput(ai1);\nENDPROC\nENDMODULE\n"
     )
 }
 

@@ -87,6 +87,14 @@ pub(super) fn check(
             });
             gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
         };
+        let unbounded = || {
+            let message = format!(
+                "a copy of {name} is displaced again and again, by what only the running program \
+                 knows or by many steps, or a joint of it is changed: nothing bounds how far from \
+                 it the copy comes, and what its correction is worth there"
+            );
+            ("displacement-unknown", Severity::Error, message)
+        };
         let (id, severity, message) = match &motion.displacement {
             Displacement::None => continue,
             Displacement::Unknown => {
@@ -101,36 +109,38 @@ pub(super) fn check(
             }
             Displacement::Within(steps) => {
                 let reach_m = reach_m(job, approach);
-                let most = most_m(&mut strides::places(steps, reach_m).into_iter());
-                let message = format!(
-                    "a point derived from {name} takes its correction along {}: within reach that \
-                     is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
-                    strides::in_words(steps),
-                    mm_from_m(most),
-                );
-                ("displacement-unknown", severity_of(most), message)
+                if let Some(places) = strides::places(steps, reach_m, false) {
+                    let most = most_m(&mut places.into_iter());
+                    let message = format!(
+                        "a point derived from {name} takes its correction along {}: within reach \
+                         that is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
+                        strides::in_words(steps),
+                        mm_from_m(most),
+                    );
+                    ("displacement-unknown", severity_of(most), message)
+                } else {
+                    unbounded()
+                }
             }
             Displacement::AtLeast(steps) => {
                 let reach_m = reach_m(job, approach);
-                let known = strides::places(steps, reach_m).into_iter();
-                let most = most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M)));
-                let message = format!(
-                    "a point derived from {name} at run time takes its correction along: the \
-                     numbers of the text alone, with 1 for each factor that only the running program \
-                     knows, lead it {}, and there it is {:.3} mm off (the limit is {limit_mm:.3} mm)",
-                    strides::in_words(steps),
-                    mm_from_m(most),
-                );
-                ("displacement-unknown", severity_of(most), message)
+                if let Some(places) = strides::places(steps, reach_m, true) {
+                    let known = places.into_iter();
+                    let most = most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M)));
+                    let message = format!(
+                        "a point derived from {name} at run time takes its correction along: the \
+                         numbers of the text alone, with 1 for each factor that only the running \
+                         program knows, lead it {}, and on that way within reach it is up to {:.3} \
+                         mm off (the limit is {limit_mm:.3} mm)",
+                        strides::in_words(steps),
+                        mm_from_m(most),
+                    );
+                    ("displacement-unknown", severity_of(most), message)
+                } else {
+                    unbounded()
+                }
             }
-            Displacement::Accumulated => {
-                let message = format!(
-                    "a copy of {name} is displaced again and again, by what only the running program \
-                     knows or by many steps: nothing bounds how far from it the copy comes, and \
-                     what its correction is worth there"
-                );
-                ("displacement-unknown", Severity::Error, message)
-            }
+            Displacement::Accumulated => unbounded(),
             Displacement::Overwritten => {
                 // of numbers that are all written over nothing is left, of others some
                 let lost = uses.iter().flat_map(|of| {

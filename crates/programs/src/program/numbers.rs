@@ -4,7 +4,7 @@
 //! something more adds up: as often as the loops around that assignment count where the same
 //! routine sets it anew before, else any number of times.
 
-use super::quantity::Quantity;
+use super::quantity::{Arithmetic, Quantity, evaluate_in};
 use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
 
@@ -12,6 +12,9 @@ use std::cell::RefCell;
 const DEEPEST: usize = 24;
 /// Rounds of a loop that are counted.
 const MOST_ROUNDS: f64 = 1e6;
+/// Of a round, so that what controllers add up in single precision may come to a last one:
+/// 0.1 + 0.1 + 0.1 is not above 0.3.
+const OF_SUMS: f64 = 1e-3;
 
 /// A block of statements, by its place in its routine; how often it runs at most, where the text
 /// tells.
@@ -63,6 +66,14 @@ impl Blocks {
         self.open.push(Block { number, most });
     }
 
+    /// The block that began last, by its routine and number.
+    pub(super) fn last(&self) -> (u32, u32) {
+        (
+            self.routine,
+            self.open.last().map_or(0, |block| block.number),
+        )
+    }
+
     /// Another branch begins.
     pub(super) fn branch(&mut self) {
         self.close();
@@ -106,6 +117,10 @@ pub(super) struct Numbers<W> {
     facts: HashMap<u32, Facts<W>>,
     /// Routines in which the program goes elsewhere than to the next statement.
     jumping: HashSet<u32>,
+    /// Blocks that run any number of times.
+    unbounded: HashSet<(u32, u32)>,
+    /// The routines that each calls.
+    calls: HashMap<u32, HashSet<u32>>,
     known: RefCell<HashMap<u32, Quantity>>,
 }
 
@@ -114,6 +129,8 @@ impl<W> Default for Numbers<W> {
         Self {
             facts: HashMap::default(),
             jumping: HashSet::default(),
+            unbounded: HashSet::default(),
+            calls: HashMap::default(),
             known: RefCell::default(),
         }
     }
@@ -145,6 +162,33 @@ impl<W> Numbers<W> {
     /// The program jumps inside a routine.
     pub(super) fn jumps(&mut self, routine: u32) {
         self.jumping.insert(routine);
+    }
+
+    /// A block, by its routine and number, runs any number of times.
+    pub(super) fn unbounded(&mut self, block: (u32, u32)) {
+        self.unbounded.insert(block);
+    }
+
+    /// A routine calls another.
+    pub(super) fn calls(&mut self, caller: u32, callee: u32) {
+        self.calls.entry(caller).or_default().insert(callee);
+    }
+
+    /// Whether a routine may run again before it has ended.
+    fn is_recursive(&self, routine: u32) -> bool {
+        let mut seen = HashSet::default();
+        let mut open = vec![routine];
+        while let Some(callees) = open.pop().map(|one| self.calls.get(&one)) {
+            for &callee in callees.into_iter().flatten() {
+                if callee == routine {
+                    return true;
+                }
+                if seen.insert(callee) {
+                    open.push(callee);
+                }
+            }
+        }
+        false
     }
 
     /// What a number may be, whenever it is looked at.
@@ -217,7 +261,7 @@ impl<W> Numbers<W> {
 
     /// How often at most a write is come to between two that set the number anew.
     fn most(&self, site: &Site, resets: &[&Site]) -> Option<u32> {
-        if self.jumping.contains(&site.routine) {
+        if self.jumping.contains(&site.routine) || self.is_recursive(site.routine) {
             return None;
         }
         let mut before: Vec<_> = resets
@@ -231,7 +275,8 @@ impl<W> Numbers<W> {
         before.sort_unstable_by_key(|reset| reset.order);
         let inside = &site.blocks[before.last()?.blocks.len()..];
         inside.iter().try_fold(1_u32, |product, block| {
-            Some(product.saturating_mul(block.most?))
+            let is_bounded = !self.unbounded.contains(&(site.routine, block.number));
+            Some(product.saturating_mul(block.most.filter(|_| is_bounded)?))
         })
     }
 }
@@ -259,14 +304,11 @@ pub(super) fn counted(from: &Quantity, to: &Quantity, step: Option<Quantity>) ->
             Some(step) => step,
         };
         if let Some(step) = step.filter(|step| *step != 0.0) {
-            // a loop that never runs counts nothing
-            let more = ((last - first) / step).floor().max(0.0);
-            if more >= MOST_ROUNDS {
-                return Quantity::between(first.min(last), first.max(last));
-            }
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let more = more as u32;
-            return Quantity::counted(first, step, Some(more));
+            return match rounds(first, last, step) {
+                // a loop that never runs counts nothing
+                Some(rounds) => Quantity::counted(first, step, Some(rounds - 1)),
+                None => Quantity::between(first.min(last), first.max(last)),
+            };
         }
     }
     match (from.ends(), to.ends()) {
@@ -274,6 +316,49 @@ pub(super) fn counted(from: &Quantity, to: &Quantity, step: Option<Quantity>) ->
         _ if from.is_endless() || to.is_endless() => Quantity::endless(),
         _ => Quantity::unknown(),
     }
+}
+
+/// How often a loop runs at most that counts from one number to another; `None` where it does not
+/// end, or not before many rounds.
+pub(super) fn rounds(from: f64, to: f64, step: f64) -> Option<u32> {
+    let more = ((to - from) / step + OF_SUMS).floor();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let rounds = |more: f64| more.max(0.0) as u32 + 1;
+    (step != 0.0 && more < MOST_ROUNDS).then(|| rounds(more))
+}
+
+/// The value of an expression; `own` gives that of operands that are no names, `named` of those
+/// that are. Others, `Abs(x)`, `h{2}`, are not followed: they add up where a number in them does, or
+/// is that which is assigned.
+pub(super) fn evaluated(
+    arithmetic: Arithmetic,
+    text: &[u8],
+    named: &mut dyn FnMut(&[u8]) -> Quantity,
+    own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+) -> Quantity {
+    let is_letter = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..);
+    let value = evaluate_in(arithmetic, text, &mut |operand| {
+        if let Some(own) = own(operand) {
+            return own;
+        }
+        if operand.iter().all(is_letter) {
+            return named(operand);
+        }
+        // which element of an array it is says nothing of how large that is
+        let mut depth = 0_i32;
+        let names = operand.split(|byte| {
+            depth += i32::from(matches!(byte, b'[' | b'{'));
+            depth -= i32::from(matches!(byte, b']' | b'}'));
+            depth > 0 || !is_letter(byte)
+        });
+        let mut names = names.filter(|name| name.first().is_some_and(|b| !b.is_ascii_digit()));
+        if names.any(|name| named(name).adds_up()) {
+            Quantity::endless()
+        } else {
+            Quantity::unknown()
+        }
+    });
+    value.unwrap_or_else(Quantity::unknown)
 }
 
 /// Where a word stands by itself.
@@ -289,19 +374,15 @@ pub(super) fn word(text: &[u8], word: &str) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::quantity::evaluate;
 
     /// Number `a` is 0, and so on; each write is a text.
     fn value(numbers: &Numbers<&str>, number: u32) -> Quantity {
         numbers.value(number, &|text, of| {
-            let value = evaluate(text.as_bytes(), &mut |name| {
-                if name.len() == 1 {
-                    of(u32::from(name[0] - b'a'))
-                } else {
-                    Quantity::unknown()
-                }
-            });
-            value.expect("an expression")
+            let mut named = |name: &[u8]| match name {
+                [letter] => of(u32::from(letter - b'a')),
+                _ => Quantity::unknown(),
+            };
+            evaluated(Arithmetic::Real, text.as_bytes(), &mut named, &mut |_| None)
         })
     }
 
@@ -349,6 +430,47 @@ mod tests {
         // elsewhere: nothing says how often
         assert_eq!(grown(&|blocks| blocks.begin(8), false), endless);
         assert_eq!(grown(&|_| (), false), Quantity::counted(0.0, 40.0, Some(1)));
+    }
+
+    #[test]
+    fn a_routine_that_calls_itself_adds_any_number_of_times() {
+        let grown = |calls: &[(u32, u32)]| {
+            let (mut numbers, mut blocks) = (Numbers::default(), Blocks::default());
+            blocks.begin(7);
+            numbers.write(0, "0", Some(blocks.site()));
+            numbers.write(0, "a-4", Some(blocks.site()));
+            for &(caller, callee) in calls {
+                numbers.calls(caller, callee);
+            }
+            value(&numbers, 0).ends()
+        };
+        assert_eq!(grown(&[(7, 8)]), Some((-4.0, 0.0)));
+        assert_eq!(grown(&[(7, 7)]), None);
+        assert_eq!(grown(&[(7, 8), (8, 9), (9, 7)]), None);
+    }
+
+    #[test]
+    fn loops_run_as_often_as_their_counter_passes_the_end() {
+        assert_eq!(rounds(1.0, 10.0, 2.0), Some(5));
+        assert_eq!(rounds(5.0, 1.0, 1.0), Some(1));
+        // four in single precision
+        assert_eq!(rounds(0.0, 0.3, 0.1), Some(4));
+        assert_eq!(rounds(0.0, 1.0, 0.0), None);
+        assert_eq!(rounds(0.0, 1.0, 1e-300), None);
+        assert_eq!(rounds(1.0, 2e6, 1.0), None);
+    }
+
+    #[test]
+    fn what_a_function_makes_of_a_number_itself_may_add_up() {
+        let mut numbers = Numbers::default();
+        numbers.write(0, "0", None);
+        numbers.write(0, "Round(a-5)", Some(Blocks::default().site()));
+        numbers.write(1, "Round(c)", None);
+        numbers.write(2, "3", None);
+        numbers.write(3, "c{a}", None);
+        assert!(value(&numbers, 0).is_endless());
+        assert_eq!(value(&numbers, 1), Quantity::unknown());
+        assert_eq!(value(&numbers, 3), Quantity::unknown());
     }
 
     #[test]

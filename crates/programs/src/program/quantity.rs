@@ -36,7 +36,7 @@ pub(super) struct Unknown {
 }
 
 /// So many steps are looked at between the ends of what is known by its ends alone.
-const SPAN: u32 = 64;
+const SPAN: u32 = 4096;
 /// Brackets in brackets that are followed.
 const DEEPEST: u32 = 32;
 /// Numbers that are less apart are one.
@@ -107,6 +107,12 @@ impl Quantity {
 
     pub(super) fn is_endless(&self) -> bool {
         self.unknown.is_some_and(|unknown| unknown.is_endless)
+    }
+
+    /// Whether the number that is assigned stands in it, or what is added again and again.
+    pub(super) fn adds_up(&self) -> bool {
+        let is_unbounded = self.steps.iter().any(|step| step.most.is_none());
+        self.own != 0.0 || self.is_endless() || is_unbounded
     }
 
     /// The least and the greatest that it is; `None` where nothing bounds it.
@@ -290,6 +296,16 @@ impl Quantity {
         }
     }
 
+    /// A quotient or its whole part.
+    fn or_whole(self) -> Self {
+        match self.ends() {
+            Some((a, b)) if (a.trunc(), b.trunc()) != (a, b) => {
+                Self::between(a.min(a.trunc()), b.max(b.trunc()))
+            }
+            _ => self,
+        }
+    }
+
     /// The whole part of a quotient.
     fn div(self, other: &Self) -> Self {
         if let (Some(a), Some(b)) = (self.exact(), other.exact())
@@ -306,12 +322,14 @@ impl Quantity {
 
     /// What is left of a quotient.
     fn modulo(self, other: &Self) -> Self {
-        match (self.ends(), other.exact()) {
-            (Some((least, _)), Some(by)) if by != 0.0 => {
+        let least = self.ends().map_or(-1.0, |(least, _)| least);
+        match other.exact() {
+            _ if self.own != 0.0 => Self::endless(),
+            Some(by) if by != 0.0 => {
                 let most = by.abs();
                 Self::between(if least < 0.0 { -most } else { 0.0 }, most)
             }
-            _ if self.own != 0.0 => Self::endless(),
+            _ if self.is_endless() => Self::endless(),
             _ => Self::unknown(),
         }
     }
@@ -366,7 +384,31 @@ impl Quantity {
 /// `of` gives that of an operand that is none of these: a name with all that belongs to it, as
 /// `p.trans.z`, `q[2]`, `Abs(x)`. `None` where anything else stands there.
 pub(super) fn evaluate(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Option<Quantity> {
-    let mut reader = Reader { text, at: 0, of };
+    evaluate_in(Arithmetic::Real, text, of)
+}
+
+/// What `/` makes of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Arithmetic {
+    /// Their quotient.
+    Real,
+    /// Its whole part, where both are whole numbers by their types, which are not looked at: either
+    /// counts, unless one has a decimal point.
+    Typed,
+}
+
+/// As [`evaluate`].
+pub(super) fn evaluate_in(
+    arithmetic: Arithmetic,
+    text: &[u8],
+    of: &mut dyn FnMut(&[u8]) -> Quantity,
+) -> Option<Quantity> {
+    let mut reader = Reader {
+        arithmetic,
+        text,
+        at: 0,
+        of,
+    };
     let value = reader.sum(0)?;
     reader.blanks();
     let is_finite = value.first.is_finite() && value.steps.iter().all(|step| step.by.is_finite());
@@ -374,6 +416,7 @@ pub(super) fn evaluate(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Op
 }
 
 struct Reader<'a, 'b> {
+    arithmetic: Arithmetic,
     text: &'a [u8],
     at: usize,
     of: &'b mut dyn FnMut(&[u8]) -> Quantity,
@@ -400,6 +443,7 @@ impl Reader<'_, '_> {
     }
 
     fn product(&mut self, depth: u32) -> Option<Quantity> {
+        let start = self.at;
         let mut product = self.factor(depth)?;
         loop {
             let sign = match self.blanks() {
@@ -416,7 +460,15 @@ impl Reader<'_, '_> {
             let next = self.factor(depth)?;
             product = match sign {
                 b'*' => product.by(next),
-                b'/' => product.over(&next),
+                b'/' => {
+                    let quotient = product.over(&next);
+                    let is_real = self.text[start..self.at].contains(&b'.');
+                    if self.arithmetic == Arithmetic::Real || is_real {
+                        quotient
+                    } else {
+                        quotient.or_whole()
+                    }
+                }
                 b'd' => product.div(&next),
                 _ => product.modulo(&next),
             };

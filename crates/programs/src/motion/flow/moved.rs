@@ -120,9 +120,17 @@ impl Flow<'_> {
     pub(super) fn replaced(
         &mut self,
         before: DisplacementId,
-        by: DisplacementId,
+        (axis, by): (usize, DisplacementId),
         site: Site,
     ) -> DisplacementId {
+        let is_none = match self.displacement(by) {
+            Displacement::None => true,
+            Displacement::By(shift) => **shift == Shift::none(),
+            _ => false,
+        };
+        if before == NOT_DISPLACED && is_none {
+            return NOT_DISPLACED;
+        }
         if before == NOT_DISPLACED {
             return self.moved(Moved::Exactly(Box::new([once(by, site)])));
         }
@@ -145,22 +153,26 @@ impl Flow<'_> {
             }
             _ => None,
         };
-        let Some(axes) = axes_of(self, by) else {
+        let is_along = |axes: [bool; 3]| (0..3).all(|other| other == axis || !axes[other]);
+        if !is_none && !axes_of(self, by).is_some_and(is_along) {
             return ACCUMULATED;
-        };
+        }
         // of what was added along the axis nothing is left
         let mut is_mixed = false;
         steps.retain(|step| {
             let of = axes_of(self, step.by).unwrap_or([true; 3]);
-            let is_apart = (0..3).all(|axis| !(of[axis] && axes[axis]));
-            is_mixed |= !is_apart && (0..3).any(|axis| of[axis] && !axes[axis]);
-            is_apart
+            is_mixed |= of[axis] && !is_along(of);
+            !of[axis]
         });
         if is_mixed {
             return ACCUMULATED;
         }
-        steps.push(once(by, site));
-        if (is_exact || steps.len() == 1) && steps.len() <= MOST_EXACT {
+        if !is_none {
+            steps.push(once(by, site));
+        }
+        if steps.is_empty() {
+            NOT_DISPLACED
+        } else if (is_exact || steps.len() == 1) && steps.len() <= MOST_EXACT {
             self.moved(Moved::Exactly(steps.into()))
         } else {
             self.some_of(steps)

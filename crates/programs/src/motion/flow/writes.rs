@@ -3,8 +3,8 @@
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
-    PartValue, ValueId, VariableId, Write, Written, short,
+    ACCUMULATED, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN,
+    Part, PartValue, ValueId, VariableId, Write, Written, short,
 };
 
 impl Flow<'_> {
@@ -88,10 +88,12 @@ impl Flow<'_> {
             How::PartSomehow(remark)
             | How::PartNumber(remark)
             | How::PartBy(remark, _)
-            | How::PartOf(remark, ..) => (0, 0..0, Some(*remark)),
+            | How::PartOf { remark, .. } => (0, 0..0, Some(*remark)),
         };
         let of = match write.how {
-            How::PartOf(_, of, by) => Some((self.evaluate(state, of, site), by)),
+            How::PartOf { of, axis, by, .. } => {
+                Some((self.evaluate(state, of, site), usize::from(axis), by))
+            }
             _ => None,
         };
         let own = match self.script.variables[variable as usize].declared {
@@ -108,10 +110,13 @@ impl Flow<'_> {
                     target,
                     displacement,
                 } => {
-                    let all = if let Some((of, by)) = of {
-                        vec![self.part_of(target, displacement, of, by, site)]
+                    let all = if self.joints[target as usize] {
+                        // of another joint the correction is another one
+                        vec![ACCUMULATED]
+                    } else if let Some((of, axis, by)) = of {
+                        vec![self.part_of(target, displacement, of, (axis, by), site)]
                     } else {
-                        let by = self.added_by(&write.how, target);
+                        let by = Self::added_by(&write.how);
                         self.displaced_again(displacement, by, site)
                     };
                     changed.extend(all.into_iter().map(|displacement| {
@@ -148,7 +153,7 @@ impl Flow<'_> {
         target: u32,
         before: DisplacementId,
         of: Holding,
-        by: DisplacementId,
+        along: (usize, DisplacementId),
         site: Site,
     ) -> DisplacementId {
         let is_same = match self.holdings.of(of) {
@@ -163,19 +168,18 @@ impl Flow<'_> {
             ] => *of == target && *displacement == NOT_DISPLACED,
             _ => false,
         };
-        if !is_same || self.joints[target as usize] {
+        if !is_same {
             return OVERWRITTEN;
         }
-        self.replaced(before, by, site)
+        self.replaced(before, along, site)
     }
 
     /// What a write of a part adds to a copy of a target.
-    fn added_by(&self, how: &How, target: u32) -> DisplacementId {
-        let is_joints = self.joints[target as usize];
+    fn added_by(how: &How) -> DisplacementId {
         match *how {
             // numbers of the text do not know of a correction
-            How::PartNumber(_) | How::PartOf(..) => OVERWRITTEN,
-            How::PartBy(_, by) if !is_joints => by,
+            How::PartNumber(_) | How::PartOf { .. } => OVERWRITTEN,
+            How::PartBy(_, by) => by,
             _ => DISPLACED_SOMEHOW,
         }
     }

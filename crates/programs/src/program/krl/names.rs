@@ -224,6 +224,7 @@ impl Names {
     pub(super) fn settle(&mut self) {
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
         self.carry_choosing();
+        self.give_numbers();
     }
 
     /// What chooses a tool, base or load does so under the name of the parameter that it is given

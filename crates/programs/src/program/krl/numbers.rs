@@ -2,15 +2,15 @@
 //!
 //! Variables of one name are taken for one, but for those that routines declare.
 
-use super::names::DataKind;
+use super::names::{DataKind, Names};
 use super::reader::Reader;
 use super::statements::action;
 use super::tokens::{Cursor, Kind, Token};
 use crate::program::names::{Context, Symbol};
-use crate::program::numbers::{Blocks, Numbers, counted, word};
-use crate::program::quantity::{Quantity, evaluate};
+use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, rounds, word};
+use crate::program::quantity::{Arithmetic, Quantity, evaluate};
 use crate::program::script::{Place, short};
-use foldhash::HashSet;
+use foldhash::{HashMap, HashSet};
 
 /// Variables that routines declare have their number above this.
 const OF_ROUTINE: u32 = 1 << 31;
@@ -25,6 +25,8 @@ struct Counting {
     inside: (u32, u32),
     /// In capitals, from `=` on.
     text: Box<[u8]>,
+    /// Its number among the blocks of its routine.
+    block: (u32, u32),
 }
 
 /// What is written into a variable.
@@ -35,6 +37,17 @@ enum Written {
     Counted(usize),
 }
 
+/// An argument of a call.
+#[derive(Debug)]
+struct Given {
+    routine: Symbol,
+    at: usize,
+    value: Written,
+}
+
+/// Longer arguments are no numbers.
+const LONGEST: usize = 80;
+
 /// What is known of numbers.
 #[derive(Debug, Default)]
 pub(super) struct Known {
@@ -43,15 +56,46 @@ pub(super) struct Known {
     loops: Vec<Counting>,
     /// Those that are not closed yet.
     open: Vec<usize>,
+    /// What calls give.
+    given: Vec<Given>,
     declared: HashSet<u32>,
-    /// Not by FOR alone.
+    /// Not by FOR alone, and by which routines.
     assigned: HashSet<u32>,
+    assigned_in: HashMap<u32, HashSet<u32>>,
 }
 
 impl Known {
     pub(super) fn begin(&mut self, routine: u32) {
         self.blocks.begin(routine);
         self.open.clear();
+    }
+
+    /// A number is written, and not by FOR alone: loops around that count with it run any number of
+    /// times, and those of other routines that it is known in.
+    fn assign(&mut self, number: u32) {
+        self.assigned.insert(number);
+        let routine = self.blocks.last().0;
+        let is_of_loop = |of: &&Counting| of.counter == number;
+        for of in self.open.iter().map(|at| &self.loops[*at]) {
+            if is_of_loop(&of) {
+                self.numbers.unbounded(of.block);
+            }
+        }
+        let is_new = self.assigned_in.entry(number).or_default().insert(routine);
+        if is_new && number & OF_ROUTINE == 0 {
+            for of in self.loops.iter().filter(is_of_loop) {
+                if of.block.0 != routine {
+                    self.numbers.unbounded(of.block);
+                }
+            }
+        }
+    }
+
+    /// Whether another routine than the present one writes a number.
+    fn is_assigned_elsewhere(&self, number: u32) -> bool {
+        let routine = self.blocks.last().0;
+        let assigned = self.assigned_in.get(&number);
+        assigned.is_some_and(|routines| routines.iter().any(|one| *one != routine))
     }
 
     fn counting(&self, name: u32, at: Place) -> Option<usize> {
@@ -69,6 +113,34 @@ impl Known {
     }
 }
 
+impl Names {
+    /// Parameters have what calls give them, once all routines are known.
+    pub(super) fn give_numbers(&mut self) {
+        for Given { routine, at, value } in std::mem::take(&mut self.known.given) {
+            let Written::Value(_, _, context) = value else {
+                continue;
+            };
+            let Some(callee) = self.routine(routine, context) else {
+                continue;
+            };
+            if let Some(caller) = context.routine {
+                self.known.numbers.calls(caller, callee);
+            }
+            let parameter = self.heads[callee as usize].parameters.get(at);
+            let Some(&(datum, _)) = parameter else {
+                continue;
+            };
+            let of = &self.data[datum as usize];
+            let datum = self.datum(of.name, of.context).unwrap_or(datum);
+            let number = OF_ROUTINE | datum;
+            if self.known.declared.contains(&number) {
+                let site = Site::at_start(callee);
+                self.known.numbers.write(number, value, Some(site));
+            }
+        }
+    }
+}
+
 impl Reader {
     /// What a name is called in the numbers.
     fn number(&self, name: Symbol, context: Context) -> u32 {
@@ -83,7 +155,7 @@ impl Reader {
     pub(super) fn lose_number(&mut self, name: Symbol) {
         let number = self.number(name, self.context());
         let known = &mut self.names.known;
-        known.assigned.insert(number);
+        known.assign(number);
         known.numbers.lose(number);
     }
 
@@ -134,11 +206,26 @@ impl Reader {
         let number = self.number(name, context);
         let known = &mut self.names.known;
         let site = site.map(|()| {
-            known.assigned.insert(number);
+            known.assign(number);
             known.blocks.site()
         });
         let value = Written::Value(text.into(), at, context);
         known.numbers.write(number, value, site);
+    }
+
+    /// What a call gives a routine as one of its arguments, up to the sign behind it.
+    pub(super) fn number_given(
+        &mut self,
+        (routine, at): (Symbol, usize),
+        start: usize,
+        cursor: &Cursor,
+    ) {
+        let text = cursor.bytes[start..cursor.at.max(start + 1) - 1].trim_ascii();
+        if !text.is_empty() && text.len() <= LONGEST && !text.starts_with(b"#") {
+            let place = Place::new(self.file, short(start));
+            let value = Written::Value(text.into(), place, self.context());
+            self.names.known.given.push(Given { routine, at, value });
+        }
     }
 
     /// What a statement writes into numbers, before any is read.
@@ -177,6 +264,7 @@ impl Reader {
                     file: self.file,
                     inside: (short(cursor.end), u32::MAX),
                     text: text.into(),
+                    block: (0, 0),
                 });
                 known.open.push(at);
                 let site = known.blocks.site();
@@ -184,14 +272,18 @@ impl Reader {
                     .numbers
                     .write(counter, Written::Counted(at), Some(site));
                 let plain = evaluate_loop(&known.loops[at].text, &mut |_| Quantity::unknown());
-                let rounds = plain.filter(|plain| plain.unknown.is_none());
-                let rounds = rounds.map(|plain| {
-                    plain
-                        .steps
-                        .first()
-                        .map_or(1, |step| step.most.map_or(u32::MAX, |most| most + 1))
-                });
-                known.blocks.open(rounds);
+                let most = plain
+                    .and_then(|(from, to, step)| rounds(from.exact()?, to.exact()?, step.exact()?));
+                // one that other routines change counts otherwise
+                let is_counted = !known.is_assigned_elsewhere(counter);
+                known.blocks.open(most.filter(|_| is_counted));
+                known.loops[at].block = known.blocks.last();
+            }
+            b"ANIN" | b"DIGIN" => {
+                cursor.next();
+                let name = cursor.next();
+                let name = self.symbol(&cursor, name);
+                self.lose_number(name);
             }
             b"INTERRUPT" | b"TRIGGER" => {
                 if let Some((name, _)) = action(cursor) {
@@ -280,10 +372,12 @@ impl Reader {
             file: counting.file,
             offset: counting.inside.0.saturating_sub(1),
         };
-        let value = evaluate_loop(&counting.text, &mut |text| {
+        let found = evaluate_loop(&counting.text, &mut |text| {
             self.evaluated(text, (at, counting.context), of, &mut |_| None)
         });
-        value.unwrap_or_else(Quantity::unknown)
+        found.map_or_else(Quantity::unknown, |(from, to, step)| {
+            counted(&from, &to, Some(step))
+        })
     }
 
     fn evaluated(
@@ -293,10 +387,7 @@ impl Reader {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let value = evaluate(text, &mut |operand| {
-            if let Some(own) = own(operand) {
-                return own;
-            }
+        let mut named = |operand: &[u8]| {
             let known = &self.names.known;
             let Some(name) = self.names.symbols.find(operand) else {
                 return Quantity::unknown();
@@ -310,13 +401,16 @@ impl Reader {
             } else {
                 Quantity::unknown()
             }
-        });
-        value.unwrap_or_else(Quantity::unknown)
+        };
+        evaluated(Arithmetic::Typed, text, &mut named, own)
     }
 }
 
-/// What `=0 TO 9 STEP 2` counts.
-fn evaluate_loop(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Option<Quantity> {
+/// The numbers of `=0 TO 9 STEP 2`.
+fn evaluate_loop(
+    text: &[u8],
+    of: &mut dyn FnMut(&[u8]) -> Quantity,
+) -> Option<(Quantity, Quantity, Quantity)> {
     let text = text.trim_ascii().strip_prefix(b"=")?;
     let to = word(text, "TO")?;
     let rest = &text[to + 2..];
@@ -331,5 +425,5 @@ fn evaluate_loop(text: &[u8], of: &mut dyn FnMut(&[u8]) -> Quantity) -> Option<Q
         value(&rest[..step.unwrap_or(rest.len())]),
     );
     let step = step.map_or_else(|| Quantity::exactly(1.0), |at| value(&rest[at + 4..]));
-    Some(counted(&from, &last, Some(step)))
+    Some((from, last, step))
 }

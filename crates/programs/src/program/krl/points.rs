@@ -7,7 +7,10 @@ use super::reader::Reader;
 use super::remarks::{COMPUTED, COPIED};
 use super::tokens::{Cursor, Kind, Read, capitals};
 use crate::geometry::Pose;
+use crate::geometry::units::MM;
+use crate::program::displacing::Displacing;
 use crate::program::names::Symbol;
+use crate::program::quantity::Quantity;
 use crate::program::script::{DisplacementId, Expr, Held, NOT_DISPLACED, Span, short};
 use crate::program::{Displacement, Shape, Shift, TargetId};
 
@@ -85,7 +88,7 @@ impl Reader {
                 point.is_plain = true;
                 self.one(*one, mentions, &mut point);
             }
-            Some(many) => self.product(many, &mut point),
+            Some(many) => self.product(cursor.bytes, many, &mut point),
             None => point.target = self.computed(mentions),
         }
         Ok(point)
@@ -178,7 +181,7 @@ impl Reader {
     }
 
     /// `a : b : c`: the one operand that is a position is the target, the others displace it.
-    fn product(&mut self, operands: &[Operand], point: &mut Point) {
+    fn product(&mut self, bytes: &[u8], operands: &[Operand], point: &mut Point) {
         let context = self.context();
         let is_position = |operand: &Operand| match *operand {
             Operand::Named(name, _) => self.names.kind(name, context) == Some(DataKind::Position),
@@ -190,11 +193,10 @@ impl Reader {
             point.target = self.computed(mentions);
             return;
         };
-        let displacement = self
-            .shift(operands, at)
-            .map_or(Displacement::Unknown, |shift| {
-                Displacement::By(Box::new(shift))
-            });
+        let exactly = self.shift(operands, at);
+        let exactly = exactly.map(|shift| Displacement::By(Box::new(shift)));
+        let displacement = exactly.or_else(|| self.amounts(bytes, operands, at));
+        let displacement = displacement.unwrap_or(Displacement::Unknown);
         self.one(operands[at], false, point);
         point.displacement = self.builder.script.displacement(displacement);
     }
@@ -212,6 +214,46 @@ impl Reader {
             in_frame: product(&operands[..at])?,
             in_tool: product(&operands[at + 1..])?,
         })
+    }
+
+    /// Likewise, of one frame that is written out with components left out, or with expressions for
+    /// X, Y and Z.
+    fn amounts(&self, bytes: &[u8], operands: &[Operand], at: usize) -> Option<Displacement> {
+        let ([Operand::Inline(frame), _] | [_, Operand::Inline(frame)]) = operands else {
+            return None;
+        };
+        let frame = &self.builder.script.targets[*frame];
+        let text = bytes.get(frame.span())?;
+        let inside = text.strip_prefix(b"{")?.strip_suffix(b"}")?;
+        let inside = inside.rsplit(|byte| *byte == b':').next()?;
+        let mut amounts = [0.0; 6].map(Quantity::exactly);
+        for part in aggregate::parts(inside) {
+            let part = part.trim_ascii();
+            let (key, value) = part.split_at(part.iter().position(u8::is_ascii_whitespace)?);
+            let of = |known: &&str| key.eq_ignore_ascii_case(known.as_bytes());
+            if let Some(at) = ["X", "Y", "Z", "A", "B", "C"]
+                .iter()
+                .position(|name| of(&name))
+            {
+                amounts[at] = self.quantity(value.trim_ascii(), &mut |_| None);
+            }
+        }
+        let [x, y, z, rotation @ ..] = amounts;
+        let along = [x, y, z].map(|by| by.in_unit(MM));
+        let [a, b, c] = rotation.map(|angle| angle.exact());
+        let turned = pose_of([0.0, 0.0, 0.0, a?, b?, c?]);
+        let mut by = Displacing::new();
+        if at == 0 {
+            let none = || Quantity::exactly(0.0);
+            let [x, y, z] = along;
+            by.in_tool(&[x, y, z, none(), none(), none()]);
+            by.in_tool_exactly(turned);
+        } else if turned.rotation.angle() == 0.0 {
+            by.along_frame(&along);
+        } else {
+            return None;
+        }
+        Some(by.displacement())
     }
 
     /// A frame that no statement changes.

@@ -319,7 +319,6 @@ impl Reader {
                 kept: false,
             };
             let datum = self.names.declare(datum, false);
-            self.lose_number(name);
             let mut by_reference = true;
             if cursor.take(b':') {
                 let manner = cursor.next();

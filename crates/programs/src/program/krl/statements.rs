@@ -129,6 +129,8 @@ impl Reader {
         // brackets that are open: of which routine, and which argument comes next
         let mut open: Vec<(Option<Symbol>, usize)> = Vec::new();
         let mut before = first;
+        // where the present argument begins
+        let mut start = cursor.at;
         loop {
             let token = cursor.next();
             match token.kind {
@@ -137,14 +139,22 @@ impl Reader {
                     let is_call = before.kind == Kind::Name;
                     let routine = is_call.then(|| self.symbol(&cursor, before));
                     open.push((routine, 0));
+                    start = cursor.at;
                 }
                 Kind::Sign(b'[' | b'{') => open.push((None, 0)),
                 Kind::Sign(b')' | b']' | b'}') => {
-                    open.pop();
+                    if let Some((Some(routine), at)) = open.pop() {
+                        self.number_given((routine, at), start, &cursor);
+                    }
                 }
                 Kind::Sign(b',') => {
-                    if let Some((_, at)) = open.last_mut() {
+                    if let Some((routine, at)) = open.last_mut() {
+                        let given = routine.map(|routine| (routine, *at));
                         *at += 1;
+                        if let Some(given) = given {
+                            self.number_given(given, start, &cursor);
+                            start = cursor.at;
+                        }
                     }
                 }
                 Kind::Name if matches!(before.kind, Kind::Sign(b'(' | b',')) => {
@@ -606,7 +616,7 @@ impl Reader {
                 && letters(&cursor.bytes[start..cursor.at]) == term
             {
                 let by = self.builder.script.displacement(displacement);
-                return How::PartOf(remark, other, by);
+                return How::part_of(remark, other, at, by);
             }
         }
         let is_own = mentions(&letters(value), &own);

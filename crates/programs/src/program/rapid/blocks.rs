@@ -5,6 +5,7 @@ use super::syntax::{Counting, Expression, StatementKind};
 use super::tokens::{Fault, Kind};
 use crate::program::names::Symbol;
 use crate::program::number;
+use crate::program::numbers::rounds;
 
 /// `WHILE condition DO`, whose condition calls functions.
 const WHILE: StatementKind = StatementKind::Loop {
@@ -150,16 +151,16 @@ impl Reader<'_> {
         };
         let number = |at: usize| number::parse(words.get(at)?);
         let (from, to) = (number(2)?, number(4)?);
-        let step = if is(5, "step") {
+        let is_stepped = is(5, "step");
+        let step = if is_stepped {
             number(6)?
         } else {
             1.0_f64.copysign(to - from)
         };
-        let more = ((to - from) / step).floor();
-        let is_counted = is(1, "from") && is(3, "to") && (0.0..1e6).contains(&more);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let counts = is_counted.then_some(more as u32 + 1);
-        counts
+        let end = if is_stepped { 7 } else { 5 };
+        let is_whole = words.len() == end || is(end, "do");
+        let is_counted = is(1, "from") && is(3, "to") && is_whole;
+        rounds(from, to, step).filter(|_| is_counted)
     }
 
     /// `WHILE condition DO`; functions in the condition are called each time round.

@@ -2,11 +2,12 @@
 
 use super::resolved::Resolved;
 use super::syntax::{
-    Called, Callee, Component, Counting, Index, StatementKind, Storage, Type, Verb, indices,
+    Argument, Called, Callee, Component, Counting, Index, StatementKind, Storage, Type, Verb,
+    indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
-use crate::program::numbers::{Blocks, Numbers, Site, counted, word};
-use crate::program::quantity::{Quantity, evaluate};
+use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, word};
+use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::Place;
 
 /// Data that tasks share have the number of their group, above this.
@@ -56,9 +57,9 @@ impl Resolved<'_> {
                     (context, file) = (now, in_file);
                     blocks.begin(context.routine.unwrap_or(u32::MAX));
                 }
+                // elements of an array are one number
                 StatementKind::Assign {
                     name,
-                    index: Index::Whole,
                     component: Component::Whole,
                     ..
                 } => {
@@ -83,7 +84,7 @@ impl Resolved<'_> {
                     if is_built_in {
                         self.lose_all(true, of.arguments, context, &mut numbers);
                     } else {
-                        self.lose_given(callee, (true, of.arguments), context, file, &mut numbers);
+                        self.give(callee, (true, of.arguments), context, file, &mut numbers);
                     }
                 }
                 StatementKind::Call(Called {
@@ -115,7 +116,7 @@ impl Resolved<'_> {
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            self.lose_given(callee, given, context, file, &mut numbers);
+                            self.give(callee, given, context, file, &mut numbers);
                         }
                         _ => {}
                     }
@@ -169,6 +170,14 @@ impl Resolved<'_> {
                     blank.push((number, site));
                     continue;
                 }
+                // what calls give it
+                (
+                    None,
+                    Storage::Parameter {
+                        by_reference: false,
+                        ..
+                    },
+                ) => continue,
                 _ => {
                     numbers.lose(number);
                     continue;
@@ -198,6 +207,18 @@ impl Resolved<'_> {
         let start = memchr::memmem::find(&text[..end], b":=").map_or(end, |at| at + 2);
         let at = |by: usize| offset + crate::program::script::short(by);
         (at(start), at(end))
+    }
+
+    /// The value of an argument: of `\h:=-200` what is behind the sign.
+    fn value_bytes(&self, file: u32, argument: &Argument) -> (u32, u32) {
+        let (start, end) = argument.span;
+        if argument.option.is_none() {
+            return (start, end);
+        }
+        let text = &self.sources[file as usize].bytes[indices(argument.span)];
+        let sign = memchr::memmem::find(text, b":=").map(|at| at + 2);
+        let behind = crate::program::script::short(sign.unwrap_or(text.len()));
+        (start + behind, end)
     }
 
     /// An instruction of the language that writes.
@@ -247,8 +268,8 @@ impl Resolved<'_> {
         }
     }
 
-    /// A routine may write what it is given by reference.
-    fn lose_given(
+    /// A routine has what it is given, and may write that by reference.
+    fn give(
         &self,
         callee: Callee,
         (of_function, arguments): (bool, (u32, u32)),
@@ -262,7 +283,17 @@ impl Resolved<'_> {
         }
         let given = &self.list(of_function)[indices(arguments)];
         for &routine in &callees.routines {
+            numbers.calls(context.routine.unwrap_or(u32::MAX), routine);
             for (datum, argument) in self.parameters(routine, given) {
+                if let Some(argument) = argument.filter(|_| self.datum(datum).kind == Type::Num) {
+                    let written = Written::Text {
+                        file,
+                        bytes: self.value_bytes(file, argument),
+                        context,
+                    };
+                    let site = Some(Site::at_start(routine));
+                    numbers.write(self.number(datum), written, site);
+                }
                 let place = argument.and_then(|argument| self.place_of(&argument.expression));
                 if let Some((name, _)) = place.filter(|_| self.is_written_back(datum)) {
                     for number in self.numbers_named(name, context) {
@@ -325,10 +356,7 @@ impl Resolved<'_> {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let value = evaluate(text, &mut |operand| {
-            if let Some(own) = own(operand) {
-                return own;
-            }
+        let mut named = |operand: &[u8]| {
             let Some(name) = self.parsed.symbols.find(operand) else {
                 return Quantity::unknown();
             };
@@ -343,8 +371,8 @@ impl Resolved<'_> {
                     Quantity::any(&all)
                 }
             }
-        });
-        value.unwrap_or_else(Quantity::unknown)
+        };
+        evaluated(Arithmetic::Real, text, &mut named, own)
     }
 
     /// What a FOR loop counts with.

@@ -2,8 +2,11 @@
 
 use super::syntax::{Assigned, Base, Component, Expression, Index, Type};
 use super::translate::Translator;
-use crate::program::displacing::grown_by_any;
+use crate::geometry::units::MM;
+use crate::program::Displacement;
+use crate::program::displacing::{Displacing, grown_by_any};
 use crate::program::names::Symbol;
+use crate::program::notation::mentions;
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue};
 
@@ -123,16 +126,48 @@ impl Translator<'_> {
             if let Some(other) = other.and_then(|name| self.resolved.parsed.symbols.find(name)) {
                 let other = self.position(other, Index::Whole, Type::Robtarget);
                 let by = self.builder.script.displacement(displacement);
-                return How::PartOf(changed, other, by);
+                return How::part_of(changed, other, axis, by);
             }
         }
-        let is_angle = memchr::memmem::find(&own, b".rot").is_some();
-        let is_own = self.resolved.is_from_target(value, self.context);
+        if let Some(displacement) = self.added_to_all(&own, &text) {
+            return self.builder.script.part_by(changed, displacement);
+        }
+        let has = |part: &[u8]| memchr::memmem::find(&own, part).is_some();
+        let is_own = mentions(&text, &own);
         match component {
-            Component::Place => How::part(is_own, false, changed),
-            _ if is_angle => How::part(true, true, changed),
+            // those of another target have its correction, which is another one
+            Component::Place if text.ends_with(b".trans") => How::part(is_own, false, changed),
+            Component::Place => {
+                let is_own = self.resolved.is_from_target(value, self.context);
+                How::part(is_own, false, changed)
+            }
+            _ if has(b".rot") => How::part(true, true, changed),
+            // with another posture the correction is another one
+            _ if has(b".robconf") => How::PartNumber(changed),
             _ => How::PartSomehow(changed),
         }
+    }
+
+    /// `p.trans:=p.trans+[0,0,200]`
+    fn added_to_all(&self, own: &[u8], text: &[u8]) -> Option<Displacement> {
+        let rest = own.ends_with(b".trans").then(|| text.strip_prefix(own))??;
+        let sign = match *rest.first()? {
+            b'+' => 1.0,
+            b'-' => -1.0,
+            _ => return None,
+        };
+        let inside = rest[1..].strip_prefix(b"[")?.strip_suffix(b"]")?;
+        let parts = inside.split(|byte| *byte == b',');
+        let of = |part: &[u8]| {
+            let value = self
+                .resolved
+                .quantity(part, self.here, self.context, &mut |_| None);
+            value.times(sign).in_unit(MM)
+        };
+        let along: [Quantity; 3] = parts.map(of).collect::<Vec<_>>().try_into().ok()?;
+        let mut by = Displacing::new();
+        by.along_frame(&along);
+        Some(by.displacement())
     }
 
     /// What the present assignment writes, and what: in small letters and without blanks.

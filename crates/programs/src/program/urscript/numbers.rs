@@ -5,11 +5,20 @@ use super::variables::Variables;
 use crate::geometry::{Pose, Rotation};
 use crate::program::Displacement;
 use crate::program::displacing::Displacing;
-use crate::program::numbers::{Blocks, Numbers};
-use crate::program::quantity::{Quantity, evaluate};
+use crate::program::numbers::{Blocks, Numbers, Site, evaluated};
+use crate::program::quantity::{Arithmetic, Quantity};
 
 /// Numbers in a pose.
 const OF_POSE: usize = 6;
+
+/// What is written into a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Written {
+    /// By the assignment of this number.
+    Assigned(u32),
+    /// By a call, which gives it.
+    Given { call: u32, position: usize },
+}
 
 impl Variables<'_, '_> {
     /// Notes all that is written into variables; each write is one of the assignments.
@@ -26,7 +35,8 @@ impl Variables<'_, '_> {
                         if parsed.assignments[number as usize].part {
                             numbers.lose(variable);
                         } else {
-                            numbers.write(variable, number, Some(blocks.site()));
+                            let written = Written::Assigned(number);
+                            numbers.write(variable, written, Some(blocks.site()));
                         }
                     }
                     Event::If | Event::Never | Event::Switch => blocks.open(Some(1)),
@@ -37,12 +47,41 @@ impl Variables<'_, '_> {
                 }
             }
         }
-        for (at, variable) in (0..).zip(&self.list) {
-            if variable.parameter.is_some() {
-                numbers.lose(at);
+        for (at, call) in (0..).zip(&parsed.calls) {
+            for &callee in self.callees(call) {
+                numbers.calls(call.function, callee);
+                for position in 0..parsed.functions[callee as usize].parameters.len() {
+                    let (parameter, _) = self.given(call, callee, position);
+                    let given = Written::Given { call: at, position };
+                    numbers.write(parameter, given, Some(Site::at_start(callee)));
+                }
             }
         }
         self.numbers = numbers;
+    }
+
+    /// What an assignment writes, or what a call gives in its brackets.
+    fn text_of(&self, written: Written) -> Option<(&[u8], FunctionId)> {
+        match written {
+            Written::Assigned(number) => {
+                let assignment = &self.parsed.assignments[number as usize];
+                let text = self.parsed.text.get(assignment.offset as usize..)?;
+                let is_end = |b: &u8| matches!(b, b'\n' | b'\r' | b'#' | b';');
+                let end = text.iter().position(is_end).unwrap_or(text.len());
+                let start = memchr::memchr(b'=', &text[..end]).map_or(end, |at| at + 1);
+                Some((&text[start..end], assignment.function))
+            }
+            Written::Given { call, position } => {
+                let call = &self.parsed.calls[call as usize];
+                // arguments by name, or left out, are not followed
+                let arguments = self.parsed.arguments_of(call);
+                let is_plain = arguments.iter().all(|(name, _)| name.is_none());
+                let text = self.parsed.text.get(call.offset as usize..)?;
+                let inside = &text[memchr::memchr(b'(', text)? + 1..];
+                let part = parts(inside).nth(position).filter(|_| is_plain)?;
+                (position < arguments.len()).then_some((part, call.function))
+            }
+        }
     }
 
     /// The six numbers of a pose with expressions in it.
@@ -64,28 +103,18 @@ impl Variables<'_, '_> {
             .get(literal.offset as usize..literal.end as usize)?;
         let open = memchr::memchr(b'[', text)?;
         let inside = text[open + 1..].trim_ascii_end().strip_suffix(b"]")?;
-        let mut depth = 0_i32;
-        let parts = inside.split(|&byte| {
-            depth +=
-                i32::from(matches!(byte, b'(' | b'[')) - i32::from(matches!(byte, b')' | b']'));
-            depth == 0 && byte == b','
-        });
+        let parts = parts(inside);
         let all: Vec<_> = parts.map(|part| self.quantity(part, function)).collect();
         all.try_into().ok()
     }
 
     fn quantity(&self, text: &[u8], function: FunctionId) -> Quantity {
         self.evaluated(text, function, &mut |variable| {
-            self.numbers.value(variable, &|assignment, of| {
-                let assignment = &self.parsed.assignments[*assignment as usize];
-                let text = &self.parsed.text[assignment.offset as usize..];
-                let end = text
-                    .iter()
-                    .position(|b| matches!(b, b'\n' | b'\r' | b'#' | b';'));
-                let text = &text[..end.unwrap_or(text.len())];
-                let start = memchr::memchr(b'=', text).map_or(text.len(), |at| at + 1);
-                self.evaluated(&text[start..], assignment.function, of)
-            })
+            self.numbers
+                .value(variable, &|written, of| match self.text_of(*written) {
+                    Some((text, function)) => self.evaluated(text, function, of),
+                    None => Quantity::unknown(),
+                })
         })
     }
 
@@ -95,13 +124,29 @@ impl Variables<'_, '_> {
         function: FunctionId,
         of: &mut dyn FnMut(u32) -> Quantity,
     ) -> Quantity {
-        let value = evaluate(text, &mut |operand| {
+        let mut named = |operand: &[u8]| {
             let name = self.parsed.known_symbol(operand);
             let variable = name.and_then(|name| self.meaning(name, function));
             variable.map_or_else(Quantity::unknown, &mut *of)
-        });
-        value.unwrap_or_else(Quantity::unknown)
+        };
+        evaluated(Arithmetic::Real, text, &mut named, &mut |_| None)
     }
+}
+
+/// What stands between the commas of a list, up to the bracket that closes it.
+fn parts(inside: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut depth = 0_i32;
+    let end = inside.iter().position(|byte| {
+        depth += i32::from(matches!(byte, b'(' | b'['));
+        depth -= i32::from(matches!(byte, b')' | b']'));
+        depth < 0
+    });
+    let mut depth = 0_i32;
+    inside[..end.unwrap_or(inside.len())].split(move |byte| {
+        depth += i32::from(matches!(byte, b'(' | b'['));
+        depth -= i32::from(matches!(byte, b')' | b']'));
+        depth == 0 && *byte == b','
+    })
 }
 
 /// What `pose_add` adds whose offset has these numbers; `None` where the text does not tell how it

@@ -94,7 +94,7 @@ pub(super) struct Variables<'n, 'a> {
     /// The same of assignments of elements, each by its place.
     pub(super) mentioned_in_parts: HashMap<u32, Vec<VarId>>,
     /// What is assigned to numbers.
-    pub(super) numbers: crate::program::numbers::Numbers<u32>,
+    pub(super) numbers: crate::program::numbers::Numbers<super::numbers::Written>,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
 }

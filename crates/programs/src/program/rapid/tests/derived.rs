@@ -36,6 +36,8 @@ fn coordinates_that_come_from_no_target_lose_its_correction() {
         "q.trans.z:=-up+5;",
         "q.trans.x:=nCamera;",
         "q.trans:=[p1.trans.x,p1.trans.y,150];",
+        "q.trans:=p2.trans;",
+        "q.robconf:=[0,-2,1,1];",
     ] {
         let all = displaced(&format!("{numbers}{write}\nMoveL q,v5,z5,t;"));
         assert_eq!(all, [Displacement::Overwritten], "{write}");
@@ -48,7 +50,6 @@ fn coordinates_computed_from_a_target_keep_its_correction() {
                      height()\nRETURN p1.trans.z+50;\nENDFUNC\nPROC last()";
     for write in [
         "q.trans.z:=q.trans.z+h;",
-        "q.trans:=p2.trans;",
         "q.trans:=[p1.trans.x,p2.trans.y,p1.trans.z+50];",
         "q.trans:=CPos(\\Tool:=t);",
         "q.trans.z:=up(p1.trans.z);",

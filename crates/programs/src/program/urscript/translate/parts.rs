@@ -40,7 +40,8 @@ impl Translator<'_, '_, '_> {
                     return How::PartBy(computed, by);
                 }
                 if let Some(position) = self.goals.held[other as usize].position {
-                    return How::PartOf(computed, Expr::Variable(position), by);
+                    let other = Expr::Variable(position);
+                    return How::part_of(computed, other, at, by);
                 }
             }
         }

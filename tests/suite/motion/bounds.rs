@@ -1,0 +1,200 @@
+//! What displaces a point is never judged smaller than what the text allows.
+
+use super::displaced::{misses, of_krl, of_rapid, of_urscript, unknown};
+use super::{PLAIN, errors, given, message, profile_of};
+use poseshift::compensate::{Compensation, Options, compensate};
+use poseshift::program::{Source, language_of};
+
+fn most(of: &[f64]) -> f64 {
+    of.iter().copied().fold(0.0, f64::max)
+}
+
+/// What is said is no less than what a point with the displacement written out misses, and blocks.
+fn covers(done: &Compensation, written_out: &Compensation, case: &str) {
+    let truth = most(&misses(written_out));
+    assert!(truth > 0.05, "{case}: {:?}", written_out.findings);
+    let has_no_bound = done
+        .findings
+        .iter()
+        .any(|found| found.message.contains("nothing bounds"));
+    let said = most(&[unknown(done), misses(done)].concat());
+    assert!(
+        has_no_bound || said > 0.9 * truth,
+        "{case}: {said} of {truth}"
+    );
+    assert!(!errors(done).is_empty(), "{case}: {:?}", done.findings);
+}
+
+fn go(by: &str) -> String {
+    format!("MoveL Offs(p,{by}),v100,fine,tool0;")
+}
+
+fn rapid_at(by: &str) -> Compensation {
+    of_rapid("", &go(by))
+}
+
+#[test]
+fn steps_of_loops_are_counted_as_the_text_counts_them() {
+    for header in ["1 TO 4 * 40", "1 TO 160 STEP 1 / 1", "1 TO 3 - -157"] {
+        let body = format!(
+            "e:=0;\nFOR i FROM {header} DO\ne:=e-1;\n{}\nENDFOR",
+            go("0,0,e")
+        );
+        let done = of_rapid("VAR num e;", &body);
+        covers(&done, &rapid_at("0,0,-160"), header);
+    }
+    let rec = "VAR num e;\nPROC rec()\ne:=0;\nIF DInput(di1)=1 THEN\nrec;\nENDIF\ne:=e-4;\n";
+    let rec = format!("{rec}{}\nENDPROC", go("0,0,e"));
+    covers(
+        &of_rapid(&rec, "rec;"),
+        &rapid_at("0,0,-200"),
+        "a routine that calls itself",
+    );
+}
+
+#[test]
+fn a_part_set_to_that_of_the_original_takes_back_what_was_added() {
+    let step = |by: &str| format!("q.trans.z:={by};\nMoveL q,v100,fine,tool0;\n");
+    let all = ["q.trans.z+50", "p.trans.z", "q.trans.z-200"].map(step);
+    let done = of_rapid("", &format!("q:=p;\n{}", all.concat()));
+    let of = |by: &str| misses(&rapid_at(by))[0];
+    assert_eq!(
+        misses(&done),
+        [of("0,0,50"), of("0,0,-200")],
+        "{:?}",
+        done.findings
+    );
+    // and again in a loop, each time from there
+    let body = format!(
+        "q:=p;\nFOR i FROM 1 TO 5 DO\n{}{}ENDFOR",
+        step("p.trans.z"),
+        step("q.trans.z-i*40")
+    );
+    covers(&of_rapid("", &body), &rapid_at("0,0,-200"), "a loop");
+    let all = of_rapid(
+        "",
+        "q:=p;\nq.trans:=q.trans+[0,0,-200];\nMoveL q,v100,fine,tool0;",
+    );
+    assert_eq!(misses(&all), [of("0,0,-200")]);
+}
+
+#[test]
+fn places_near_the_target_count_however_far_or_fine_the_steps_are() {
+    let jog = |to: &str| {
+        let one = |at: usize, axis: &str| {
+            format!(
+                "IF DInput(di{at})=1 THEN\n{axis}:={axis}+0.1;\nENDIF\nIF DInput(di{at})=2 THEN\n\
+                {axis}:={axis}-0.1;\nENDIF\n"
+            )
+        };
+        let all = [one(1, "x"), one(2, "y"), one(3, "z")].concat();
+        format!("FOR i FROM 1 TO 3 DO\n{all}{}\nENDFOR", go(to))
+    };
+    let data = "PERS num x:=0;\nPERS num y:=0;\nPERS num z:=0;";
+    covers(
+        &of_rapid(data, &jog("x+i,y+i,z+i")),
+        &rapid_at("0,0,-100"),
+        "jog",
+    );
+    let either = "IF DInput(di1)=1 THEN\nh:=-200;\nELSEIF DInput(di1)=2 THEN\nh:=0;\nENDIF\n";
+    let either = of_rapid("VAR num h:=-99999;", &format!("{either}{}", go("0,0,h")));
+    covers(&either, &rapid_at("0,0,-180"), "one that is far");
+    let two = "z:=0;\nWHILE DInput(di1)=1 DO\nIF DInput(di2)=1 THEN\nz:=z-0.00005;\nELSE\n\
+        z:=z-20;\nENDIF\n";
+    let two = of_rapid("VAR num z;", &format!("{two}{}\nENDWHILE", go("0,0,z")));
+    covers(&two, &rapid_at("0,0,-200"), "two steps");
+    let sensor = of_rapid("", &format!("n:=AInput(ai1);\n{}", go("0,0,-2000*n")));
+    covers(&sensor, &rapid_at("0,0,-180"), "a large factor");
+    // steps that rotate the tool, too
+    let turned = "MoveL Offs(RelTool(p,x+i,y+i,z+i),x+i,y+i,z+i),v100,fine,tool0;";
+    let turned = jog("x,y,z").replace(&go("x,y,z"), turned);
+    covers(
+        &of_rapid(data, &turned),
+        &rapid_at("0,0,-100"),
+        "in the tool, too",
+    );
+}
+
+#[test]
+fn numbers_are_followed_through_parameters_functions_and_arrays() {
+    let truth = rapid_at("0,0,-200");
+    let routine = format!("PROC go(num h)\n{}\nENDPROC", go("0,0,h"));
+    let given = of_rapid(&routine, "go -200;");
+    assert_eq!(misses(&given), misses(&truth), "{:?}", given.findings);
+    let optional = format!("PROC go(\\num h)\n{}\nENDPROC", go("0,0,h"));
+    assert_eq!(misses(&of_rapid(&optional, "go\\h:=-200;")), misses(&truth));
+    let several = of_rapid(&routine, "FOR i FROM 1 TO 5 DO\ngo -40*i;\nENDFOR");
+    covers(&several, &truth, "of a counter");
+    for add in [
+        "e:=Round(e-5);",
+        "e:=Max(e-20,-200);",
+        "e:=Trunc(e*1);\ne:=e-4;",
+    ] {
+        let body = format!("WHILE DInput(di1)=1 DO\n{add}\n{}\nENDWHILE", go("0,0,e"));
+        covers(&of_rapid("VAR num e;", &body), &truth, add);
+    }
+    let array = format!(
+        "WHILE DInput(di1)=1 DO\nh{{1}}:=h{{1}}-5;\n{}\nENDWHILE",
+        go("0,0,h{1}")
+    );
+    covers(&of_rapid("VAR num h{3};", &array), &truth, "an element");
+    let script = of_urscript(
+        "  def go(w, h):\n    movel(pose_add(w, p[0,h,0,0,0,0]))\n  end\n",
+        "  go(w, -0.2)\n",
+    );
+    let written_out = of_urscript("", "  movel(pose_add(w, p[0,-0.2,0,0,0,0]))\n");
+    covers(&script, &written_out, "URScript");
+}
+
+#[test]
+fn what_krl_writes_into_numbers_counts() {
+    let truth = of_krl("", "q=XP\nq.Y=q.Y-200\nLIN q\n");
+    let lower = "q=XP\nq.Y=q.Y-h\nLIN q\n";
+    let data = "DECL REAL h=0\nDECL INT n=0\n";
+    let read = of_krl(data, &format!("ANIN ON h=300*s1+0\n{lower}"));
+    assert_eq!(unknown(&read).len(), 1, "a sensor: {:?}", read.findings);
+    let again =
+        format!("h=0\nFOR i=1 TO 3\nIF $IN[1]==FALSE THEN\ni=i-1\nENDIF\nh=h+5\n{lower}ENDFOR\n");
+    covers(&of_krl(data, &again), &truth, "a counter that is set back");
+    let many = format!("h=0\nFOR i=1 TO 2000000\nh=h+0.2\n{lower}ENDFOR\n");
+    covers(&of_krl(data, &many), &truth, "many rounds");
+    // whole numbers: 3/2 is 1
+    let odd = of_krl(data, "n=3\nq=XP\nq.Y=q.Y-(n-n/2*2)*200\nLIN q\n");
+    covers(&odd, &truth, "an odd number");
+    let given = of_krl(
+        data,
+        "sub(200.0)\nEND\nDEF sub(d:IN)\nDECL REAL d\nDECL E6POS \
+        r\nr=XP\nr.Y=r.Y-d\nLIN r\n",
+    );
+    covers(&given, &truth, "a parameter");
+    let written_out = of_krl("", "LIN XP:{X 0,Y 0,Z 200,A 0,B 0,C 0}\n");
+    for frame in [
+        "{Z 200}",
+        "{FRAME: Z 200}",
+        "{X 0,Y 0,Z PITCH*5,A 0,B 0,C 0}",
+    ] {
+        let done = of_krl("", &format!("LIN XP:{frame}\n"));
+        assert_eq!(
+            misses(&done),
+            misses(&written_out),
+            "{frame}: {:?}",
+            done.findings
+        );
+    }
+}
+
+#[test]
+fn a_joint_of_a_copy_that_changes_has_no_bound() {
+    let text = "DEF t()\nDECL E6AXIS a,b\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\na={A1 0,A2 -90,A3 \
+        90,A4 0,A5 60,A6 0}\nPTP a\nb=a\nb.A2=b.A2+40\nPTP b\nEND\n";
+    let options = Options {
+        correct_joint_targets: true,
+        ..given()
+    };
+    let source = Source::new("t.src", text.as_bytes().to_vec());
+    let language = language_of(&source).expect("KRL");
+    let profile = profile_of("robots/kuka_kr6_r900.yaml", &[PLAIN]);
+    let done = compensate(language, &[source], &profile, &options).expect("read");
+    assert!(message(&done, "displacement-unknown").contains("nothing bounds"));
+    assert_eq!(errors(&done), ["displacement-unknown"]);
+}
