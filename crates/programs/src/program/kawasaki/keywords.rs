@@ -9,7 +9,7 @@ use crate::program::words::Words;
 const KEYWORDS: &str = "LMove JMove SPeed ACCUracy JOINT LINEAR LIN2 CIR1 CIR2 POint TOOL BAse \
     IF ENd CAll HMove C1move C2move LAppro JAppro LDepart JDepart DRAw TDraw Xmove DRIve ALign \
     HOme HEre GOto ELse ELSEIF CASE SCASE VALUE SVALUE ANY WHile FOR DO UNtil RETurn RETURNE \
-    STOp HAlt SCAll EXtcall JUMP SJUMP PCEXecute ON ONI ONE IGnore MVWAIT DELay STAble ACCEl \
+    STOp HAlt HSENSE SCAll EXtcall JUMP SJUMP PCEXecute ON ONI ONE IGnore MVWAIT DELay STAble ACCEl \
     DECEl LEfty RIghty ABove BElow UWrist DWrist";
 
 /// Whether a text is a keyword, in any case, cut short to its capitals at most.

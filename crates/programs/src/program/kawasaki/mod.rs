@@ -19,7 +19,7 @@
 //! # Limits
 //!
 //! Whether BASE NULL lies at the foot or at axis 2 is not known: `kinematics.base` of the profile
-//! says. Sensors, conveyors and weaving are not seen.
+//! says. Sensors and conveyors are not seen.
 
 mod arrays;
 mod calls;

@@ -26,7 +26,7 @@ pub(super) enum Verb {
     Draw(bool),
     /// `XMOVE p TILL signal`
     Search,
-    /// Others: of conveyors, of two robots, weaving.
+    /// Others: of conveyors, of two robots, weaving, arc welding, steps of other kinds.
     Other,
     /// `DRIVE`, `ALIGN`, `HOME`
     Elsewhere,
@@ -37,7 +37,12 @@ pub(super) enum Verb {
 impl Verb {
     /// The move that a statement is.
     pub(super) fn of(statement: &Statement) -> Option<Self> {
-        let step = |motion| step_target(statement.words).map(|_| Self::Step(motion));
+        let words = statement.words;
+        let step = |motion| match step_target(words) {
+            Some(_) => Some(Self::Step(motion)),
+            // `joint = 3` and `joint[1] = 3` set a variable
+            None => (words.len() > 1 && !is_variable(words)).then_some(Self::Other),
+        };
         Some(match statement.keyword {
             "JMove" => Self::To(Motion::Joint, false),
             "LMove" => Self::To(Motion::Linear, false),
@@ -51,7 +56,7 @@ impl Verb {
             "DRAw" => Self::Draw(false),
             "TDraw" => Self::Draw(true),
             "Xmove" => Self::Search,
-            "" if is_other(statement.words) => Self::Other,
+            "" if is_other(words) => Self::Other,
             "DRIve" | "ALign" | "HOme" => Self::Elsewhere,
             "JOINT" => step(Motion::Joint)?,
             "LINEAR" | "LIN2" => step(Motion::Linear)?,
@@ -62,16 +67,47 @@ impl Verb {
     }
 }
 
-/// Whether a statement that is not known moves by its name: `FLMOVE p`, `CVLAPPRO p,50`.
+/// Moves of arc welding, which start, weave and end seams, and taught steps of other kinds.
+///
+/// # Source
+/// Kawasaki AS Language Reference Manual, arc welding (90209-1018DED). *Not verified on a
+/// controller.*
+const OTHERS: &[&[u8]] = &[
+    b"JWS", b"LWS", b"LWC", b"LWE", b"C1WC", b"C2WC", b"C2WE", b"FLIN", b"FJOINT", b"FCIR1",
+    b"FCIR2",
+];
+
+/// Whether a statement that is not known moves: by its name (`FLMOVE p`, `CVLAPPRO p,50`), or as
+/// taught steps do (`… SPEED9 ACCU1 …`).
 fn is_other(words: Words) -> bool {
     let word = words.text(0).to_ascii_uppercase();
     let mut endings = [&b"MOVE"[..], b"APPRO", b"DEPART"].into_iter();
-    !words.is(1, b'=') && endings.any(|ending| word.ends_with(ending))
+    let has = |name: &[u8]| (1..words.len()).any(|at| is_numbered(words.text(at), name));
+    let is_step = || has(b"SPEED") && has(b"ACCU");
+    let mut is_named =
+        || endings.any(|ending| word.ends_with(ending)) || OTHERS.contains(&&word[..]);
+    !is_variable(words) && (is_named() || is_step())
 }
 
-/// Where the joints of a taught step stand.
+/// Whether a statement sets the variable that it begins with.
+fn is_variable(words: Words) -> bool {
+    words.is(1, b'=') || words.is(1, b'[')
+}
+
+/// Whether a word is a name with a number behind it: `SPEED9`.
+fn is_numbered(word: &[u8], name: &[u8]) -> bool {
+    let start = word.get(..name.len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case(name))
+        && word.get(name.len()).is_some_and(u8::is_ascii_digit)
+}
+
+/// Where the joints of a taught step stand: `#[…]`, `#name`.
 fn step_target(part: Words) -> Option<usize> {
-    (1..part.len()).find(|at| part.is(*at, b'#') && part.is(at + 1, b'['))
+    let is_joints = |at: &usize| {
+        let behind = part.is(at + 1, b'[') || part.is_name(at + 1);
+        part.is(*at, b'#') && behind && !is_variable(part)
+    };
+    (1..part.len()).find(is_joints)
 }
 
 impl<'a> Reader<'a> {
@@ -130,12 +166,15 @@ impl<'a> Reader<'a> {
             }
             Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
-                let found = self.position(first.part(0..till));
+                let mut found = self.position(first.part(0..till));
                 let why = if matches!(verb, Verb::Other) {
                     OTHER_MOVE
                 } else {
                     SEARCH
                 };
+                if matches!(found.base, Expr::Unknown(_)) {
+                    found = Position::plain(self.unknown(why));
+                }
                 let modal = self.refused(why, Motion::Linear, &found);
                 self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
@@ -228,7 +267,7 @@ impl<'a> Reader<'a> {
 }
 
 /// Whether words are joints: `#p`, `.#p`, `#[…]`.
-fn is_joints(part: Words) -> bool {
+pub(super) fn is_joints(part: Words) -> bool {
     part.is(0, b'#') || part.is_word(0, b".") && part.is(1, b'#')
 }
 

@@ -3,7 +3,7 @@
 use super::arrays::Given;
 use super::calls::{Any, Handed};
 use super::keywords::find;
-use super::moves::Verb;
+use super::moves::{Verb, is_joints};
 use super::plates::Plates;
 use super::remarks::{COMPUTED, SAVED, SWITCHED};
 use super::sections::{Entry, Program, Sections, Statement};
@@ -165,6 +165,9 @@ impl<'a> Reader<'a> {
                 if let Some((name, _)) = Name::defined(part.behind(name).before(b'=')) {
                     self.written.insert((routine, name.stem));
                 }
+            } else if line.keyword == "HSENSE" {
+                let names = sensed(part).map(|name| (routine, name.stem));
+                self.written.extend(names);
             } else if let Some(at) = find(part, "CAll") {
                 Handed::note(part.behind(at + 1), routine, handed);
             }
@@ -274,6 +277,12 @@ impl<'a> Reader<'a> {
                     self.write_name(&name, How::Whole(here));
                 }
             }
+            "HSENSE" => {
+                for name in sensed(part) {
+                    let value = self.unknown(COMPUTED);
+                    self.write_name(&name, How::Whole(value));
+                }
+            }
             "PCEXecute" | "ONE" => {
                 // the number of the process may stand before the name
                 let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
@@ -323,7 +332,33 @@ impl<'a> Reader<'a> {
             None => self.table(name).map(Written::AnyOf),
         };
         if let Some(written) = written {
+            // the robot stands where it was before
+            if self
+                .here
+                .last
+                .is_some_and(|last| self.may_be(last.base, written))
+            {
+                self.here.last = None;
+            }
             self.write(written, how);
+        }
+    }
+
+    /// Whether a position is what a statement writes.
+    fn may_be(&self, position: Expr, written: Written) -> bool {
+        let script = &self.builder.script;
+        match (position, written) {
+            (Expr::Variable(variable), Written::One(one)) => variable == one,
+            (Expr::Variable(variable), Written::AnyOf(table)) => {
+                let mut entries = script.tables[table as usize].entries.values();
+                entries.any(|one| *one == variable)
+            }
+            (Expr::Displaced { base, .. }, _) => self.may_be(script.lists[base as usize], written),
+            (Expr::Any { first, end }, _) => {
+                let all = &script.lists[first as usize..end as usize];
+                all.iter().any(|one| self.may_be(*one, written))
+            }
+            _ => false,
         }
     }
 
@@ -342,7 +377,11 @@ impl<'a> Reader<'a> {
             let how = How::part(is_own, false, remark);
             return self.write_name(&name, how);
         }
-        if is_sum {
+        // joints of a pose, and a pose of joints, are those of the tool, base and posture of that
+        // moment
+        let is_here = value.is_word(usize::from(value.is(0, b'#')), b"HERE");
+        let is_converted = is_joints(value) != name.is_joints() && !is_here;
+        if is_sum || is_converted {
             let value = self.unknown(COMPUTED);
             return self.write_name(&name, How::Whole(value));
         }
@@ -394,7 +433,22 @@ fn may_write(line: &[u8]) -> bool {
         })
     };
     // as short as the keywords may be
-    has(b'P', b'p', b"PO") || has(b'H', b'h', b"HE") || has(b'C', b'c', b"CA")
+    has(b'P', b'p', b"PO")
+        || has(b'H', b'h', b"HE")
+        || has(b'H', b'h', b"HS")
+        || has(b'C', b'c', b"CA")
+}
+
+/// The joints that `HSENSE number result,status,#joints,error,left` writes.
+///
+/// # Source
+/// Kawasaki AS Language Reference Manual (90209-1022DED). *Not verified on a controller.*
+fn sensed<'w>(part: Words<'w, 'w>) -> impl Iterator<Item = Name> + 'w {
+    let given = part.behind(1).list().into_iter();
+    given.filter_map(|given| {
+        let (name, words) = Name::of(given)?;
+        (words == given.len() && name.is_joints()).then_some(name)
+    })
 }
 
 /// The number that words begin with.

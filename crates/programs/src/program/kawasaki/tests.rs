@@ -6,6 +6,7 @@ use crate::geometry::Convention;
 use crate::program::{Displacement, Motion, Move, Program, Shape};
 
 mod inserted;
+mod others;
 mod robust;
 mod runs;
 

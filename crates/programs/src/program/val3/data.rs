@@ -11,6 +11,7 @@ use crate::program::kit::Fault;
 use crate::program::script::short;
 use crate::program::xml::{Attribute, Node, Nodes, Tag};
 use crate::program::{Number, Source, SpeedZone};
+use foldhash::{HashSet, HashSetExt};
 
 /// What a name is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,8 +51,8 @@ impl Kind {
 /// Attributes of a pose and of joints, in the order of the format.
 pub(super) const POSE: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 pub(super) const JOINTS: [&str; 6] = ["j1", "j2", "j3", "j4", "j5", "j6"];
-/// Attributes of the arm's sides, and what they are called: the first is 0, the second 1. Others
-/// leave the side open.
+/// Attributes of the arm's sides, and what they are called: the first is 0, the second 1. `same`
+/// and `free` leave the side open.
 pub(super) const SIDES: [(&str, [&str; 2]); 3] = [
     ("shoulder", ["lefty", "righty"]),
     ("elbow", ["epositive", "enegative"]),
@@ -158,7 +159,7 @@ impl<'a> Element<'a> {
                 if self.sides[side].is_some() || self.free[side] {
                     return Err(twice(tag));
                 }
-                self.side(side, &attribute);
+                self.side(kind, side, &attribute)?;
             } else if attribute.name == b"fatherId" {
                 self.father = Father::of(attribute.value);
             } else if attribute.name == b"key" {
@@ -176,17 +177,27 @@ impl<'a> Element<'a> {
         Ok(())
     }
 
-    fn side(&mut self, side: usize, said: &Attribute) {
-        let stated = SIDES[side]
-            .1
-            .iter()
-            .position(|word| word.as_bytes() == said.value);
+    fn side(&mut self, kind: Kind, side: usize, said: &Attribute) -> Result<(), Fault> {
+        let (name, words) = SIDES[side];
+        let stated = words.iter().position(|word| word.as_bytes() == said.value);
+        let behind_letter = said.value.strip_prefix(&name.as_bytes()[..1]);
+        let is = |word: &[u8]| said.value == word || behind_letter == Some(word);
+        self.free[side] = is(b"free");
+        if kind == Kind::Point && stated.is_none() && !self.free[side] && !is(b"same") {
+            let expected = [
+                "lefty, righty, ssame or sfree",
+                "epositive, enegative, esame or efree",
+                "wpositive, wnegative, wsame or wfree",
+            ];
+            let word = said.start..said.end - 1;
+            return Err(Fault::unexpected(word, expected[side]));
+        }
         self.sides[side] = stated.map(|stated| Number {
             start: short(said.start),
             length: u16::try_from(said.value.len()).expect("a known word is short"),
             value: if stated == 0 { 0.0 } else { 1.0 },
         });
-        self.free[side] = said.value.ends_with(b"free");
+        Ok(())
     }
 }
 
@@ -245,6 +256,14 @@ impl Datum<'_> {
         guess
             .filter(is_key)
             .or_else(|| (0..self.elements.len()).find(is_key))
+    }
+
+    /// The first value whose key another one before it has.
+    fn again(&self) -> Option<&Element<'_>> {
+        let is_read = !matches!(self.kind, Kind::Other | Kind::OtherArm);
+        let mut known = HashSet::new();
+        let mut all = self.elements.iter().filter(|_| is_read);
+        all.find(|one| !known.insert(plain_key(one.key)))
     }
 
     /// How a value is called.
@@ -312,6 +331,13 @@ pub(super) fn read(bytes: &[u8], project: u32, file: u32) -> Result<DataFile<'_>
                     .as_ref()
                     .is_some_and(|_| name == b"Data" || Kind::of(name) != Kind::Other);
                 if let Some(datum) = open.take_if(|_| ends) {
+                    if let Some(again) = datum.again() {
+                        let value = again.at as usize..again.end as usize;
+                        return Err(Fault::unexpected(
+                            value,
+                            "a key that no value before it has",
+                        ));
+                    }
                     if datum.kind == Kind::Point {
                         found.last_point = Some((datum.at as usize, end));
                     }
@@ -327,6 +353,10 @@ pub(super) fn read(bytes: &[u8], project: u32, file: u32) -> Result<DataFile<'_>
 fn inside<'a>(datum: &mut Datum<'a>, tag: &Tag<'a>, father: &mut Father<'a>) -> Result<(), Fault> {
     match tag.name {
         b"pFather" | b"fFather" | b"tFather" => {
+            if !datum.elements.is_empty() || *father != Father::default() {
+                let expected = "one father, in front of all values";
+                return Err(Fault::unexpected(tag.at..tag.end, expected));
+            }
             *father = Father {
                 alias: tag.value(b"alias")?,
                 name: tag.value(b"name")?,

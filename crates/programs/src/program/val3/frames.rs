@@ -35,7 +35,7 @@ impl<'a> Reader<'a> {
         frame: Words<'a, '_>,
         by: Pose,
     ) -> Option<DisplacementId> {
-        let name = Reference::of(frame).filter(|name| !name.has_field)?;
+        let name = Reference::whole(frame)?;
         let asked = Father {
             alias: name.alias,
             name: name.name,
@@ -92,13 +92,17 @@ impl<'a> Reader<'a> {
             Some(known) if known.kind == Kind::Tool => self.named(&name),
             Some(_) => self.unknown(FRAME_CHOSEN),
             None => {
-                if let Some(known) = self.variables.tools.get(name.name) {
+                let is_flange = name.name == b"flange";
+                let asked = match name.key {
+                    _ if is_flange => "flange".to_owned(),
+                    Some(key) => asked_name(name.alias, name.name, key),
+                    None => return self.unknown(FRAME_CHOSEN),
+                };
+                if let Some(known) = self.variables.tools.get(&asked) {
                     return *known;
                 }
-                let is_flange = name.name == b"flange";
-                let pose = is_flange.then(Pose::identity);
-                let made = self.frame_value(&Source::text(name.name), pose);
-                self.variables.tools.insert(name.name, made);
+                let made = self.frame_value(&asked, is_flange.then(Pose::identity));
+                self.variables.tools.insert(asked, made);
                 made
             }
         }
@@ -222,7 +226,7 @@ impl<'a> Reader<'a> {
         let name = match named {
             Some(name) => name,
             None if father.is_world() => "world".to_owned(),
-            None => Source::text(father.name).into_owned(),
+            None => asked_name(father.alias, father.name, father.index),
         };
         let made = match self.chain(project, father, Kind::Frame, 0) {
             Ok(pose) => self.frame_value(&name, pose),
@@ -231,6 +235,19 @@ impl<'a> Reader<'a> {
         self.variables.frames[place as usize] = Some(made);
         made
     }
+}
+
+/// What a tool or frame that the files do not have is asked for by: `alias:name[index]`, without
+/// what is not said and the first index.
+fn asked_name(alias: &[u8], name: &[u8], index: &[u8]) -> String {
+    let mut asked = [alias, b":", name].concat();
+    if alias.is_empty() {
+        asked.remove(0);
+    }
+    if !matches!(index, b"" | b"0") {
+        asked.extend([b"[", index, b"]"].concat());
+    }
+    Source::text(&asked).into_owned()
 }
 
 /// The pose of a tool or frame on its father.

@@ -1,10 +1,12 @@
 //! Moves between those of a program: the statement again, to a new point of the data.
 
 use super::data::{self, POSE, SIDES};
+use super::project;
 use crate::program::insert::{Added, Repeated, indent};
 use crate::program::kit::line_behind;
 use crate::program::xml::{Node, Nodes, Tag};
 use crate::program::{Inserted, Insertion, Insertions, Replacements, Shape, Source, Target};
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 /// Names that are tried for new points.
@@ -26,12 +28,16 @@ struct NewPoints<'a> {
 /// See [`crate::program::Language::insert`].
 pub(super) fn insert(into: &Insertions) -> Inserted {
     let mut files: BTreeMap<usize, Option<(NewPoints, Added)>> = BTreeMap::new();
+    let world = LazyCell::new(|| project::read(into.sources).ok());
     let mut inserted = Inserted::each(into.list, |one| {
         let target = into.program.target_of(&into.program.moves[one.motion])?;
         let data = target.file as usize;
         let known = files.entry(data).or_insert_with(|| {
-            let new = NewPoints::of(into.sources, data, into.file);
-            new.map(|new| (new, Added::default()))
+            // in the code of another project the names of new points mean nothing
+            let world = world.as_ref()?;
+            let is_own = world.project_of_data(target.file) == world.project_of_code(into.file);
+            let new = is_own.then(|| NewPoints::of(into.sources, data, into.file));
+            new.flatten().map(|new| (new, Added::default()))
         });
         let (new, added) = known.as_mut()?;
         added.attempt(|added| new.repeat(into, target, one, added))
@@ -54,10 +60,15 @@ impl<'a> NewPoints<'a> {
         }
         let found = data::read(&source.bytes, 0, 0).ok()?;
         let (first, at) = found.last_point?;
-        // the names of each file's moves differ from those of all others
+        // names differ from those of other moves' files and other data, and from all that are there
+        let count = sources.len();
+        let has = |stem: &str| {
+            let mut all = sources.iter();
+            all.any(|one| memchr::memmem::find(&one.bytes, stem.as_bytes()).is_some())
+        };
         let stem = (0..MOST_STEMS)
-            .map(|round| format!("pShift{}_", file + round * sources.len()))
-            .find(|stem| memchr::memmem::find(&source.bytes, stem.as_bytes()).is_none())?;
+            .map(|round| format!("pShift{}_", file + count * (data + count * round)))
+            .find(|stem| !has(stem))?;
         Some(Self {
             source,
             is_old: found.is_old,
@@ -80,9 +91,7 @@ impl<'a> NewPoints<'a> {
         let end = instruction.span().end;
         let rest = &bytes[end..line_behind(bytes, end).unwrap_or(bytes.len())];
         let rest = rest.trim_ascii_start();
-        // a point of a library has another name there
-        let name = &bytes[instruction.target_span.range()?];
-        let is_plain = (rest.is_empty() || rest.starts_with(b"//")) && !name.contains(&b':');
+        let is_plain = rest.is_empty() || rest.starts_with(b"//");
         if !is_plain || target.layout.shape != Shape::Pose {
             return None;
         }

@@ -32,7 +32,7 @@ mod remarks;
 mod targets;
 
 use super::drive::Step;
-use super::kit::{line_behind, not_this_language};
+use super::kit::not_this_language;
 use super::notation;
 use super::script::Script;
 use super::{
@@ -181,8 +181,7 @@ impl Language for Val3 {
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let (bytes, end) = (&source.bytes, source.line_end());
         if project::kind_of(bytes) == Some(FileKind::Programs) {
-            let begin = memchr::memmem::find(bytes, b"begin");
-            if let Some(at) = begin.and_then(|begin| line_behind(bytes, begin)) {
+            if let Some(at) = project::behind_begin(bytes) {
                 return (at, super::kit::comments(source, marker, "// "));
             }
         }

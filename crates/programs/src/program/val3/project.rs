@@ -1,10 +1,11 @@
 //! What belongs together: project files (.pjx), the data and programs that they name, their
 //! libraries.
 
+use super::code::Code;
 use super::data::{self, Datum, Kind};
-use super::remarks::{declared_again, not_in_project};
+use super::remarks::{declared_again, file_missing, not_in_project};
 use crate::finding::Finding;
-use crate::program::kit::Fault;
+use crate::program::kit::{Fault, line_behind};
 use crate::program::script::short;
 use crate::program::xml::{Node, Nodes};
 use crate::program::{ReadError, Source, number};
@@ -40,13 +41,25 @@ pub(super) struct Program<'a> {
     pub is_escaped: bool,
 }
 
+/// A file that a .pjx names.
+#[derive(Debug)]
+struct Named {
+    kind: FileKind,
+    path: String,
+    /// Index of the .pjx in the sources, and where it names the file.
+    by: u32,
+    at: u32,
+    /// It is among the files.
+    is_there: bool,
+}
+
 /// What belongs together.
 #[derive(Debug, Default)]
 pub(super) struct Project<'a> {
     /// Folder and name of the .pjx; the folder alone where there is none.
     path: String,
-    /// The .pjx names files of these kinds, and some are there: others do not belong to it.
-    names: Vec<FileKind>,
+    /// Files that the .pjx names: others of their kinds do not belong to it.
+    files: Vec<Named>,
     /// Indices in [`World::data`].
     pub data: HashMap<&'a [u8], u32>,
     /// Indices in [`World::programs`].
@@ -125,24 +138,30 @@ type Claims = HashMap<String, u32>;
 pub(super) fn read(sources: &[Source]) -> Result<World<'_>, ReadError> {
     let mut world = World::default();
     let mut claims = Claims::new();
-    for source in sources {
+    for (file, source) in (0..).zip(sources) {
         if kind_of(&source.bytes) == Some(FileKind::Project) {
-            let read = world.project(source, &mut claims);
+            let read = world.project(source, file, &mut claims);
             read.map_err(|fault| fault.in_source(source))?;
         }
     }
     for source in sources {
-        let named = claims.get(&clean(&source.name).to_lowercase());
-        if let Some(project) = named {
-            let names = &mut world.projects[*project as usize].names;
-            names.extend(kind_of(&source.bytes));
+        let path = clean(&source.name).to_lowercase();
+        if let Some(project) = claims.get(&path) {
+            let files = world.projects[*project as usize].files.iter_mut();
+            let named = files.filter(|one| one.path.to_lowercase() == path);
+            named.for_each(|one| one.is_there = true);
         }
     }
+    let mut left_out = Vec::new();
     for (file, source) in (0..).zip(sources) {
         let kind = kind_of(&source.bytes).filter(|kind| *kind != FileKind::Project);
         let Some(kind) = kind else { continue };
-        let Some(project) = world.project_of(source, kind, &mut claims) else {
-            continue;
+        let project = match world.project_of(source, kind, &mut claims) {
+            Ok(project) => project,
+            Err(project) => {
+                left_out.push((project, kind));
+                continue;
+            }
         };
         let read = match kind {
             FileKind::Data => world.data(source, file, project),
@@ -150,11 +169,23 @@ pub(super) fn read(sources: &[Source]) -> Result<World<'_>, ReadError> {
         };
         read.map_err(|fault| fault.in_source(source))?;
     }
+    for (project, of) in (0..).zip(&world.projects) {
+        for kind in [FileKind::Data, FileKind::Programs] {
+            let named = || of.files.iter().filter(|one| one.kind == kind);
+            if left_out.contains(&(project, kind)) && !named().any(|one| one.is_there) {
+                let found = named().map(|one| {
+                    let by = &sources[one.by as usize];
+                    file_missing(&one.path).found_in(by, one.at)
+                });
+                world.findings.extend(found);
+            }
+        }
+    }
     Ok(world)
 }
 
 impl<'a> World<'a> {
-    fn project(&mut self, source: &'a Source, claims: &mut Claims) -> Result<(), Fault> {
+    fn project(&mut self, source: &'a Source, by: u32, claims: &mut Claims) -> Result<(), Fault> {
         let path = clean(&source.name);
         let folder = folder_of(&path).to_owned();
         let own = short(self.projects.len());
@@ -179,7 +210,20 @@ impl<'a> World<'a> {
                 }
                 b"Program" | b"program" | b"Data" | b"data" => {
                     if let Some(file) = tag.attribute(b"file")? {
-                        claims.insert(below(&folder, file.value).to_lowercase(), own);
+                        let path = below(&folder, file.value);
+                        claims.insert(path.to_lowercase(), own);
+                        let is_data = tag.name.eq_ignore_ascii_case(b"data");
+                        project.files.push(Named {
+                            kind: if is_data {
+                                FileKind::Data
+                            } else {
+                                FileKind::Programs
+                            },
+                            path,
+                            by,
+                            at: short(tag.at),
+                            is_there: false,
+                        });
                     }
                 }
                 b"Library" | b"alias" => {
@@ -203,13 +247,18 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// The project of a file: the one that names it, else that of its folder; `None` where that
-    /// names others of its kind.
-    fn project_of(&mut self, source: &Source, kind: FileKind, claims: &mut Claims) -> Option<u32> {
+    /// The project of a file: the one that names it, else that of its folder; an error with that
+    /// where it names others of its kind.
+    fn project_of(
+        &mut self,
+        source: &Source,
+        kind: FileKind,
+        claims: &mut Claims,
+    ) -> Result<u32, u32> {
         let path = clean(&source.name);
         let folder = folder_of(&path).to_owned();
         if let Some(&project) = claims.get(&path.to_lowercase()) {
-            return Some(project);
+            return Ok(project);
         }
         let Some(&project) = claims.get(&folder.to_lowercase()) else {
             let made = short(self.projects.len());
@@ -218,15 +267,28 @@ impl<'a> World<'a> {
                 path: folder,
                 ..Project::default()
             });
-            return Some(made);
+            return Ok(made);
         };
         let of = &self.projects[project as usize];
-        if of.names.contains(&kind) {
+        if of.files.iter().any(|one| one.kind == kind) {
             let remark = not_in_project(&of.path);
             self.findings.push(remark.found_in(source, 0));
-            return None;
+            return Err(project);
         }
-        Some(project)
+        Ok(project)
+    }
+
+    /// The project that the data of a file belong to.
+    pub(super) fn project_of_data(&self, file: u32) -> Option<u32> {
+        let found = self.data.iter().find(|datum| datum.file == file);
+        found.map(|datum| datum.project)
+    }
+
+    /// The project that the programs of a file belong to.
+    pub(super) fn project_of_code(&self, file: usize) -> Option<u32> {
+        let mut programs = self.programs.iter();
+        let found = programs.find(|program| program.file as usize == file);
+        found.map(|program| program.project)
     }
 
     fn is_again(&mut self, name: &[u8], source: &Source, at: u32) {
@@ -326,6 +388,16 @@ fn paths_of(path: &str) -> Option<[String; 2]> {
 fn is_below(path: &str, end: &str) -> bool {
     let folder = path.strip_suffix(end);
     folder.is_some_and(|folder| folder.is_empty() || folder.ends_with('/'))
+}
+
+/// Behind the line of the `begin` of a file's first program.
+pub(super) fn behind_begin(bytes: &[u8]) -> Option<usize> {
+    let programs = programs(bytes, 0, 0).ok()?;
+    let first = programs.first()?;
+    let code = Code::of(bytes, first.code.clone(), first.is_escaped);
+    let begin = (code.statements()).find(|statement| statement.text(0) == b"begin")?;
+    let at = line_behind(bytes, begin.span().start);
+    at.filter(|at| *at <= first.code.end)
 }
 
 /// The programs of a file.

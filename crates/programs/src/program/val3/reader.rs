@@ -25,6 +25,7 @@ const WRITES: &[(&[u8], usize)] = &[
     (b"pointToJoint", 3),
     (b"setFrame", 3),
     (b"link", 0),
+    (b"getLatch", 0),
     (b"resize", 0),
     (b"append", 0),
     (b"insert", 0),
@@ -43,6 +44,9 @@ pub(super) struct Here {
     pub project: u32,
     pub routine: RoutineId,
     pub file: u32,
+    /// How many choices stand for each `if` and `switch` that is open: one, and one for each
+    /// further branch with a head of its own.
+    choices: Vec<u32>,
 }
 
 #[derive(Default)]
@@ -112,6 +116,7 @@ impl<'a> Reader<'a> {
             project: of.project,
             routine: short(program),
             file: of.file,
+            choices: Vec::new(),
         };
         code.statements()
             .for_each(|statement| each(self, statement));
@@ -179,19 +184,49 @@ impl<'a> Reader<'a> {
             b"if" => {
                 self.uses(line);
                 self.builder.begin_if(None);
+                self.here.choices.push(1);
             }
-            b"elseIf" | b"case" => self.builder.next_branch(false),
+            b"switch" => {
+                self.uses(line);
+                self.builder.begin_choice();
+                self.here.choices.push(1);
+            }
+            b"elseIf" | b"case" => {
+                // what the head does counts in all branches behind it, too
+                self.builder.next_branch(true);
+                self.uses(line);
+                self.builder.begin_if(None);
+                if let Some(choices) = self.here.choices.last_mut() {
+                    *choices += 1;
+                }
+            }
             b"else" | b"default" => self.builder.next_branch(true),
-            b"while" | b"for" => self.builder.begin_loop(true),
+            b"endIf" | b"endSwitch" => {
+                for _ in 0..self.here.choices.pop().unwrap_or(1) {
+                    self.builder.end_choice();
+                }
+            }
+            b"while" => {
+                self.builder.begin_loop(false);
+                self.uses(line);
+                self.builder.begin_if(None);
+                self.builder.leave_loop();
+                self.builder.end_choice();
+            }
+            b"for" => {
+                self.uses(line);
+                self.builder.begin_loop(true);
+            }
             b"do" => self.builder.begin_loop(false),
             b"endWhile" | b"endFor" | b"until" => {
                 self.uses(line);
                 self.builder.end_loop(false);
             }
-            b"switch" => self.builder.begin_choice(),
-            b"endIf" | b"endSwitch" => self.builder.end_choice(),
             b"break" => self.builder.leave_block(),
-            b"return" => self.builder.back(),
+            b"return" => {
+                self.uses(line);
+                self.builder.back();
+            }
             b"call" => self.call(line),
             first if first.starts_with(b"taskCreate") => self.call(line),
             _ => {
@@ -357,8 +392,10 @@ impl<'a> Reader<'a> {
         let Some((at, (callee, name))) = calls.find_map(|(at, called)| Some((at, called?))) else {
             return;
         };
-        let given = line.inside(at + 1).0.list();
-        let (mut arguments, mut arrays) = (Vec::new(), Vec::new());
+        let given = line.inside(at + 1).0;
+        self.uses(given);
+        let given = given.list();
+        let (mut arguments, mut written) = (Vec::new(), Vec::new());
         for (number, value) in given.into_iter().enumerate() {
             let parameter =
                 callee.and_then(|callee| Some((callee, self.parameter(callee, number)?)));
@@ -367,7 +404,7 @@ impl<'a> Reader<'a> {
             let is_given = kind.is_place() || kind == Kind::Tool;
             if let Some(parameter) = parameter.filter(|(_, one)| one.is_array && is_given) {
                 if !self.give_array(parameter, value, &mut arguments) && parameter.1.by_reference {
-                    arrays.extend(target);
+                    written.extend(target.map(|all| Reference { key: None, ..all }));
                 }
                 continue;
             }
@@ -375,6 +412,7 @@ impl<'a> Reader<'a> {
                 self.give_away(value, &mut arguments);
             }
             let by_reference = parameter.is_some_and(|(_, one)| one.by_reference && is_given);
+            written.extend(target.filter(|one| by_reference && one.has_field));
             let parameter = parameter.map(|(callee, one)| self.local(callee, one.name));
             let value = if is_given {
                 self.given(kind, value)
@@ -399,12 +437,8 @@ impl<'a> Reader<'a> {
         } else {
             self.builder.start(call);
         }
-        // an array whose elements are not followed
-        for target in arrays {
-            let target = Reference {
-                key: None,
-                ..target
-            };
+        // arrays whose elements are not followed, and parts of points
+        for target in written {
             self.builder.begin_if(None);
             self.write_something(&target, line.span().start, false);
             self.builder.end_choice();

@@ -75,6 +75,15 @@ pub(super) fn not_in_project(project: &str) -> Remark {
     )
 }
 
+/// A file that a project file names and that is not given, while others of its kind are there.
+pub(super) fn file_missing(file: &str) -> Remark {
+    Remark::error_about(
+        "target-not-in-files",
+        format!("the .pjx names {file}, which is not among the files: another is not taken for it"),
+        "give the file that the robot loads, or name in the .pjx the one that is there",
+    )
+}
+
 /// A point of an arm with other axes.
 pub(super) fn other_arm(name: &str) -> Remark {
     Remark::error_about(

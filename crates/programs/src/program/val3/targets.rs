@@ -64,8 +64,8 @@ pub(super) struct Variables<'a> {
     any: HashMap<TableId, Expr>,
     /// The work frame that each father is, once it is asked for.
     pub frames: Vec<Option<Expr>>,
-    /// Tools that the files do not have.
-    pub tools: HashMap<&'a [u8], Expr>,
+    /// Tools that the files do not have, by the name that is asked for.
+    pub tools: HashMap<String, Expr>,
     /// Configuration data count.
     pub honoured: ValueId,
     /// Index in the script's guards: the path is altered.
@@ -187,7 +187,7 @@ impl<'a> Reader<'a> {
 
     /// The value of this kind that words name, where nothing changes it.
     pub(super) fn constant(&self, words: Words<'a, '_>, kind: Kind) -> Option<&Element<'a>> {
-        let name = Reference::of(words).filter(|name| !name.has_field)?;
+        let name = Reference::whole(words)?;
         let known = self.meaning(&name).filter(|known| known.kind == kind)?;
         let Of::Project(datum) = known.of else {
             return None;
@@ -452,7 +452,7 @@ impl<'a> Reader<'a> {
     /// A transformation with numbers: written out, or a `trsf` that nothing changes.
     fn transformation(&self, words: Words<'a, '_>) -> Option<Pose> {
         if words.is(0, b'{') {
-            let parts = words.inside(0).0.list();
+            let parts = words.rest_list(0)?;
             let numbers: Option<Vec<f64>> = parts.iter().map(Words::value).collect();
             return Some(super::pose_of(numbers?.try_into().ok()?));
         }

@@ -3,7 +3,7 @@
 use super::*;
 
 /// A project file that names data and a program, and one library.
-fn pjx(data: &str, library: &str) -> String {
+pub(super) fn pjx(data: &str, library: &str) -> String {
     format!(
         "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
          millimeterUnit=\"true\" /><Programs><Program file=\"start.pgx\" /></Programs>\
@@ -35,13 +35,88 @@ fn files_that_the_project_does_not_name_are_left_out() {
     );
     let files: Vec<u32> = program.targets.iter().map(|target| target.file).collect();
     assert_eq!(files, [1]);
-    // a .pjx that names none of the files does not choose among them
-    let other = [
-        ("m/m.pjx", pjx("other.dtx", "b")),
+}
+
+#[test]
+fn another_file_is_not_taken_for_one_that_the_project_names() {
+    let start = || pgx("start", "", "movej(pA,flange,m)");
+    let named = pjx("sub/real.dtx", "b");
+    let files = [
+        ("m/m.pjx", named.clone()),
         ("m/m.dtx", point("1")),
-        ("m/start.pgx", start("0")),
+        ("m/start.pgx", start()),
     ];
-    assert_eq!(ids(&read_files(&other).expect("a project")), [""; 0]);
+    let program = read_files(&files).expect("a project");
+    assert!(program.targets.is_empty());
+    let missing = |file: &str| {
+        let mut found = program.findings.iter();
+        let found = found.find(|one| one.file == file && one.severity == Severity::Error);
+        let found = found.expect("an error");
+        (
+            found.id,
+            found.line,
+            found.message.contains("m/sub/real.dtx"),
+        )
+    };
+    assert_eq!(missing("m/m.pjx"), ("target-not-in-files", 1, true));
+    // in the order of the files, whatever the case of their names
+    let files = [
+        ("m/start.pgx", start()),
+        ("m/SUB/Real.dtx", point("1")),
+        ("m/m.pjx", named),
+        ("m/m.dtx", point("2")),
+    ];
+    let program = read_files(&files).expect("a project");
+    assert_eq!(ids(&program), ["file-not-in-project"]);
+    assert_eq!(program.targets.len(), 1);
+    // so with programs
+    let files = [
+        ("m/m.pjx", pjx("m.dtx", "b")),
+        ("m/m.dtx", point("1")),
+        ("m/start_old.pgx", start()),
+    ];
+    let program = read_files(&files).expect("a project");
+    let mut found = ids(&program);
+    found.sort_unstable();
+    assert_eq!(found, ["file-not-in-project", "target-not-in-files"]);
+    assert!(program.moves.is_empty());
+}
+
+#[test]
+fn tools_and_frames_are_asked_for_with_alias_and_index() {
+    let points = [
+        ("pA", "a:f[0]"),
+        ("pB", "b:f[0]"),
+        ("pC", "f[0]"),
+        ("pD", "f[2]"),
+        ("pE", "fA[3]"),
+    ];
+    let points: String = (points.iter())
+        .map(|(name, father)| {
+            let value = format!("key=\"0\" x=\"1\" fatherId=\"{father}\"");
+            data(name, "pointRx", &[&value])
+        })
+        .collect();
+    let program = project(
+        &points,
+        "movel(pA,a:t,m)\nmovel(pB,b:t,m)\nmovel(pC,t[0],m)\nmovel(pD,t[1],m)\nmovel(pE,t,m)\n\
+         movel(pA,t[nI],m)",
+    );
+    let placed: Vec<_> = (program.moves.iter())
+        .map(|m| (&*program.frames[m.frame].name, &*program.tools[m.tool].name))
+        .take(5)
+        .collect();
+    assert_eq!(
+        placed,
+        [
+            ("a:f", "a:t"),
+            ("b:f", "b:t"),
+            ("f", "t"),
+            ("f[2]", "t[1]"),
+            ("fA[3]", "t")
+        ]
+    );
+    assert!(ids(&program).contains(&"frame-chosen-at-run-time"));
 }
 
 #[test]

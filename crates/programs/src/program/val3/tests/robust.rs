@@ -46,6 +46,67 @@ fn numbers_of_one_value_in_two_tags_are_refused() {
     }
 }
 
+#[test]
+fn values_that_may_be_read_in_two_ways_are_refused() {
+    let point = |values: &[&str]| data("pA", "pointRx", values);
+    let old = |inside: &str| format!("<point name=\"pA\">{inside}</point>");
+    let father = "<pFather alias=\"\" name=\"fP\" fatherIndex=\"0\" />";
+    let place = "<tpValue x=\"1\" /><cpValue wrist=\"wsame\" />";
+    let value = format!("<valuePoint index=\"0\">{place}</valuePoint>");
+    for (text, line, expected) in [
+        (
+            point(&["key=\"0\" wrist=\"wnegativ\""]),
+            4,
+            "wpositive, wnegative",
+        ),
+        (
+            point(&["key=\"0\" elbow=\"wfree\""]),
+            4,
+            "epositive, enegative",
+        ),
+        (point(&["key=\"0\" shoulder=\"\""]), 4, "lefty, righty"),
+        (
+            point(&["key=\"1\" x=\"1\"", "key=\"1\" x=\"2\""]),
+            5,
+            "a key that no",
+        ),
+        (
+            point(&["key=\"0,1\" x=\"1\"", "key=\"0, 1\" x=\"2\""]),
+            5,
+            "a key that no",
+        ),
+        (old(&format!("{value}{value}")), 3, "a key that no"),
+        (
+            old(&format!("<valuePoint>{father}{place}</valuePoint>")),
+            3,
+            "one father",
+        ),
+        (old(&format!("{value}{father}")), 3, "one father"),
+        (old(&format!("{father}{father}{value}")), 3, "one father"),
+    ] {
+        let text = dtx(&text);
+        let files = [
+            ("m/m.dtx", text.clone()),
+            ("m/start.pgx", pgx("start", "", "")),
+        ];
+        let error = read_files(&files).expect_err(&text).to_string();
+        let place = format!("m/m.dtx:{line}:");
+        assert!(
+            error.starts_with(&place) && error.contains(expected),
+            "{error}"
+        );
+    }
+    let sides = "shoulder=\"same\" elbow=\"efree\" wrist=\"wsame\"";
+    for text in [
+        old(&format!("{father}{value}")),
+        point(&[&format!("key=\"0\" x=\"1\" {sides}"), "key=\"1\" x=\"2\""]),
+        // fields of a structure have keys of their own
+        data("sA", "Structure", &["key=\"0\"", "key=\"0\""]),
+    ] {
+        data_of(dtx(&text).as_bytes(), 0, 0).expect(&text);
+    }
+}
+
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(256))]
 
