@@ -138,12 +138,30 @@ fn numbers_are_followed_through_parameters_functions_and_arrays() {
         go("0,0,h{1}")
     );
     covers(&of_rapid("VAR num h{3};", &array), &truth, "an element");
+    let declared = of_rapid("CONST num h{2}:=[0,-200];", &go("0,0,h{2}"));
+    covers(&declared, &truth, "an element of the declaration");
     let script = of_urscript(
         "  def go(w, h):\n    movel(pose_add(w, p[0,h,0,0,0,0]))\n  end\n",
         "  go(w, -0.2)\n",
     );
     let written_out = of_urscript("", "  movel(pose_add(w, p[0,-0.2,0,0,0,0]))\n");
     covers(&script, &written_out, "URScript");
+}
+
+#[test]
+fn rotations_of_the_text_count() {
+    let go = |by: &str| format!("  movel(pose_trans(w, p[0,0,0,0,{by},0]))\n");
+    let written_out = of_urscript("", &go("0.5235987755982988"));
+    let degrees = of_urscript("", &go("d2r(30)"));
+    assert_eq!(
+        misses(&degrees),
+        misses(&written_out),
+        "{:?}",
+        degrees.findings
+    );
+    let either = "  a = 0.1\n  if (n == 1):\n    a = 0.5236\n  end\n";
+    let either = of_urscript("", &format!("{either}{}", go("a")));
+    covers(&either, &written_out, "one of two");
 }
 
 #[test]
@@ -166,7 +184,7 @@ fn what_krl_writes_into_numbers_counts() {
         "sub(200.0)\nEND\nDEF sub(d:IN)\nDECL REAL d\nDECL E6POS \
         r\nr=XP\nr.Y=r.Y-d\nLIN r\n",
     );
-    covers(&given, &truth, "a parameter");
+    assert_eq!(misses(&given), misses(&truth), "{:?}", given.findings);
     let written_out = of_krl("", "LIN XP:{X 0,Y 0,Z 200,A 0,B 0,C 0}\n");
     for frame in [
         "{Z 200}",

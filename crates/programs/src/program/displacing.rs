@@ -73,6 +73,11 @@ impl Displacing {
         }
     }
 
+    /// By no more than an angle, radians, about an axis that the text does not tell.
+    pub(super) fn turned_up_to(&mut self, angle: f64) {
+        self.strides.push(Stride::Turned(Some(angle)));
+    }
+
     /// A motion in the tool.
     pub(super) fn in_tool_exactly(&mut self, step: Pose) {
         let back = step.inverse();

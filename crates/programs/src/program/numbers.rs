@@ -328,37 +328,58 @@ pub(super) fn rounds(from: f64, to: f64, step: f64) -> Option<u32> {
 }
 
 /// The value of an expression; `own` gives that of operands that are no names, `named` of those
-/// that are. Others, `Abs(x)`, `h{2}`, are not followed: they add up where a number in them does, or
-/// is that which is assigned.
+/// that are. An element of an array, `h{2}`, may be any of them, and so may a list. Others,
+/// `Abs(x)`, are not followed: they add up where a number in them does, or is that which is assigned.
 pub(super) fn evaluated(
     arithmetic: Arithmetic,
     text: &[u8],
     named: &mut dyn FnMut(&[u8]) -> Quantity,
     own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
 ) -> Quantity {
-    let is_letter = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..);
+    if let Some(inside) = list(text.trim_ascii()) {
+        let all = inside.map(|part| evaluated(arithmetic, part, named, own));
+        return Quantity::any(&all.collect::<Vec<_>>());
+    }
     let value = evaluate_in(arithmetic, text, &mut |operand| {
         if let Some(own) = own(operand) {
             return own;
         }
-        if operand.iter().all(is_letter) {
-            return named(operand);
-        }
-        // which element of an array it is says nothing of how large that is
-        let mut depth = 0_i32;
-        let names = operand.split(|byte| {
-            depth += i32::from(matches!(byte, b'[' | b'{'));
-            depth -= i32::from(matches!(byte, b']' | b'}'));
-            depth > 0 || !is_letter(byte)
-        });
-        let mut names = names.filter(|name| name.first().is_some_and(|b| !b.is_ascii_digit()));
-        if names.any(|name| named(name).adds_up()) {
-            Quantity::endless()
-        } else {
-            Quantity::unknown()
+        let name = operand.iter().take_while(|b| is_letter(**b)).count();
+        let (name, rest) = operand.split_at(name);
+        match rest {
+            [] => named(name),
+            [b'{' | b'[', inside @ .., b'}' | b']'] if !inside.contains(&b'.') => {
+                let value = named(name);
+                if value.adds_up() {
+                    Quantity::endless()
+                } else {
+                    value
+                }
+            }
+            _ => {
+                let names = operand.split(|byte| !is_letter(*byte));
+                let mut names =
+                    names.filter(|name| name.first().is_some_and(|b| !b.is_ascii_digit()));
+                if names.any(|name| named(name).adds_up()) {
+                    Quantity::endless()
+                } else {
+                    Quantity::unknown()
+                }
+            }
         }
     });
     value.unwrap_or_else(Quantity::unknown)
+}
+
+/// The numbers of a list, `[[1,2],[3,4]]`.
+fn list(text: &[u8]) -> Option<impl Iterator<Item = &[u8]>> {
+    let inside = text.strip_prefix(b"[")?.strip_suffix(b"]")?;
+    let parts = inside.split(|byte| matches!(byte, b'[' | b']' | b','));
+    Some(parts.filter(|part| !part.trim_ascii().is_empty()))
+}
+
+fn is_letter(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..)
 }
 
 /// Where a word stands by itself.
@@ -470,7 +491,11 @@ mod tests {
         numbers.write(3, "c{a}", None);
         assert!(value(&numbers, 0).is_endless());
         assert_eq!(value(&numbers, 1), Quantity::unknown());
-        assert_eq!(value(&numbers, 3), Quantity::unknown());
+        assert_eq!(value(&numbers, 3).exact(), Some(3.0));
+        // an element may be any
+        numbers.write(4, "[[0,-c],[7,5]]", None);
+        numbers.write(5, "e{1,2}+1", None);
+        assert_eq!(value(&numbers, 5).ends(), Some((-2.0, 8.0)));
     }
 
     #[test]

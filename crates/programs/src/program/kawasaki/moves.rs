@@ -167,15 +167,14 @@ impl<'a> Reader<'a> {
             Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
                 let mut found = self.position(first.part(0..till));
-                let why = if matches!(verb, Verb::Other) {
-                    OTHER_MOVE
-                } else {
-                    SEARCH
+                let why = || match verb {
+                    Verb::Other => OTHER_MOVE,
+                    _ => SEARCH,
                 };
                 if matches!(found.base, Expr::Unknown(_)) {
-                    found = Position::plain(self.unknown(why));
+                    found = Position::plain(self.unknown(why()));
                 }
-                let modal = self.refused(why, Motion::Linear, &found);
+                let modal = self.refused(why(), Motion::Linear, &found);
                 self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
             }

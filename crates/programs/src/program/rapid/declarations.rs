@@ -55,7 +55,7 @@ impl Reader<'_> {
                     Stored::Computed
                 }
             };
-            if kind == Type::Num && dimensions == 0 {
+            if kind == Type::Num {
                 let bytes = (start, self.token.start);
                 self.parsed
                     .values

@@ -2,11 +2,12 @@
 
 use super::syntax::{Content, Event, Expr, ExprId, FunctionId};
 use super::variables::Variables;
-use crate::geometry::{Pose, Rotation};
+use crate::geometry::units::DEG;
+use crate::geometry::{Pose, Rotation, norm};
 use crate::program::Displacement;
 use crate::program::displacing::Displacing;
 use crate::program::numbers::{Blocks, Numbers, Site, evaluated};
-use crate::program::quantity::{Arithmetic, Quantity};
+use crate::program::quantity::{Arithmetic, Quantity, evaluate};
 
 /// Numbers in a pose.
 const OF_POSE: usize = 6;
@@ -129,7 +130,11 @@ impl Variables<'_, '_> {
             let variable = name.and_then(|name| self.meaning(name, function));
             variable.map_or_else(Quantity::unknown, &mut *of)
         };
-        evaluated(Arithmetic::Real, text, &mut named, &mut |_| None)
+        evaluated(Arithmetic::Real, text, &mut named, &mut |operand| {
+            let degrees = operand.strip_prefix(b"d2r(")?.strip_suffix(b")")?;
+            let exactly = evaluate(degrees, &mut |_| Quantity::unknown())?.exact()?;
+            Some(Quantity::exactly(exactly * DEG))
+        })
     }
 }
 
@@ -153,30 +158,35 @@ fn parts(inside: &[u8]) -> impl Iterator<Item = &[u8]> {
 /// turns.
 pub(super) fn in_base(amounts: [Quantity; 6]) -> Option<Displacement> {
     let [x, y, z, rotation @ ..] = amounts;
-    let turned = turned(&rotation)?;
     let mut by = Displacing::new();
     by.along_frame(&[x, y, z]);
-    by.in_tool_exactly(turned);
-    Some(by.displacement())
+    turn(&rotation, by)
 }
 
 /// Likewise `pose_trans`.
 pub(super) fn in_tool(amounts: [Quantity; 6]) -> Option<Displacement> {
     let [x, y, z, rotation @ ..] = amounts;
-    let turned = turned(&rotation)?;
     let mut by = Displacing::new();
     let none = || Quantity::exactly(0.0);
     by.in_tool(&[x, y, z, none(), none(), none()]);
-    by.in_tool_exactly(turned);
-    Some(by.displacement())
+    turn(&rotation, by)
 }
 
-fn turned(rotation: &[Quantity; 3]) -> Option<Pose> {
+fn turn(rotation: &[Quantity; 3], mut by: Displacing) -> Option<Displacement> {
     let [x, y, z] = rotation.each_ref().map(Quantity::exact);
-    let vector = [x?, y?, z?];
-    let is_meant =
-        super::rotation::endless(&[0.0, 0.0, 0.0, vector[0], vector[1], vector[2]], false);
-    is_meant
-        .is_none()
-        .then(|| Pose::from_rotation(Rotation::from_vector(vector)))
+    if let (Some(x), Some(y), Some(z)) = (x, y, z) {
+        let endless = super::rotation::endless(&[0.0, 0.0, 0.0, x, y, z], false);
+        if endless.is_some() {
+            return None;
+        }
+        by.in_tool_exactly(Pose::from_rotation(Rotation::from_vector([x, y, z])));
+    } else {
+        let mut largest = [0.0; 3];
+        for (largest, of) in largest.iter_mut().zip(rotation) {
+            let (least, most) = of.ends()?;
+            *largest = most.abs().max(least.abs());
+        }
+        by.turned_up_to(norm(largest));
+    }
+    Some(by.displacement())
 }

@@ -180,10 +180,10 @@ impl Language for Val3 {
     /// A comment inside the data, or behind `begin` of the first program.
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let (bytes, end) = (&source.bytes, source.line_end());
-        if project::kind_of(bytes) == Some(FileKind::Programs) {
-            if let Some(at) = project::behind_begin(bytes) {
-                return (at, super::kit::comments(source, marker, "// "));
-            }
+        if project::kind_of(bytes) == Some(FileKind::Programs)
+            && let Some(at) = project::behind_begin(bytes)
+        {
+            return (at, super::kit::comments(source, marker, "// "));
         }
         let mut text = [end, b"<!--", end].concat();
         for line in marker.lines() {

@@ -1,4 +1,4 @@
-//! Text that never runs: behind `if (1 == 2)`, where PolyScope programs keep taught points.
+//! Text that never runs: behind `if (1 == 2)`, where `PolyScope` programs keep taught points.
 
 use super::Translator;
 use crate::program::urscript::syntax::{Event, Expr, FunctionId, Step};
