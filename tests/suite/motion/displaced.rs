@@ -242,7 +242,7 @@ fn of_language(robot: &str, files: &[(&str, &str)]) -> Compensation {
     compensate(language, &sources, &profile_of(robot, &[effect]), &given()).expect("read")
 }
 
-/// A URScript program that has moved to `w`, functions before it.
+/// A program in `URScript` that has moved to `w`, functions before it.
 pub(super) fn of_urscript(functions: &str, body: &str) -> Compensation {
     let text = format!(
         "def t():\n{functions}  set_tcp(p[0,0,0,0,0,0])\n  w = \

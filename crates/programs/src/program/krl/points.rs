@@ -231,10 +231,7 @@ impl Reader {
             let part = part.trim_ascii();
             let (key, value) = part.split_at(part.iter().position(u8::is_ascii_whitespace)?);
             let of = |known: &&str| key.eq_ignore_ascii_case(known.as_bytes());
-            if let Some(at) = ["X", "Y", "Z", "A", "B", "C"]
-                .iter()
-                .position(|name| of(&name))
-            {
+            if let Some(at) = ["X", "Y", "Z", "A", "B", "C"].iter().position(of) {
                 amounts[at] = self.quantity(value.trim_ascii(), &mut |_| None);
             }
         }
