@@ -28,13 +28,14 @@
 mod chain;
 mod error;
 mod export;
+mod text;
 mod tree;
 mod write;
 
 pub use error::UrdfError;
 pub use export::{Drawing, urdf_text};
 #[cfg(feature = "cli")]
-pub(crate) use tree::is_xacro;
+pub(crate) use text::is_xacro;
 pub use write::{About, Meshes, profile_text};
 
 use crate::geometry::{Pose, Vector};
