@@ -133,11 +133,23 @@ fn numbers_are_followed_through_parameters_functions_and_arrays() {
         let body = format!("WHILE DInput(di1)=1 DO\n{add}\n{}\nENDWHILE", go("0,0,e"));
         covers(&of_rapid("VAR num e;", &body), &truth, add);
     }
-    let array = format!(
-        "WHILE DInput(di1)=1 DO\nh{{1}}:=h{{1}}-5;\n{}\nENDWHILE",
-        go("0,0,h{1}")
-    );
-    covers(&of_rapid("VAR num h{3};", &array), &truth, "an element");
+    let data = "VAR num h{3}:=[0,0,0];";
+    for add in [
+        "h{1}:=h{1}-5;",
+        "Add h{1},-5;",
+        "Decr h{1};",
+        "h{2}:=0;\nAdd h{1},-5;",
+        "Clear h{2};\nAdd h{1},-5;",
+    ] {
+        let array = format!(
+            "WHILE DInput(di1)=1 DO\n{add}\n{}\nENDWHILE",
+            go("0,0,h{1}")
+        );
+        covers(&of_rapid(data, &array), &truth, add);
+        let counted = array.replace("WHILE DInput(di1)=1", "FOR i FROM 1 TO 200");
+        let counted = counted.replace("ENDWHILE", "ENDFOR");
+        covers(&of_rapid(data, &counted), &truth, add);
+    }
     let declared = of_rapid("CONST num h{2}:=[0,-200];", &go("0,0,h{2}"));
     covers(&declared, &truth, "an element of the declaration");
     let script = of_urscript(

@@ -4,7 +4,7 @@
 //! something more adds up: as often as the loops around that assignment count where the same
 //! routine sets it anew before, else any number of times.
 
-use super::quantity::{Arithmetic, Quantity, evaluate_in};
+use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
 
@@ -378,8 +378,22 @@ fn list(text: &[u8]) -> Option<impl Iterator<Item = &[u8]>> {
     Some(parts.filter(|part| !part.trim_ascii().is_empty()))
 }
 
-fn is_letter(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..)
+/// What stands between the commas of a list, up to the bracket that closes it.
+pub(super) fn parts(inside: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let deeper = |byte: u8| {
+        i32::from(matches!(byte, b'(' | b'[' | b'{'))
+            - i32::from(matches!(byte, b')' | b']' | b'}'))
+    };
+    let mut depth = 0_i32;
+    let end = inside.iter().position(|byte| {
+        depth += deeper(*byte);
+        depth < 0
+    });
+    let mut depth = 0_i32;
+    inside[..end.unwrap_or(inside.len())].split(move |byte| {
+        depth += deeper(*byte);
+        depth == 0 && *byte == b','
+    })
 }
 
 /// Where a word stands by itself.

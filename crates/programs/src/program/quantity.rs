@@ -555,7 +555,8 @@ impl Reader<'_, '_> {
     }
 }
 
-fn is_letter(byte: u8) -> bool {
+/// Whether a byte is one of a name.
+pub(super) fn is_letter(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'$' | 128..)
 }
 

@@ -91,9 +91,7 @@ impl Flow<'_> {
             | How::PartOf { remark, .. } => (0, 0..0, Some(*remark)),
         };
         let of = match write.how {
-            How::PartOf { of, axis, by, .. } => {
-                Some((self.evaluate(state, of, site), usize::from(axis), by))
-            }
+            How::PartOf { of, axis, by, .. } => Some((self.evaluate(state, of, site), axis, by)),
             _ => None,
         };
         let own = match self.script.variables[variable as usize].declared {

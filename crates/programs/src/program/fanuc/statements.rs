@@ -441,7 +441,12 @@ impl Reader<'_> {
             {
                 let other = Expr::Variable(self.register(other));
                 let by = self.builder.script.displacement(displacement);
-                return How::part_of(computed, other, number, by);
+                return How::PartOf {
+                    remark: computed,
+                    of: other,
+                    axis: number,
+                    by,
+                };
             }
         }
         let mut elements = memchr::memmem::find_iter(value, b"PR[").filter_map(|at| {

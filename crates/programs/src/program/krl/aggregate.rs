@@ -15,16 +15,6 @@ pub(super) const EXTERNAL: [&str; 6] = ["E1", "E2", "E3", "E4", "E5", "E6"];
 /// S and T have fewer bits than this number needs.
 const MOST_STATUS: f64 = 65_535.0;
 
-/// What stands between the commas of an aggregate.
-pub(super) fn parts(inside: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let mut depth = 0_i32;
-    inside.split(move |byte| {
-        depth += i32::from(matches!(byte, b'(' | b'[' | b'{'));
-        depth -= i32::from(matches!(byte, b')' | b']' | b'}'));
-        depth == 0 && *byte == b','
-    })
-}
-
 /// The value of one component.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Field {

@@ -59,9 +59,8 @@ pub(super) struct Known {
     /// What calls give.
     given: Vec<Given>,
     declared: HashSet<u32>,
-    /// Not by FOR alone, and by which routines.
-    assigned: HashSet<u32>,
-    assigned_in: HashMap<u32, HashSet<u32>>,
+    /// Those that are written not by FOR alone, and by which routines.
+    assigned: HashMap<u32, HashSet<u32>>,
 }
 
 impl Known {
@@ -73,7 +72,6 @@ impl Known {
     /// A number is written, and not by FOR alone: loops around that count with it run any number of
     /// times, and those of other routines that it is known in.
     fn assign(&mut self, number: u32) {
-        self.assigned.insert(number);
         let routine = self.blocks.last().0;
         let is_of_loop = |of: &&Counting| of.counter == number;
         for of in self.open.iter().map(|at| &self.loops[*at]) {
@@ -81,7 +79,7 @@ impl Known {
                 self.numbers.unbounded(of.block);
             }
         }
-        let is_new = self.assigned_in.entry(number).or_default().insert(routine);
+        let is_new = self.assigned.entry(number).or_default().insert(routine);
         if is_new && number & OF_ROUTINE == 0 {
             for of in self.loops.iter().filter(is_of_loop) {
                 if of.block.0 != routine {
@@ -94,12 +92,12 @@ impl Known {
     /// Whether another routine than the present one writes a number.
     fn is_assigned_elsewhere(&self, number: u32) -> bool {
         let routine = self.blocks.last().0;
-        let assigned = self.assigned_in.get(&number);
+        let assigned = self.assigned.get(&number);
         assigned.is_some_and(|routines| routines.iter().any(|one| *one != routine))
     }
 
     fn counting(&self, name: u32, at: Place) -> Option<usize> {
-        if self.assigned.contains(&name) {
+        if self.assigned.contains_key(&name) {
             return None;
         }
         let start = |of: &Counting| (of.file, of.inside.0);

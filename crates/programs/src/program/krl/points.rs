@@ -10,6 +10,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::MM;
 use crate::program::displacing::Displacing;
 use crate::program::names::Symbol;
+use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
 use crate::program::script::{DisplacementId, Expr, Held, NOT_DISPLACED, Span, short};
 use crate::program::{Displacement, Shape, Shift, TargetId};
@@ -227,7 +228,7 @@ impl Reader {
         let inside = text.strip_prefix(b"{")?.strip_suffix(b"}")?;
         let inside = inside.rsplit(|byte| *byte == b':').next()?;
         let mut amounts = [0.0; 6].map(Quantity::exactly);
-        for part in aggregate::parts(inside) {
+        for part in parts(inside) {
             let part = part.trim_ascii();
             let (key, value) = part.split_at(part.iter().position(u8::is_ascii_whitespace)?);
             let of = |known: &&str| key.eq_ignore_ascii_case(known.as_bytes());

@@ -616,7 +616,12 @@ impl Reader {
                 && letters(&cursor.bytes[start..cursor.at]) == term
             {
                 let by = self.builder.script.displacement(displacement);
-                return How::part_of(remark, other, at, by);
+                return How::PartOf {
+                    remark,
+                    of: other,
+                    axis: at,
+                    by,
+                };
             }
         }
         let is_own = mentions(&letters(value), &own);

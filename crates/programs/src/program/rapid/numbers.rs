@@ -57,9 +57,10 @@ impl Resolved<'_> {
                     (context, file) = (now, in_file);
                     blocks.begin(context.routine.unwrap_or(u32::MAX));
                 }
-                // elements of an array are one number
+                // elements of an array are one number, which one of them does not set anew
                 StatementKind::Assign {
                     name,
+                    index,
                     component: Component::Whole,
                     ..
                 } => {
@@ -71,9 +72,9 @@ impl Resolved<'_> {
                             bytes,
                             context,
                         };
-                        let site = blocks.site();
+                        let site = (index == Index::Whole).then(|| blocks.site());
                         for datum in data {
-                            numbers.write(datum, written, Some(site.clone()));
+                            numbers.write(datum, written, site.clone());
                         }
                     }
                 }
@@ -244,9 +245,11 @@ impl Resolved<'_> {
         let Some((by, of)) = by.zip(given.first()) else {
             return self.lose_all(false, arguments, context, numbers);
         };
-        if let Some((name, Index::Whole)) = self.place_of(&of.expression) {
+        if let Some((name, index)) = self.place_of(&of.expression) {
+            let sets_anew = matches!(by, Written::Zero);
+            let site = (!sets_anew || index == Index::Whole).then_some(site);
             for number in self.numbers_named(name, context) {
-                numbers.write(number, by, Some(site.clone()));
+                numbers.write(number, by, site.cloned());
             }
         }
     }

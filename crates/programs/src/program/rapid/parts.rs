@@ -7,6 +7,7 @@ use crate::program::Displacement;
 use crate::program::displacing::{Displacing, grown_by_any};
 use crate::program::names::Symbol;
 use crate::program::notation::mentions;
+use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue};
 
@@ -126,7 +127,12 @@ impl Translator<'_> {
             if let Some(other) = other.and_then(|name| self.resolved.parsed.symbols.find(name)) {
                 let other = self.position(other, Index::Whole, Type::Robtarget);
                 let by = self.builder.script.displacement(displacement);
-                return How::part_of(changed, other, axis, by);
+                return How::PartOf {
+                    remark: changed,
+                    of: other,
+                    axis,
+                    by,
+                };
             }
         }
         if let Some(displacement) = self.added_to_all(&own, &text) {
@@ -157,14 +163,13 @@ impl Translator<'_> {
             _ => return None,
         };
         let inside = rest[1..].strip_prefix(b"[")?.strip_suffix(b"]")?;
-        let parts = inside.split(|byte| *byte == b',');
         let of = |part: &[u8]| {
             let value = self
                 .resolved
                 .quantity(part, self.here, self.context, &mut |_| None);
             value.times(sign).in_unit(MM)
         };
-        let along: [Quantity; 3] = parts.map(of).collect::<Vec<_>>().try_into().ok()?;
+        let along: [Quantity; 3] = parts(inside).map(of).collect::<Vec<_>>().try_into().ok()?;
         let mut by = Displacing::new();
         by.along_frame(&along);
         Some(by.displacement())

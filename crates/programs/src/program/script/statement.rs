@@ -258,24 +258,13 @@ pub enum How {
         /// The other position.
         of: Expr,
         /// Which axis of the work frame that is: 0 to 2.
-        axis: u8,
+        axis: usize,
         /// What is added along it.
         by: DisplacementId,
     },
 }
 
 impl How {
-    /// See [`How::PartOf`].
-    #[must_use]
-    pub fn part_of(remark: RemarkId, of: Expr, axis: usize, by: DisplacementId) -> Self {
-        Self::PartOf {
-            remark,
-            of,
-            axis: u8::try_from(axis).unwrap_or(u8::MAX),
-            by,
-        }
-    }
-
     /// A part of a position becomes what only the running program knows: something more than it was
     /// (`is_own`), or something that has nothing to do with that. `is_angle` where it is one of the
     /// orientation.

@@ -6,7 +6,7 @@ use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
 use crate::program::Displacement;
 use crate::program::displacing::Displacing;
-use crate::program::numbers::{Blocks, Numbers, Site, evaluated};
+use crate::program::numbers::{Blocks, Numbers, Site, evaluated, parts};
 use crate::program::quantity::{Arithmetic, Quantity, evaluate};
 
 /// Numbers in a pose.
@@ -136,22 +136,6 @@ impl Variables<'_, '_> {
             Some(Quantity::exactly(exactly * DEG))
         })
     }
-}
-
-/// What stands between the commas of a list, up to the bracket that closes it.
-fn parts(inside: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let mut depth = 0_i32;
-    let end = inside.iter().position(|byte| {
-        depth += i32::from(matches!(byte, b'(' | b'['));
-        depth -= i32::from(matches!(byte, b')' | b']'));
-        depth < 0
-    });
-    let mut depth = 0_i32;
-    inside[..end.unwrap_or(inside.len())].split(move |byte| {
-        depth += i32::from(matches!(byte, b'(' | b'['));
-        depth -= i32::from(matches!(byte, b')' | b']'));
-        depth == 0 && *byte == b','
-    })
 }
 
 /// What `pose_add` adds whose offset has these numbers; `None` where the text does not tell how it

@@ -357,7 +357,12 @@ impl<'a> Reader<'a> {
                 if is_same && letters(value.part(0..other.words).whole()) == letters(term) {
                     let other = self.given(Kind::Point, value.part(0..other.words - 4));
                     let by = self.builder.script.displacement(displacement);
-                    return How::part_of(remark, other, at, by);
+                    return How::PartOf {
+                        remark,
+                        of: other,
+                        axis: at,
+                        by,
+                    };
                 }
             }
         }

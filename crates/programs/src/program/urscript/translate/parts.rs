@@ -40,8 +40,12 @@ impl Translator<'_, '_, '_> {
                     return How::PartBy(computed, by);
                 }
                 if let Some(position) = self.goals.held[other as usize].position {
-                    let other = Expr::Variable(position);
-                    return How::part_of(computed, other, at, by);
+                    return How::PartOf {
+                        remark: computed,
+                        of: Expr::Variable(position),
+                        axis: at,
+                        by,
+                    };
                 }
             }
         }
