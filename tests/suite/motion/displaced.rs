@@ -84,7 +84,7 @@ fn what_only_the_running_program_knows_may_be_added_once_and_not_again_and_again
         ["displacement-unknown"],
         "no limit is high enough"
     );
-    assert!(message(&again, "displacement-unknown").contains("nothing bounds"));
+    assert!(message(&again, "displacement-unknown").contains("not bound"));
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn a_number_that_adds_up_displaces_as_a_copy_does_that_is_displaced_again_and_ag
     // by what only the running program knows: nothing bounds it
     let camera = format!("WHILE DInput(di1)=1 DO\n{go}\ne:=e+AInput(ai1);\nENDWHILE");
     let camera = of_rapid(number, &camera);
-    assert!(message(&camera, "displacement-unknown").contains("nothing bounds"));
+    assert!(message(&camera, "displacement-unknown").contains("not bound"));
     assert_eq!(errors(&camera), ["displacement-unknown"]);
     // what is read from elsewhere is no number of the text
     let read = of_rapid(number, &format!("TPReadNum e,\"e\";\n{go}"));

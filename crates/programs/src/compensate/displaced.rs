@@ -12,6 +12,9 @@ use crate::program::script::short;
 use crate::program::{Displacement, Move, SOMEHOW_M, Shift};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// So far from a target is looked how long its correction is right, metres.
+const DISTANCES_M: [f64; 10] = [1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
+
 fn is_displaced(motion: &Move) -> bool {
     motion.displacement != Displacement::None
 }
@@ -75,7 +78,7 @@ pub(super) fn check(
         };
         // the largest miss at these places from the target; from which side joints come there
         // nobody knows, and that is a finding of its own
-        let most_m = |shifts: &mut dyn Iterator<Item = Shift>| {
+        let most_m = |shifts: &mut dyn Iterator<Item = Shift>| -> f64 {
             let uses = uses.iter().map(|of| Approach {
                 direction: approach.direction,
                 ..*of
@@ -87,11 +90,21 @@ pub(super) fn check(
             });
             gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
         };
+        // how far from the target its correction is worth that much
+        let holds = |most_m: &dyn Fn(&mut dyn Iterator<Item = Shift>) -> f64| {
+            let holds = |by: &f64| most_m(&mut strides::along_each_axis(*by)) <= limit_m;
+            match DISTANCES_M.iter().take_while(|by| holds(by)).last() {
+                Some(by) => format!("within the limit up to {:.0} mm from it", mm_from_m(*by)),
+                None => "beyond the limit 1 mm from it".into(),
+            }
+        };
         let unbounded = || {
             let message = format!(
-                "a copy of {name} is displaced again and again, by what only the running program \
-                 knows or by many steps, or a joint of it is changed: nothing bounds how far from \
-                 it the copy comes, and what its correction is worth there"
+                "a copy of {name} is displaced in a way that the text does not bound, or that is \
+                 not followed (again and again, by many steps, by what is computed of other \
+                 numbers): how far from {name} it comes is not known; its correction is right {} \
+                 (the limit is {limit_mm:.3} mm)",
+                holds(&most_m)
             );
             ("displacement-unknown", Severity::Error, message)
         };
@@ -101,9 +114,10 @@ pub(super) fn check(
                 let most = most_m(&mut strides::along_each_axis(SOMEHOW_M));
                 let message = format!(
                     "a point derived from {name} at run time takes its correction along: up to \
-                     {:.0} mm from it that is {:.3} mm off (the limit is {limit_mm:.3} mm)",
+                     {:.0} mm from it that is {:.3} mm off (the limit is {limit_mm:.3} mm), and {}",
                     mm_from_m(SOMEHOW_M),
                     mm_from_m(most),
+                    holds(&most_m),
                 );
                 ("displacement-unknown", severity_of(most), message)
             }
@@ -140,7 +154,7 @@ pub(super) fn check(
                     unbounded()
                 }
             }
-            Displacement::Accumulated => unbounded(),
+            Displacement::Unbounded => unbounded(),
             Displacement::Overwritten => {
                 // of numbers that are all written over nothing is left, of others some
                 let lost = uses.iter().flat_map(|of| {

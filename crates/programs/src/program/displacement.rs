@@ -17,8 +17,9 @@ pub enum Displacement {
     /// Likewise; what the text tells of it comes to the places that these steps lead to, with 1 for
     /// each factor that only the running program knows.
     AtLeast(Box<[Stride]>),
-    /// Something that only the running program knows, again and again: nothing bounds it.
-    Accumulated,
+    /// Something that only the running program knows, again and again, or that is worked out in a
+    /// way that is not followed: nothing bounds it.
+    Unbounded,
     /// The running program puts numbers of its own in the place of some of a copy's: these lose
     /// their correction.
     Overwritten,

@@ -106,7 +106,7 @@ impl Displacing {
     pub(super) fn displacement(self) -> Displacement {
         let is_none = self.exact == Shift::none();
         if self.is_endless {
-            return Displacement::Accumulated;
+            return Displacement::Unbounded;
         }
         if self.strides.is_empty() && !self.is_unknown {
             return if is_none {
@@ -230,7 +230,7 @@ mod tests {
             along(Quantity::unknown().times(0.04)),
             Displacement::AtLeast(Box::new([by(0.04), by(-0.04)]))
         );
-        assert_eq!(along(Quantity::endless()), Displacement::Accumulated);
+        assert_eq!(along(Quantity::endless()), Displacement::Unbounded);
         assert_eq!(along(Quantity::exactly(0.0)), Displacement::None);
     }
 }

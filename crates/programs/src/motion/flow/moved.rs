@@ -7,8 +7,8 @@ use super::{Flow, State};
 use crate::geometry::Pose;
 use crate::motion::holding::{Atom, Site};
 use crate::program::script::{
-    ACCUMULATED, DISPLACED_SOMEHOW, DisplacementId, How, NOT_DISPLACED, OVERWRITTEN, Statement,
-    TURNED, short,
+    DISPLACED_SOMEHOW, DisplacementId, How, NOT_DISPLACED, OVERWRITTEN, Statement, TURNED,
+    UNBOUNDED, short,
 };
 use crate::program::{Displacement, Shift, Stride};
 use foldhash::{HashMap, HashMapExt};
@@ -77,7 +77,7 @@ impl Flow<'_> {
         by: DisplacementId,
         site: Site,
     ) -> Vec<DisplacementId> {
-        for absorbing in [OVERWRITTEN, ACCUMULATED] {
+        for absorbing in [OVERWRITTEN, UNBOUNDED] {
             if before == absorbing || by == absorbing {
                 return vec![absorbing];
             }
@@ -93,7 +93,7 @@ impl Flow<'_> {
         };
         if by == DISPLACED_SOMEHOW {
             return match old {
-                Some(Moved::Somehow(of)) if of == site && site != OF_MOVE => vec![ACCUMULATED],
+                Some(Moved::Somehow(of)) if of == site && site != OF_MOVE => vec![UNBOUNDED],
                 Some(Moved::Somehow(of)) if of == site => vec![before],
                 old => {
                     let somehow = self.moved(Moved::Somehow(site));
@@ -138,7 +138,7 @@ impl Flow<'_> {
         let (mut steps, is_exact) = match own.map(|own| &self.displacements.all[own].0) {
             Some(Moved::Exactly(steps)) => (steps.to_vec(), true),
             Some(Moved::Within(steps)) => (steps.to_vec(), false),
-            _ => return ACCUMULATED,
+            _ => return UNBOUNDED,
         };
         let axes_of = |flow: &Self, id| match flow.displacement(id) {
             Displacement::By(shift) => axes(shift),
@@ -155,7 +155,7 @@ impl Flow<'_> {
         };
         let is_along = |axes: [bool; 3]| (0..3).all(|other| other == axis || !axes[other]);
         if !is_none && !axes_of(self, by).is_some_and(is_along) {
-            return ACCUMULATED;
+            return UNBOUNDED;
         }
         // of what was added along the axis nothing is left
         let mut is_mixed = false;
@@ -165,7 +165,7 @@ impl Flow<'_> {
             !of[axis]
         });
         if is_mixed {
-            return ACCUMULATED;
+            return UNBOUNDED;
         }
         if !is_none {
             steps.push(once(by, site));
@@ -183,7 +183,7 @@ impl Flow<'_> {
     pub(super) fn is_part_written(&self, id: DisplacementId) -> bool {
         let script = self.script;
         let Some(own) = (id as usize).checked_sub(script.displacements.len()) else {
-            return matches!(id, DISPLACED_SOMEHOW | OVERWRITTEN | ACCUMULATED | TURNED);
+            return matches!(id, DISPLACED_SOMEHOW | OVERWRITTEN | UNBOUNDED | TURNED);
         };
         let is_part = |step: &Added| match script.statements.get(step.site as usize) {
             Some(Statement::Write(at)) => !matches!(script.writes[*at as usize].how, How::Whole(_)),
@@ -232,7 +232,7 @@ impl Flow<'_> {
         // where the tool turns first is another place
         let turning = steps.iter().filter(turns).count();
         if steps.len() > MOST_STEPS || turning > 1 {
-            return ACCUMULATED;
+            return UNBOUNDED;
         }
         steps.sort_unstable();
         self.moved(Moved::Within(steps.into()))
@@ -268,7 +268,7 @@ impl Flow<'_> {
                         most: (step.most != ENDLESS).then_some(step.most),
                     });
                 }
-                Displacement::AtLeast(_) if step.most != 1 => return Displacement::Accumulated,
+                Displacement::AtLeast(_) if step.most != 1 => return Displacement::Unbounded,
                 by @ (Displacement::Within(of) | Displacement::AtLeast(of)) => {
                     sum = None;
                     is_least |= matches!(by, Displacement::AtLeast(_));
@@ -282,7 +282,7 @@ impl Flow<'_> {
                         other => other.clone(),
                     }));
                 }
-                _ => return Displacement::Accumulated,
+                _ => return Displacement::Unbounded,
             }
         }
         match sum {

@@ -3,8 +3,8 @@
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
-    ACCUMULATED, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN,
-    Part, PartValue, ValueId, VariableId, Write, Written, short,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
+    PartValue, UNBOUNDED, ValueId, VariableId, Write, Written, short,
 };
 
 impl Flow<'_> {
@@ -110,7 +110,7 @@ impl Flow<'_> {
                 } => {
                     let all = if self.joints[target as usize] {
                         // of another joint the correction is another one
-                        vec![ACCUMULATED]
+                        vec![UNBOUNDED]
                     } else if let Some((of, axis, by)) = of {
                         vec![self.part_of(target, displacement, of, (axis, by), site)]
                     } else {

@@ -330,7 +330,7 @@ fn a_number_of_the_text_displaces_by_what_it_says() {
     assert!((turned.in_tool.rotation.angle() - 90.0 * DEG).abs() < 1e-12);
     // numbers of axes are no millimetres
     let program = path("DECL E6AXIS q\nq=XHOME\nq.Z=q.Z+1\nPTP q");
-    assert_eq!(program.moves[0].displacement, Displacement::Accumulated);
+    assert_eq!(program.moves[0].displacement, Displacement::Unbounded);
     // its own numbers: the controller keeps them
     let program = path("XP1.Z=XP1.Z+200\nLIN XP1");
     assert_eq!(blocked(&program), ["XP1"]);

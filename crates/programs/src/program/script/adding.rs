@@ -1,9 +1,9 @@
 //! Puts parts into a script.
 
 use super::{
-    ACCUMULATED, Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
-    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId,
-    ValueId, Variable, VariableId, short,
+    Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId, NOT_DISPLACED,
+    NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId, UNBOUNDED, ValueId,
+    Variable, VariableId, short,
 };
 use crate::geometry::Pose;
 use crate::program::{Displacement, Number, Shift, Source, Target, TargetId};
@@ -146,7 +146,7 @@ impl Script {
             Displacement::None => NOT_DISPLACED,
             Displacement::Unknown => DISPLACED_SOMEHOW,
             Displacement::Overwritten => OVERWRITTEN,
-            Displacement::Accumulated => ACCUMULATED,
+            Displacement::Unbounded => UNBOUNDED,
             Displacement::By(_) | Displacement::Within(_) | Displacement::AtLeast(_) => {
                 self.displacements.push(displacement);
                 short(self.displacements.len() - 1)

@@ -67,8 +67,8 @@ pub const NOT_DISPLACED: DisplacementId = 0;
 pub const DISPLACED_SOMEHOW: DisplacementId = 1;
 /// [`Displacement::Overwritten`] in [`Script::displacements`].
 pub const OVERWRITTEN: DisplacementId = 2;
-/// [`Displacement::Accumulated`] in [`Script::displacements`].
-pub const ACCUMULATED: DisplacementId = 3;
+/// [`Displacement::Unbounded`] in [`Script::displacements`].
+pub const UNBOUNDED: DisplacementId = 3;
 /// The tool turns by an angle that only the running program knows, in [`Script::displacements`].
 pub const TURNED: DisplacementId = 4;
 
@@ -149,7 +149,7 @@ impl Default for Script {
                 Displacement::None,
                 Displacement::Unknown,
                 Displacement::Overwritten,
-                Displacement::Accumulated,
+                Displacement::Unbounded,
                 Displacement::Within(Box::new([Stride::Turned(None)])),
             ],
             routines: Vec::new(),
