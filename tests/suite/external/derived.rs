@@ -52,11 +52,11 @@ fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
 fn a_composed_target_stands_where_its_own_numbers_say() {
     let rail = profile(&rail("eax_a"), &[SCALE]);
     for (axes, id, off) in [
-        ("p1.extax", "displacement-unknown", "0.000 mm off"),
+        ("p1.extax", "displaced-target", "lands 0.000 mm off"),
         (
             "[400,9E9,9E9,9E9,9E9,9E9]",
-            "displacement-unknown",
-            "0.300 mm off",
+            "displaced-target",
+            "lands 0.300 mm off",
         ),
         ("[x,9E9,9E9,9E9,9E9,9E9]", "external-value-unknown", "eax_a"),
     ] {

@@ -5,6 +5,7 @@ mod arcs;
 mod bounds;
 mod decided;
 mod displaced;
+mod followed;
 mod krl;
 mod rows;
 mod straight;

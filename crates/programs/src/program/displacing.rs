@@ -143,7 +143,7 @@ pub(super) fn grown_by_any(at: usize, by: Quantity) -> Option<Displacement> {
     along[at] = by.in_unit(MM);
     let mut displacing = Displacing::new();
     displacing.along_frame(&along);
-    Some(displacing.displacement()).filter(|by| *by != Displacement::Unknown)
+    Some(displacing.displacement())
 }
 
 /// Whether strides lead no farther than what is taken for any displacement that nobody knows.

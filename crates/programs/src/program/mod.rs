@@ -29,6 +29,7 @@ mod edit;
 mod error;
 mod external;
 pub mod fanuc;
+mod functions;
 pub mod inform;
 mod insert;
 pub mod kawasaki;

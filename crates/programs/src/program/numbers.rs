@@ -4,6 +4,7 @@
 //! something more adds up: as often as the loops around that assignment count where the same
 //! routine sets it anew before, else any number of times.
 
+use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
@@ -98,8 +99,10 @@ impl Blocks {
 #[derive(Debug)]
 struct Facts<W> {
     writes: Vec<(W, Option<Site>)>,
-    /// Something else may write it.
+    /// Something that only the running program knows may write it.
     is_lost: bool,
+    /// It may be written in a way that is not followed.
+    is_endless: bool,
 }
 
 impl<W> Default for Facts<W> {
@@ -107,6 +110,7 @@ impl<W> Default for Facts<W> {
         Self {
             writes: Vec::new(),
             is_lost: false,
+            is_endless: false,
         }
     }
 }
@@ -121,6 +125,8 @@ pub(super) struct Numbers<W> {
     unbounded: HashSet<(u32, u32)>,
     /// The routines that each calls.
     calls: HashMap<u32, HashSet<u32>>,
+    /// Numbers that are one with another.
+    same: HashMap<u32, u32>,
     known: RefCell<HashMap<u32, Quantity>>,
 }
 
@@ -131,6 +137,7 @@ impl<W> Default for Numbers<W> {
             jumping: HashSet::default(),
             unbounded: HashSet::default(),
             calls: HashMap::default(),
+            same: HashMap::default(),
             known: RefCell::default(),
         }
     }
@@ -142,21 +149,50 @@ pub(super) type Evaluate<'a, W> = dyn Fn(&W, &mut dyn FnMut(u32) -> Quantity) ->
 impl<W> Numbers<W> {
     /// A number is written; without a site by its declaration.
     pub(super) fn write(&mut self, number: u32, what: W, site: Option<Site>) {
-        self.facts
-            .entry(number)
-            .or_default()
-            .writes
-            .push((what, site));
+        self.facts_of(number).writes.push((what, site));
+    }
+
+    fn facts_of(&mut self, number: u32) -> &mut Facts<W> {
+        let number = self.one(number);
+        self.facts.entry(number).or_default()
+    }
+
+    /// What stands for all that are one with a number.
+    fn one(&self, mut number: u32) -> u32 {
+        while let Some(&other) = self.same.get(&number) {
+            number = other;
+        }
+        number
+    }
+
+    /// Two numbers are one: a variable, and the parameter by reference that it is given for.
+    pub(super) fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.one(a), self.one(b));
+        if a == b {
+            return;
+        }
+        self.same.insert(b, a);
+        if let Some(facts) = self.facts.remove(&b) {
+            let of = self.facts_of(a);
+            of.writes.extend(facts.writes);
+            of.is_lost |= facts.is_lost;
+            of.is_endless |= facts.is_endless;
+        }
     }
 
     /// Whether the text writes a number.
     pub(super) fn is_written(&self, number: u32) -> bool {
-        self.facts.contains_key(&number)
+        self.facts.contains_key(&self.one(number))
     }
 
-    /// What writes a number is not known.
+    /// What only the running program knows writes a number.
     pub(super) fn lose(&mut self, number: u32) {
-        self.facts.entry(number).or_default().is_lost = true;
+        self.facts_of(number).is_lost = true;
+    }
+
+    /// A number is written in a way that is not followed.
+    pub(super) fn give_up(&mut self, number: u32) {
+        self.facts_of(number).is_endless = true;
     }
 
     /// The program jumps inside a routine.
@@ -197,6 +233,7 @@ impl<W> Numbers<W> {
     }
 
     fn value_in(&self, number: u32, evaluate: &Evaluate<W>, open: &mut Vec<u32>) -> Quantity {
+        let number = self.one(number);
         if let Some(known) = self.known.borrow().get(&number) {
             return known.clone();
         }
@@ -215,12 +252,15 @@ impl<W> Numbers<W> {
         let Some(facts) = self.facts.get(&number) else {
             return Quantity::unknown();
         };
+        if facts.is_endless {
+            return Quantity::endless();
+        }
         let mut values = Vec::new();
         let mut growing = Vec::new();
         let mut is_turned = false;
         for (what, site) in &facts.writes {
             let mut of = |other: u32| {
-                if other == number {
+                if self.one(other) == number {
                     Quantity::own()
                 } else {
                     self.value_in(other, evaluate, open)
@@ -328,8 +368,8 @@ pub(super) fn rounds(from: f64, to: f64, step: f64) -> Option<u32> {
 }
 
 /// The value of an expression; `own` gives that of operands that are no names, `named` of those
-/// that are. An element of an array, `h{2}`, may be any of them, and so may a list. Others,
-/// `Abs(x)`, are not followed: they add up where a number in them does, or is that which is assigned.
+/// that are. An element of an array, `h{2}`, may be any of them, and so may a list. Functions of
+/// arithmetic are worked out; nothing bounds what any other operand is.
 pub(super) fn evaluated(
     arithmetic: Arithmetic,
     text: &[u8],
@@ -346,7 +386,7 @@ pub(super) fn evaluated(
         }
         let name = operand.iter().take_while(|b| is_letter(**b)).count();
         let (name, rest) = operand.split_at(name);
-        match rest {
+        match rest.trim_ascii_start() {
             [] => named(name),
             [b'{' | b'[', inside @ .., b'}' | b']'] if !inside.contains(&b'.') => {
                 let value = named(name);
@@ -356,19 +396,19 @@ pub(super) fn evaluated(
                     value
                 }
             }
-            _ => {
-                let names = operand.split(|byte| !is_letter(*byte));
-                let mut names =
-                    names.filter(|name| name.first().is_some_and(|b| !b.is_ascii_digit()));
-                if names.any(|name| named(name).adds_up()) {
-                    Quantity::endless()
-                } else {
-                    Quantity::unknown()
-                }
+            [b'(', inside @ .., b')'] => {
+                // without options
+                let plain = |part: &'_ [u8]| part.iter().position(|b| *b == b'\\');
+                let given = parts(inside).map(|part| {
+                    let part = &part[..plain(part).unwrap_or(part.len())];
+                    evaluated(arithmetic, part, named, own)
+                });
+                functions::value(name, &given.collect::<Vec<_>>())
             }
+            _ => Quantity::endless(),
         }
     });
-    value.unwrap_or_else(Quantity::unknown)
+    value.unwrap_or_else(Quantity::endless)
 }
 
 /// The numbers of a list, `[[1,2],[3,4]]`.
@@ -504,7 +544,7 @@ mod tests {
         numbers.write(2, "3", None);
         numbers.write(3, "c{a}", None);
         assert!(value(&numbers, 0).is_endless());
-        assert_eq!(value(&numbers, 1), Quantity::unknown());
+        assert_eq!(value(&numbers, 1).exact(), Some(3.0));
         assert_eq!(value(&numbers, 3).exact(), Some(3.0));
         // an element may be any
         numbers.write(4, "[[0,-c],[7,5]]", None);

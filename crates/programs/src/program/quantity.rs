@@ -230,7 +230,8 @@ impl Quantity {
 
     /// Anything between two numbers.
     pub(super) fn between(least: f64, most: f64) -> Self {
-        Self::counted(least, (most - least) / f64::from(SPAN), Some(SPAN))
+        let (near, far) = by_size(least, most);
+        Self::counted(near, (far - near) / f64::from(SPAN), Some(SPAN))
     }
 
     pub(super) fn by(self, other: Self) -> Self {
@@ -370,14 +371,21 @@ impl Quantity {
         let is_either = all
             .iter()
             .all(|one| one.exact().is_some_and(|v| v == least || v == most));
+        let (near, far) = by_size(least, most);
         let mut span = if is_either {
-            Self::counted(least, most - least, Some(1))
+            Self::counted(near, far - near, Some(1))
         } else {
             Self::between(least, most)
         };
         span.steps.extend(steps);
         Self { unknown, ..span }.tidied()
     }
+}
+
+/// Two numbers, the smaller one first whatever its sign: of a displacement between them that is
+/// made before the rest.
+fn by_size(a: f64, b: f64) -> (f64, f64) {
+    if a.abs() <= b.abs() { (a, b) } else { (b, a) }
 }
 
 /// The value of an expression of numbers, names and `+ - * /` (`DIV`, `MOD`, `%`) with brackets;

@@ -131,6 +131,9 @@ impl Flow<'_> {
         if before == NOT_DISPLACED && is_none {
             return NOT_DISPLACED;
         }
+        if before == NOT_DISPLACED && by == DISPLACED_SOMEHOW {
+            return DISPLACED_SOMEHOW;
+        }
         if before == NOT_DISPLACED {
             return self.moved(Moved::Exactly(Box::new([once(by, site)])));
         }

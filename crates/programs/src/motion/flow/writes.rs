@@ -3,8 +3,8 @@
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part,
-    PartValue, UNBOUNDED, ValueId, VariableId, Write, Written, short,
+    DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part, PartValue, UNBOUNDED,
+    ValueId, VariableId, Write, Written, short,
 };
 
 impl Flow<'_> {
@@ -178,7 +178,7 @@ impl Flow<'_> {
             // numbers of the text do not know of a correction
             How::PartNumber(_) | How::PartOf { .. } => OVERWRITTEN,
             How::PartBy(_, by) => by,
-            _ => DISPLACED_SOMEHOW,
+            _ => UNBOUNDED,
         }
     }
 

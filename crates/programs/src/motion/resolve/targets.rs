@@ -155,7 +155,10 @@ impl Resolver<'_, '_> {
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         let displacement = self.flow.displacement(displacement).clone();
-        if displacement == Displacement::Unknown {
+        if matches!(
+            displacement,
+            Displacement::Unknown | Displacement::Unbounded
+        ) {
             if listed.near.contains(&target) {
                 return;
             }

@@ -23,6 +23,7 @@
 
 mod aggregate;
 mod calls;
+mod components;
 mod data;
 mod drive;
 mod frames;

@@ -2,18 +2,24 @@
 //!
 //! Variables of one name are taken for one, but for those that routines declare.
 
+use super::components::{FrameWrite, part_of};
 use super::names::{DataKind, Names};
 use super::reader::Reader;
 use super::statements::action;
 use super::tokens::{Cursor, Kind, Token};
 use crate::program::names::{Context, Symbol};
 use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, rounds, word};
-use crate::program::quantity::{Arithmetic, Quantity, evaluate};
+use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::script::{Place, short};
 use foldhash::{HashMap, HashSet};
+use std::cell::RefCell;
 
 /// Variables that routines declare have their number above this.
 const OF_ROUTINE: u32 = 1 << 31;
+/// What functions give has the number of the routine, above this.
+const RESULT: u32 = 1 << 30;
+/// Components of frames have their number above this.
+pub(super) const COMPONENT: u32 = 1 << 29;
 
 /// `FOR i=0 TO 9 STEP 2`
 #[derive(Debug)]
@@ -31,7 +37,8 @@ struct Counting {
 
 /// What is written into a variable.
 #[derive(Debug)]
-enum Written {
+pub(super) enum Written {
+    Exactly(f64),
     Value(Box<[u8]>, Place, Context),
     /// What a loop counts, and once more.
     Counted(usize),
@@ -43,15 +50,17 @@ struct Given {
     routine: Symbol,
     at: usize,
     value: Written,
+    /// The variable that it is, or an element of which.
+    variable: Option<Symbol>,
 }
 
 /// Longer arguments are no numbers.
-const LONGEST: usize = 80;
+const LONGEST: usize = 200;
 
 /// What is known of numbers.
 #[derive(Debug, Default)]
 pub(super) struct Known {
-    numbers: Numbers<Written>,
+    pub numbers: Numbers<Written>,
     blocks: Blocks,
     loops: Vec<Counting>,
     /// Those that are not closed yet.
@@ -59,6 +68,12 @@ pub(super) struct Known {
     /// What calls give.
     given: Vec<Given>,
     declared: HashSet<u32>,
+    /// Frames that are asked for components, or displace positions.
+    pub displacing: Vec<Symbol>,
+    /// What is written into frames.
+    pub frames: Vec<FrameWrite>,
+    /// What the components of frames are called.
+    pub components: HashMap<(u32, u8), u32>,
     /// Those that are written not by FOR alone, and by which routines.
     assigned: HashMap<u32, HashSet<u32>>,
 }
@@ -112,46 +127,73 @@ impl Known {
 }
 
 impl Names {
+    /// What a name is called in the numbers.
+    pub(super) fn number(&self, name: Symbol, context: Context) -> u32 {
+        let datum = self.datum(name, context);
+        let is_own = |datum: &u32| self.data[*datum as usize].context.routine.is_some();
+        datum
+            .filter(is_own)
+            .map_or(name.0, |datum| OF_ROUTINE | datum)
+    }
+
     /// Parameters have what calls give them, once all routines are known.
     pub(super) fn give_numbers(&mut self) {
-        for Given { routine, at, value } in std::mem::take(&mut self.known.given) {
-            let Written::Value(_, _, context) = value else {
+        for given in std::mem::take(&mut self.known.given) {
+            let Given { routine, at, .. } = given;
+            let Written::Value(text, place, context) = given.value else {
                 continue;
             };
+            let variable = given.variable.map(|name| self.number(name, context));
             let Some(callee) = self.routine(routine, context) else {
+                // a routine that is not in the files may write it
+                let is_known = is_worked_out(self.symbols.spelling(routine).as_bytes());
+                if let Some(number) = variable.filter(|_| !is_known) {
+                    self.known.numbers.lose(number);
+                }
                 continue;
             };
             if let Some(caller) = context.routine {
                 self.known.numbers.calls(caller, callee);
             }
             let parameter = self.heads[callee as usize].parameters.get(at);
-            let Some(&(datum, _)) = parameter else {
+            let Some(&(datum, is_written_back)) = parameter else {
                 continue;
             };
             let of = &self.data[datum as usize];
-            let datum = self.datum(of.name, of.context).unwrap_or(datum);
+            let (name, within) = (of.name, of.context);
+            let datum = self.datum(name, within).unwrap_or(datum);
             let number = OF_ROUTINE | datum;
-            if self.known.declared.contains(&number) {
-                let site = Site::at_start(callee);
-                self.known.numbers.write(number, value, Some(site));
+            let site = Site::at_start(callee);
+            if self.data[datum as usize].kind.is_place() {
+                let value = (text, place, context);
+                self.known.frame_given((name, within), value, site);
+                if is_written_back && let Some(variable) = given.variable {
+                    self.known.frame_lost(variable, context);
+                }
+                continue;
+            }
+            match variable.filter(|_| is_written_back) {
+                Some(variable) => self.known.numbers.unite(variable, number),
+                None if self.known.declared.contains(&number) => {
+                    let value = Written::Value(text, place, context);
+                    self.known.numbers.write(number, value, Some(site));
+                }
+                None => {}
             }
         }
     }
 }
 
 impl Reader {
-    /// What a name is called in the numbers.
-    fn number(&self, name: Symbol, context: Context) -> u32 {
-        let datum = self.names.datum(name, context);
-        let is_own = |datum: &u32| self.names.data[*datum as usize].context.routine.is_some();
-        datum
-            .filter(is_own)
-            .map_or(name.0, |datum| OF_ROUTINE | datum)
+    /// A routine may write a variable that it is given.
+    pub(super) fn note_given_number(&mut self, name: Symbol) {
+        let number = self.names.number(name, self.context());
+        self.names.known.assign(number);
     }
 
-    /// A variable may be anything.
+    /// Only the running program knows a variable.
     pub(super) fn lose_number(&mut self, name: Symbol) {
-        let number = self.number(name, self.context());
+        let number = self.names.number(name, self.context());
         let known = &mut self.names.known;
         known.assign(number);
         known.numbers.lose(number);
@@ -166,7 +208,7 @@ impl Reader {
             }
             let Ok(sizes) = cursor.brackets() else { return };
             let symbol = self.symbol(&cursor, name);
-            let number = self.number(symbol, self.context());
+            let number = self.names.number(symbol, self.context());
             self.names.known.declared.insert(number);
             if cursor.take(b'=') {
                 if cursor.blanks() == b'{' || sizes.is_some() {
@@ -186,7 +228,7 @@ impl Reader {
 
     /// A value in a data list, behind the name.
     pub(super) fn number_initial(&mut self, name: Token, mut cursor: Cursor) {
-        if cursor.take(b'=') && cursor.blanks() != b'{' {
+        if cursor.brackets().is_ok() && cursor.take(b'=') && cursor.blanks() != b'{' {
             let start = cursor.at;
             cursor.skip_all();
             let symbol = self.symbol(&cursor, name);
@@ -201,12 +243,10 @@ impl Reader {
             offset: short(start),
         };
         let context = self.context();
-        let number = self.number(name, context);
+        let number = self.names.number(name, context);
         let known = &mut self.names.known;
-        let site = site.map(|()| {
-            known.assign(number);
-            known.blocks.site()
-        });
+        known.assign(number);
+        let site = site.map(|()| known.blocks.site());
         let value = Written::Value(text.into(), at, context);
         known.numbers.write(number, value, site);
     }
@@ -222,7 +262,17 @@ impl Reader {
         if !text.is_empty() && text.len() <= LONGEST && !text.starts_with(b"#") {
             let place = Place::new(self.file, short(start));
             let value = Written::Value(text.into(), place, self.context());
-            self.names.known.given.push(Given { routine, at, value });
+            let length = text.iter().take_while(|b| is_letter(**b)).count();
+            let rest = text[length..].trim_ascii();
+            let is_place = rest.is_empty() || rest.starts_with(b"[") && rest.ends_with(b"]");
+            let is_name = length > 0 && !text[0].is_ascii_digit() && is_place;
+            let variable = is_name.then(|| self.names.symbols.intern(&text[..length]));
+            self.names.known.given.push(Given {
+                routine,
+                at,
+                value,
+                variable,
+            });
         }
     }
 
@@ -253,7 +303,7 @@ impl Reader {
                 let text = cursor.bytes[start..cursor.at].to_ascii_uppercase();
                 let counter = self.symbol(&cursor, name);
                 let context = self.context();
-                let counter = self.number(counter, context);
+                let counter = self.names.number(counter, context);
                 let known = &mut self.names.known;
                 let at = known.loops.len();
                 known.loops.push(Counting {
@@ -284,23 +334,46 @@ impl Reader {
                 self.lose_number(name);
             }
             b"INTERRUPT" | b"TRIGGER" => {
-                if let Some((name, _)) = action(cursor) {
-                    let name = self.symbol(&cursor, name);
-                    self.lose_number(name);
+                if let Some((name, rest)) = action(cursor) {
+                    self.note_write(name, rest, false);
                 }
             }
-            _ if next == b'=' => {
-                cursor.take(b'=');
-                if matches!(cursor.blanks(), b'=' | b'{') {
-                    return;
+            b"RETURN" => {
+                if let Some(routine) = self.context().routine {
+                    let start = cursor.at;
+                    cursor.skip_all();
+                    let value = cursor.bytes[start..cursor.at].trim_ascii();
+                    if !value.is_empty() {
+                        let at = Place::new(self.file, short(start));
+                        let value = Written::Value(value.into(), at, self.context());
+                        let numbers = &mut self.names.known.numbers;
+                        numbers.write(RESULT | routine, value, None);
+                    }
                 }
-                let start = cursor.at;
-                cursor.skip_all();
-                let name = self.symbol(&cursor, first);
-                self.number_written(name, start, &cursor, Some(()));
             }
+            _ if matches!(next, b'=' | b'[' | b'.') => self.note_write(first, cursor, true),
             _ => {}
         }
+    }
+
+    /// Notes what `name[..].part=value` writes, behind the name; in the order of the text or at any
+    /// time.
+    fn note_write(&mut self, name: Token, mut cursor: Cursor, is_in_order: bool) {
+        let Ok(at) = cursor.brackets() else { return };
+        let part = cursor.take(b'.').then(|| cursor.next());
+        if !cursor.take(b'=') || cursor.blanks() == b'=' {
+            return;
+        }
+        let start = cursor.at;
+        let is_aggregate = cursor.blanks() == b'{';
+        cursor.skip_all();
+        let name = self.symbol(&cursor, name);
+        let is_whole = at.is_none() && is_in_order;
+        if part.is_none() && !is_aggregate {
+            self.number_written(name, start, &cursor, is_whole.then_some(()));
+        }
+        let site = is_whole.then(|| self.names.known.blocks.site());
+        self.frame_written(name, part, start, &cursor, site);
     }
 
     /// The value of an expression at the present statement; `own` gives that of operands that are
@@ -310,13 +383,15 @@ impl Reader {
         text: &[u8],
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let known = &self.names.known;
-        let mut of = |number| {
-            let written =
-                |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(what, of);
-            known.numbers.value(number, &written)
-        };
+        let mut of = |number| self.number_value_of(number);
         self.evaluated(text, (self.here, self.context()), &mut of, own)
+    }
+
+    /// What a number may be, by what it is called.
+    pub(super) fn number_value_of(&self, number: u32) -> Quantity {
+        let written =
+            |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(what, of);
+        self.names.known.numbers.value(number, &written)
     }
 
     /// The one part of a position that stands in a sum, and the rest of that.
@@ -332,7 +407,8 @@ impl Reader {
             let name = operand.split(|b| matches!(b, b'.' | b'[')).next();
             let name = name.and_then(|name| self.names.symbols.find(name));
             let kind = name.and_then(|name| self.names.kind(name, self.context()));
-            let is_part = operand.contains(&b'.') && kind.is_some_and(DataKind::is_place);
+            let is_place = matches!(kind, Some(DataKind::Position | DataKind::Axes));
+            let is_part = operand.contains(&b'.') && is_place;
             if operand != own && !is_part {
                 return None;
             }
@@ -347,6 +423,7 @@ impl Reader {
 
     fn written_value(&self, what: &Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
         match what {
+            Written::Exactly(value) => Quantity::exactly(*value),
             Written::Value(text, at, context) => {
                 self.evaluated(text, (*at, *context), of, &mut |_| None)
             }
@@ -385,24 +462,78 @@ impl Reader {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
+        let of = RefCell::new(of);
         let mut named = |operand: &[u8]| {
             let known = &self.names.known;
             let Some(name) = self.names.symbols.find(operand) else {
                 return Quantity::unknown();
             };
-            let number = self.number(name, context);
+            let of = &mut *of.borrow_mut();
+            let number = self.names.number(name, context);
             if let Some(counting) = known.counting(number, at) {
                 return self.counted(counting, of);
             }
             if known.declared.contains(&number) {
                 of(number)
             } else {
+                // of the controller, or of files that are not here
                 Quantity::unknown()
             }
         };
-        evaluated(Arithmetic::Typed, text, &mut named, own)
+        evaluated(Arithmetic::Typed, text, &mut named, &mut |operand| {
+            own(operand).or_else(|| self.given_or_part(operand, context, &mut *of.borrow_mut()))
+        })
+    }
+
+    /// The value of an operand that is no name alone: what a function gives, or a component; `None`
+    /// where it is worked out of the numbers in it.
+    fn given_or_part(
+        &self,
+        operand: &[u8],
+        context: Context,
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Option<Quantity> {
+        let length = operand.iter().take_while(|b| is_letter(**b)).count();
+        let (text, rest) = operand.split_at(length);
+        let sign = *rest.trim_ascii_start().first()?;
+        let name = self.names.symbols.find(text);
+        if sign == b'(' {
+            let routine = name.and_then(|name| self.names.routine(name, context));
+            return match routine {
+                Some(routine) => Some(of(RESULT | routine)),
+                // one of arithmetic, or one that is not in the files
+                None => (!is_worked_out(text)).then(Quantity::unknown),
+            };
+        }
+        let part = memchr::memrchr(b'.', rest).map(|at| rest[at + 1..].trim_ascii());
+        let (Some(name), Some(part)) = (name, part) else {
+            return None;
+        };
+        if text.eq_ignore_ascii_case(b"$NULLFRAME") {
+            return Some(Quantity::exactly(0.0));
+        }
+        if text.starts_with(b"$") || self.names.datum(name, context).is_none() {
+            return Some(Quantity::unknown());
+        }
+        let number = self.names.number(name, context);
+        let component = part_of(part)
+            .and_then(|part| self.names.known.components.get(&(number, part)).copied());
+        Some(match component {
+            Some(component) => of(component),
+            None => Quantity::endless(),
+        })
     }
 }
+
+/// Whether the value of a function is worked out of what it is given.
+fn is_worked_out(name: &[u8]) -> bool {
+    WORKED_OUT.iter().any(|of| name.eq_ignore_ascii_case(of))
+}
+
+/// Functions whose value is.
+const WORKED_OUT: [&[u8]; 8] = [
+    b"ABS", b"SQRT", b"SIN", b"COS", b"TAN", b"ACOS", b"ATAN2", b"ROUND",
+];
 
 /// The numbers of `=0 TO 9 STEP 2`.
 fn evaluate_loop(

@@ -1,6 +1,7 @@
 //! Positions as moves and assignments have them: numbers, a name, or a product of frames.
 
 use super::aggregate;
+use super::components::part_of;
 use super::frames::pose_of;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
@@ -38,6 +39,8 @@ enum Operand {
     Here(bool),
     /// Where the robot was.
     Actual,
+    /// Of the controller, and no position of the robot.
+    System,
     Other,
 }
 
@@ -142,7 +145,14 @@ impl Reader {
         let inner = before.part(before.at, cursor.at);
         *mentions |= self.mentions_position(inner);
         self.calls_in(inner);
-        Ok(Operand::Other)
+        let is_system = inner.bytes[inner.at..inner.end]
+            .trim_ascii()
+            .starts_with(b"$");
+        Ok(if is_system {
+            Operand::System
+        } else {
+            Operand::Other
+        })
     }
 
     /// A position of one part.
@@ -166,7 +176,7 @@ impl Reader {
                 self.actual()
             }
             Operand::Actual => self.actual(),
-            Operand::Other => self.computed(mentions),
+            Operand::System | Operand::Other => self.computed(mentions),
         };
         point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
     }
@@ -197,7 +207,15 @@ impl Reader {
         let exactly = self.shift(operands, at);
         let exactly = exactly.map(|shift| Displacement::By(Box::new(shift)));
         let displacement = exactly.or_else(|| self.amounts(bytes, operands, at));
-        let displacement = displacement.unwrap_or(Displacement::Unknown);
+        let others = (0..operands.len()).filter(|other| *other != at);
+        let is_known = others
+            .map(|other| operands[other])
+            .any(|operand| self.is_of_text(operand));
+        let displacement = displacement.unwrap_or(if is_known {
+            Displacement::Unbounded
+        } else {
+            Displacement::Unknown
+        });
         self.one(operands[at], false, point);
         point.displacement = self.builder.script.displacement(displacement);
     }
@@ -217,13 +235,23 @@ impl Reader {
         })
     }
 
-    /// Likewise, of one frame that is written out with components left out, or with expressions for
-    /// X, Y and Z.
-    fn amounts(&self, bytes: &[u8], operands: &[Operand], at: usize) -> Option<Displacement> {
-        let ([Operand::Inline(frame), _] | [_, Operand::Inline(frame)]) = operands else {
-            return None;
-        };
-        let frame = &self.builder.script.targets[*frame];
+    /// Whether a frame is one of the text, and not of the running robot or of files that are not
+    /// here.
+    fn is_of_text(&self, operand: Operand) -> bool {
+        match operand {
+            Operand::Inline(_) | Operand::Other => true,
+            Operand::Named(name, _) => {
+                let datum = self.names.datum(name, self.context());
+                let has_value = |datum| !self.names.values(datum, Index::Variable).is_empty();
+                datum.is_some_and(|datum| has_value(datum) || self.names.touched.contains(&name))
+            }
+            Operand::Here(_) | Operand::Actual | Operand::System => false,
+        }
+    }
+
+    /// The components of a frame that is written out with some left out, or with expressions.
+    fn inline(&self, bytes: &[u8], frame: TargetId) -> Option<[Quantity; 6]> {
+        let frame = &self.builder.script.targets[frame];
         let text = bytes.get(frame.span())?;
         let inside = text.strip_prefix(b"{")?.strip_suffix(b"}")?;
         let inside = inside.rsplit(|byte| *byte == b':').next()?;
@@ -231,11 +259,23 @@ impl Reader {
         for part in parts(inside) {
             let part = part.trim_ascii();
             let (key, value) = part.split_at(part.iter().position(u8::is_ascii_whitespace)?);
-            let of = |known: &&str| key.eq_ignore_ascii_case(known.as_bytes());
-            if let Some(at) = ["X", "Y", "Z", "A", "B", "C"].iter().position(of) {
-                amounts[at] = self.quantity(value.trim_ascii(), &mut |_| None);
+            if let Some(at) = part_of(key) {
+                amounts[usize::from(at)] = self.quantity(value.trim_ascii(), &mut |_| None);
             }
         }
+        Some(amounts)
+    }
+
+    /// Likewise, of one frame whose X, Y and Z may be any of several numbers.
+    fn amounts(&self, bytes: &[u8], operands: &[Operand], at: usize) -> Option<Displacement> {
+        let [first, second] = operands else {
+            return None;
+        };
+        let amounts = match if at == 0 { *second } else { *first } {
+            Operand::Inline(frame) => self.inline(bytes, frame)?,
+            Operand::Named(name, _) => self.components(name)?,
+            _ => return None,
+        };
         let [x, y, z, rotation @ ..] = amounts;
         let along = [x, y, z].map(|by| by.in_unit(MM));
         let [a, b, c] = rotation.map(|angle| angle.exact());

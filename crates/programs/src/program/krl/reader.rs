@@ -189,6 +189,7 @@ impl Reader {
     /// Once the declarations of all files are read.
     pub(super) fn settle(&mut self) {
         self.names.settle();
+        self.settle_components();
         self.mark_concurrent();
     }
 

@@ -85,6 +85,7 @@ impl Reader {
         let word = capitals(cursor.text(first), &mut buffer);
         let next = cursor.blanks();
         self.note_numbers(word, first, cursor);
+        self.note_displacing(cursor);
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
             // WITH $BASE=BASE_DATA[n]
@@ -204,7 +205,7 @@ impl Reader {
                     let at = after.brackets().unwrap_or(None);
                     if matches!(after.blanks(), b',' | b')') {
                         let name = self.symbol(&cursor, token);
-                        self.lose_number(name);
+                        self.note_given_number(name);
                         self.touch(name, Index::of(at, &cursor));
                         cursor = after;
                     }

@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::syntax::{Amount, BadValue, Base, Composed, Expression, Index, Part, Path, Step, Verb};
 use super::tokens::{Fault, Kind, Token};
 use crate::geometry::Quaternion;
-use crate::program::script::short;
+use crate::program::script::{Place, short};
 use crate::program::{Layout, Number, Shape, Target, number};
 
 /// Calls inside calls that are followed; deeper ones are expressions like any other.
@@ -299,7 +299,8 @@ impl Reader<'_> {
             } = *leaf
             else {
                 self.parsed.numbers.truncate(start);
-                return Written::Composed(self.compose(mentions, all.names(places)));
+                let at = Place::new(self.file, offset);
+                return Written::Composed(self.compose(mentions, all.names(places), Some(at)));
             };
             self.parsed.numbers.push(Number {
                 start: at,
@@ -321,7 +322,7 @@ impl Reader<'_> {
             }
         }
         self.parsed.external_zeros.push(zeros);
-        let place = crate::program::script::Place::new(self.file, offset);
+        let place = Place::new(self.file, offset);
         self.parsed.targets.push(Target {
             name,
             numbers: short(start)..short(self.parsed.numbers.len()),
@@ -331,10 +332,11 @@ impl Reader<'_> {
     }
 
     /// Notes a value with expressions in it, whose names begin at `mentions`.
-    fn compose(&mut self, mentions: u32, places: &[Part]) -> u32 {
+    fn compose(&mut self, mentions: u32, places: &[Part], at: Option<Place>) -> u32 {
         self.parsed.composed.push(Composed {
             names: (mentions, short(self.parsed.mentions.len())),
             places: places.into(),
+            at,
         });
         short(self.parsed.composed.len() - 1)
     }
@@ -355,7 +357,9 @@ impl Reader<'_> {
         if self.token.is(b']') {
             self.advance()?;
             if self.argument_ends() {
-                return Ok(Some(Expression::List(self.compose(mentions, &places))));
+                return Ok(Some(Expression::List(
+                    self.compose(mentions, &places, None),
+                )));
             }
         }
         self.rewind(mark);

@@ -119,6 +119,22 @@ const HARMLESS_FUNCTIONS: &str = "\
         uidnumtune uilistview \
     uimessagebox uinumentry uinumtune validio valtostr vectmagn";
 
+/// Functions whose value is worked out of the numbers that they are given.
+const WORKED_OUT: &str = "\
+    abs absdnum acos acosdnum asin asindnum atan atan2 atan2dnum atandnum bitand bitanddnum bitlsh \
+        bitlshdnum \
+    bitneg bitnegdnum bitor bitordnum bitrsh bitrshdnum bitxor bitxordnum cos cosdnum defdframe \
+        defframe dim \
+    distance dnumtonum dotprod eulerzyx exp log10 max min numtodnum orientzyx poseinv posemult \
+        posevect pow powdnum \
+    quad quaddnum round rounddnum sin sindnum sqrt sqrtdnum strlen tan tandnum trunc truncdnum \
+        vectmagn";
+
+/// Whether the value of a function, in lower case, is worked out of what it is given.
+pub(super) fn is_worked_out(name: &str) -> bool {
+    has(WORKED_OUT, name)
+}
+
 /// Whether a list of words has one.
 fn has(words: &str, word: &str) -> bool {
     words.split_ascii_whitespace().any(|known| known == word)

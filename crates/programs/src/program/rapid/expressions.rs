@@ -250,6 +250,7 @@ impl Reader<'_> {
                 argument: Given::Nothing,
                 option: None,
                 after_backslash: false,
+                from: self.token.start + 1,
                 mentions: short(self.parsed.mentions.len()),
             });
         }
@@ -309,9 +310,12 @@ impl Reader<'_> {
     /// The present argument of the innermost call is complete.
     fn give(&mut self) {
         let end = short(self.parsed.mentions.len());
+        let sign = self.token.start;
         let Some(call) = self.calls.last_mut() else {
             return;
         };
+        let span = (call.from, sign);
+        call.from = sign + 1;
         let named = |name, index| Expression::Point {
             base: Base::Named { name, index },
             steps: (0, 0),
@@ -330,7 +334,7 @@ impl Reader<'_> {
             self.given.push(Argument {
                 option: call.option,
                 expression,
-                span: (0, 0),
+                span,
             });
         }
         (call.argument, call.option, call.mentions) = (Given::Nothing, None, end);
@@ -378,7 +382,8 @@ pub(super) struct OpenCall {
     argument: Given,
     option: Option<Symbol>,
     after_backslash: bool,
-    /// Where the names in it begin.
+    /// Where it begins, and the names in it.
+    from: u32,
     mentions: u32,
 }
 

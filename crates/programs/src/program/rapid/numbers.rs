@@ -1,17 +1,23 @@
 //! What numbers may be: constants, what FOR counts, and data with all that is written into them.
 
-use super::resolved::Resolved;
+use super::builtins::{self, Known};
+use super::resolved::{Entity, Resolved};
 use super::syntax::{
-    Argument, Called, Callee, Component, Counting, Index, StatementKind, Storage, Type, Verb,
-    indices,
+    Argument, Assigned, Base, Called, Callee, Component, Counting, Expression, Function, Index,
+    StatementKind, Storage, Stored, Type, Verb, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
-use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, word};
-use crate::program::quantity::{Arithmetic, Quantity};
+use crate::program::number;
+use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, parts, word};
+use crate::program::quantity::{Arithmetic, Quantity, is_letter};
 use crate::program::script::Place;
+use foldhash::HashMap;
+use std::cell::RefCell;
 
 /// Data that tasks share have the number of their group, above this.
 const SHARED: u32 = 1 << 31;
+/// What functions give has the number of the routine, above this.
+const RESULT: u32 = 1 << 30;
 /// What is written into a number.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Written {
@@ -48,6 +54,7 @@ impl Resolved<'_> {
             routine: None,
         };
         let mut file = 0;
+        let mut sensed = HashMap::default();
         for statement in &self.parsed.statements {
             match statement.kind {
                 StatementKind::Text {
@@ -64,6 +71,7 @@ impl Resolved<'_> {
                     component: Component::Whole,
                     ..
                 } => {
+                    self.note_sensed(name, statement.kind, context, &mut sensed);
                     let data = self.numbers_named(name, context);
                     if !data.is_empty() {
                         let bytes = self.assigned_bytes(file, statement.offset);
@@ -78,14 +86,24 @@ impl Resolved<'_> {
                         }
                     }
                 }
+                StatementKind::Assign { name, .. } => {
+                    self.note_sensed(name, statement.kind, context, &mut sensed);
+                }
                 StatementKind::Function(function) => {
                     let of = self.parsed.functions[function as usize];
                     let callee = Callee::Named(of.name);
                     let is_built_in = !self.is_routine(of.name, context);
                     if is_built_in {
-                        self.lose_all(true, of.arguments, context, &mut numbers);
+                        self.function(&of, context, &mut numbers);
                     } else {
-                        self.give(callee, (true, of.arguments), context, file, &mut numbers);
+                        self.give(
+                            callee,
+                            (true, of.arguments),
+                            context,
+                            file,
+                            &mut numbers,
+                            &mut sensed,
+                        );
                     }
                 }
                 StatementKind::Call(Called {
@@ -111,15 +129,25 @@ impl Resolved<'_> {
                         (Some(_), Verb::WritesNamed) => {
                             for (at, datum) in (0..).zip(&self.parsed.data) {
                                 if datum.storage != Storage::Constant {
-                                    numbers.lose(self.number(at));
+                                    numbers.give_up(self.number(at));
                                 }
                             }
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            self.give(callee, given, context, file, &mut numbers);
+                            self.give(callee, given, context, file, &mut numbers, &mut sensed);
                         }
                         _ => {}
+                    }
+                }
+                StatementKind::Return(_) => {
+                    if let Some(routine) = context.routine {
+                        let written = Written::Text {
+                            file,
+                            bytes: self.given_back(file, statement.offset),
+                            context,
+                        };
+                        numbers.write(RESULT | routine, written, None);
                     }
                 }
                 StatementKind::If(_) | StatementKind::Test => blocks.open(Some(1)),
@@ -146,6 +174,35 @@ impl Resolved<'_> {
             }
         }
         self.numbers = numbers;
+        self.sensed = sensed;
+    }
+
+    /// Notes whether an assignment gives data what the running robot tells: all of them have to.
+    fn note_sensed(
+        &self,
+        name: Symbol,
+        kind: StatementKind,
+        context: Context,
+        sensed: &mut HashMap<u32, bool>,
+    ) {
+        let StatementKind::Assign {
+            component, value, ..
+        } = kind
+        else {
+            return;
+        };
+        let function = match value {
+            Assigned::To(Expression::Point {
+                base: Base::Function(function),
+                steps,
+            }) if steps.0 == steps.1 => Some(self.parsed.functions[function as usize]),
+            _ => None,
+        };
+        let is_known = function.is_some_and(|of| self.known(&of, context) == Known::Actual);
+        if let Meaning::One(datum) = self.meaning(name, context) {
+            let all = sensed.entry(datum).or_insert(true);
+            *all &= is_known && component == Component::Whole;
+        }
     }
 
     /// Notes what numbers are declared with; those without a value are left.
@@ -172,13 +229,7 @@ impl Resolved<'_> {
                     continue;
                 }
                 // what calls give it
-                (
-                    None,
-                    Storage::Parameter {
-                        by_reference: false,
-                        ..
-                    },
-                ) => continue,
+                (None, Storage::Parameter { .. }) => continue,
                 _ => {
                     numbers.lose(number);
                     continue;
@@ -208,6 +259,15 @@ impl Resolved<'_> {
         let start = memchr::memmem::find(&text[..end], b":=").map_or(end, |at| at + 2);
         let at = |by: usize| offset + crate::program::script::short(by);
         (at(start), at(end))
+    }
+
+    /// What stands behind the RETURN that begins there.
+    fn given_back(&self, file: u32, offset: u32) -> (u32, u32) {
+        let text = &self.sources[file as usize].bytes[offset as usize..];
+        let end = memchr::memchr(b';', text).unwrap_or(text.len());
+        let start = text.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+        let at = |by: usize| offset + crate::program::script::short(by);
+        (at(start.min(end)), at(end))
     }
 
     /// The value of an argument: of `\h:=-200` what is behind the sign.
@@ -254,6 +314,16 @@ impl Resolved<'_> {
         }
     }
 
+    /// A function of the language, or of no file, may write what it is given.
+    fn function(&self, of: &Function, context: Context, numbers: &mut Numbers<Written>) {
+        match self.known(of, context) {
+            Known::Harmless | Known::Actual => {}
+            Known::Writes(_) | Known::Other => {
+                self.lose_all(true, of.arguments, context, numbers);
+            }
+        }
+    }
+
     /// All arguments may be written.
     fn lose_all(
         &self,
@@ -279,6 +349,7 @@ impl Resolved<'_> {
         context: Context,
         file: u32,
         numbers: &mut Numbers<Written>,
+        sensed: &mut HashMap<u32, bool>,
     ) {
         let callees = self.callees(callee, arguments, context, file);
         if callees.foreign {
@@ -288,20 +359,36 @@ impl Resolved<'_> {
         for &routine in &callees.routines {
             numbers.calls(context.routine.unwrap_or(u32::MAX), routine);
             for (datum, argument) in self.parameters(routine, given) {
-                if let Some(argument) = argument.filter(|_| self.datum(datum).kind == Type::Num) {
-                    let written = Written::Text {
-                        file,
-                        bytes: self.value_bytes(file, argument),
-                        context,
-                    };
-                    let site = Some(Site::at_start(routine));
-                    numbers.write(self.number(datum), written, site);
+                let Some(argument) = argument else { continue };
+                let is_number = self.datum(datum).kind == Type::Num;
+                let place = self.place_of(&argument.expression);
+                let written = place.filter(|_| self.is_written_back(datum));
+                if let Some((name, _)) = written
+                    && let Meaning::One(datum) = self.meaning(name, context)
+                {
+                    sensed.insert(datum, false);
                 }
-                let place = argument.and_then(|argument| self.place_of(&argument.expression));
-                if let Some((name, _)) = place.filter(|_| self.is_written_back(datum)) {
-                    for number in self.numbers_named(name, context) {
-                        numbers.lose(number);
+                let written = written.map(|(name, _)| self.numbers_named(name, context));
+                match written.as_deref() {
+                    Some([number]) if is_number => numbers.unite(*number, self.number(datum)),
+                    Some(several) => {
+                        for number in several {
+                            numbers.give_up(*number);
+                        }
+                        if is_number {
+                            numbers.give_up(self.number(datum));
+                        }
                     }
+                    None if is_number => {
+                        let written = Written::Text {
+                            file,
+                            bytes: self.value_bytes(file, argument),
+                            context,
+                        };
+                        let site = Some(Site::at_start(routine));
+                        numbers.write(self.number(datum), written, site);
+                    }
+                    None => {}
                 }
             }
         }
@@ -359,23 +446,97 @@ impl Resolved<'_> {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
+        let of = RefCell::new(of);
         let mut named = |operand: &[u8]| {
             let Some(name) = self.parsed.symbols.find(operand) else {
                 return Quantity::unknown();
             };
+            let of = &mut *of.borrow_mut();
             if let Some(counting) = self.parsed.counting(name, at) {
                 return self.counted(counting, of);
             }
             match *self.numbers_named(name, context) {
                 [number] => of(number),
-                [] => Quantity::unknown(),
+                // a signal, or what other files declare
+                [] if self.meaning(name, context) == Meaning::Nothing => Quantity::unknown(),
+                [] => Quantity::endless(),
                 ref several => {
                     let all: Vec<_> = several.iter().map(|number| of(*number)).collect();
                     Quantity::any(&all)
                 }
             }
         };
-        evaluated(Arithmetic::Real, text, &mut named, own)
+        evaluated(Arithmetic::Real, text, &mut named, &mut |operand| {
+            own(operand).or_else(|| self.operand(operand, context, &mut *of.borrow_mut()))
+        })
+    }
+
+    /// The value of an operand that is no name alone: what a function gives, or a component; `None`
+    /// where it is worked out of the numbers in it.
+    fn operand(
+        &self,
+        operand: &[u8],
+        context: Context,
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Option<Quantity> {
+        let length = operand.iter().take_while(|b| is_letter(**b)).count();
+        let (name, rest) = operand.split_at(length);
+        let sign = *rest.trim_ascii_start().first()?;
+        let spelling = String::from_utf8_lossy(name).to_ascii_lowercase();
+        let Some(name) = self.parsed.symbols.find(name) else {
+            // a function of the language is no name of the text
+            let is_known = sign == b'(' && builtins::is_worked_out(&spelling);
+            return (!is_known).then(Quantity::unknown);
+        };
+        if sign == b'(' {
+            return match self.function_of(name, context) {
+                Some(routine) => Some(of(RESULT | routine)),
+                None if self.is_routine(name, context) => Some(Quantity::endless()),
+                None => (!builtins::is_worked_out(&spelling)).then(Quantity::unknown),
+            };
+        }
+        let data = match self.meaning(name, context) {
+            Meaning::Nothing => return Some(Quantity::unknown()),
+            Meaning::One(datum) if rest.contains(&b'.') => datum,
+            _ => return None,
+        };
+        let kept = [&b".trans.x"[..], b".trans.y", b".trans.z"];
+        let axis = kept.iter().position(|axis| rest.eq_ignore_ascii_case(axis));
+        if self.is_sensed(data) {
+            return Some(Quantity::unknown());
+        }
+        if self.is_written(Entity::Declared(data)) {
+            return Some(Quantity::endless());
+        }
+        let number = axis.and_then(|axis| self.coordinate(data, axis));
+        Some(number.map_or_else(Quantity::endless, Quantity::exactly))
+    }
+
+    /// What a target is declared with along an axis, mm.
+    fn coordinate(&self, datum: u32, axis: usize) -> Option<f64> {
+        let of = self.datum(datum);
+        let Stored::Elements {
+            sizes: [0, 0, 0], ..
+        } = of.value
+        else {
+            return None;
+        };
+        let text = self.sources[of.place.file as usize]
+            .bytes
+            .get(of.place.offset as usize..)?;
+        let text = &text[..memchr::memchr(b';', text)?];
+        let value = &text[memchr::memmem::find(text, b":=")? + 2..];
+        let inside = value.trim_ascii().strip_prefix(b"[")?;
+        let place = parts(inside)
+            .next()
+            .filter(|_| of.kind == Type::Robtarget)?;
+        let place = place.trim_ascii().strip_prefix(b"[")?.strip_suffix(b"]")?;
+        number::parse(parts(place).nth(axis)?.trim_ascii())
+    }
+
+    /// Whether data have nothing but what the running robot tells.
+    fn is_sensed(&self, datum: u32) -> bool {
+        self.sensed.get(&datum).copied().unwrap_or(false)
     }
 
     /// What a FOR loop counts with.

@@ -3,13 +3,13 @@
 use super::syntax::{Assigned, Base, Component, Expression, Index, Type};
 use super::translate::Translator;
 use crate::geometry::units::MM;
-use crate::program::Displacement;
 use crate::program::displacing::{Displacing, grown_by_any};
 use crate::program::names::Symbol;
 use crate::program::notation::mentions;
 use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
-use crate::program::script::{Expr, Held, How, Part as RecordPart, PartValue};
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How, Part as RecordPart, PartValue};
+use crate::program::{Displacement, Shift};
 
 impl Translator<'_> {
     /// `name{i}.part := value`
@@ -150,8 +150,58 @@ impl Translator<'_> {
             _ if has(b".rot") => How::part(true, true, changed),
             // with another posture the correction is another one
             _ if has(b".robconf") => How::PartNumber(changed),
-            _ => How::PartSomehow(changed),
+            // external axes
+            _ => How::PartBy(changed, DISPLACED_SOMEHOW),
         }
+    }
+
+    /// `[[p.trans.x,p.trans.y,p.trans.z+50],p.rot,p.robconf,…]`: `p`, displaced.
+    pub(super) fn other_place(&mut self, composed: u32) -> Option<Expr> {
+        let at = self.resolved.parsed.composed[composed as usize].at?;
+        let bytes = &self.resolved.sources[at.file as usize].bytes;
+        let inside = bytes.get(at.offset as usize..)?.strip_prefix(b"[")?;
+        let letters = |part: &[u8]| -> Vec<u8> {
+            let letters = part.iter().filter(|b| !b.is_ascii_whitespace());
+            letters.map(u8::to_ascii_lowercase).collect()
+        };
+        let mut all = parts(inside).map(letters);
+        let (place, rotation, posture) = (all.next()?, all.next()?, all.next()?);
+        let name = rotation.strip_suffix(b".rot")?;
+        let symbol = self.resolved.parsed.symbols.find(name)?;
+        let kind = self.resolved.kind(symbol, self.context);
+        if kind != Some(Type::Robtarget) || posture != [name, b".robconf"].concat() {
+            return None;
+        }
+        let own = [name, b".trans"].concat();
+        let by = match place.strip_prefix(b"[") {
+            Some(inside) => {
+                let mut along = [0.0; 3].map(Quantity::exactly);
+                let axes = [&b".x"[..], b".y", b".z"];
+                let mut all = parts(inside);
+                for (along, axis) in along.iter_mut().zip(axes) {
+                    let own = [&own[..], axis].concat();
+                    let axis = [b".trans", axis].concat();
+                    let (term, by) = self.term_and_rest(all.next()?, &own, &axis)?;
+                    if term != own {
+                        return None;
+                    }
+                    *along = by.in_unit(MM);
+                }
+                let mut by = Displacing::new();
+                by.along_frame(&along);
+                by.displacement()
+            }
+            None if place == own => Displacement::None,
+            None => self.added_to_all(&own, &place)?,
+        };
+        // with other external axes
+        let by = match by {
+            Displacement::None => Displacement::By(Box::new(Shift::none())),
+            by => by,
+        };
+        let base = self.position(symbol, Index::Whole, Type::Robtarget);
+        let by = self.builder.script.displacement(by);
+        Some(self.builder.script.displaced(base, by))
     }
 
     /// `p.trans:=p.trans+[0,0,200]`

@@ -37,6 +37,8 @@ pub(super) struct Resolved<'a> {
     pub(super) derived: HashSet<Holder>,
     /// What is written into numbers.
     pub(super) numbers: Numbers<Written>,
+    /// Whether data have nothing but what the running robot tells, of those that are assigned.
+    pub(super) sensed: HashMap<u32, bool>,
     /// The group of each datum that tasks share, and whether its declarations are alike.
     shared: HashMap<u32, (usize, bool)>,
 }
@@ -110,6 +112,7 @@ impl<'a> Resolved<'a> {
             in_parts: HashSet::new(),
             derived: HashSet::new(),
             numbers: Numbers::default(),
+            sensed: HashMap::default(),
             shared,
         };
         resolved.find_written();

@@ -188,7 +188,7 @@ fn displacements_add_up_and_unknown_ones_are_reported() {
     assert!(
         matches!(&by[3], Displacement::By(both) if both.in_frame.translation == [-0.05, 0.1, 0.1])
     );
-    assert_eq!(by[4..], [Displacement::Unknown, Displacement::Unknown]);
+    assert_eq!(by[4..], [Displacement::Unknown, Displacement::Unbounded]);
     assert!(program.moves.iter().all(|m| m.target.unwrap() == 0));
 }
 
@@ -379,7 +379,7 @@ fn expressions_names_and_routines_block_targets() {
         program
             .moves
             .iter()
-            .all(|m| m.displacement == Displacement::Unknown)
+            .all(|m| m.displacement == Displacement::Unbounded)
     );
     let program = path("CONST robtarget all{2}:=[p1,p2];\nMoveL all{i},v5,z5,t;");
     assert_eq!(

@@ -16,7 +16,7 @@ use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::quantity::Quantity;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, OVERWRITTEN, Place, Remark,
-    RemarkId, Variable, VariableId, short,
+    RemarkId, UNBOUNDED, Variable, VariableId, short,
 };
 
 /// Copies of copies of a target that are followed.
@@ -150,6 +150,9 @@ impl Translator<'_> {
 
     /// A target some of whose parts are expressions.
     pub(super) fn composed(&mut self, composed: u32) -> Expr {
+        if let Some(known) = self.other_place(composed) {
+            return known;
+        }
         let value = Expression::Composed(composed);
         self.somewhere_near(&value).unwrap_or_else(|| {
             self.builder.script.unknown(Remark::warning(
@@ -168,7 +171,7 @@ impl Translator<'_> {
         let by = if resolved.has_own_place(value, self.context) {
             OVERWRITTEN
         } else {
-            DISPLACED_SOMEHOW
+            UNBOUNDED
         };
         let mut all = Vec::new();
         for &name in resolved.parsed.names_in(value) {

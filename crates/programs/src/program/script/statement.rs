@@ -265,8 +265,7 @@ pub enum How {
 }
 
 impl How {
-    /// A part of a position becomes what only the running program knows: something more than it was
-    /// (`is_own`), or something that has nothing to do with that. `is_angle` where it is one of the
+    /// A part of a position becomes what is not followed: something more than it was (`is_own`), or something that has nothing to do with that. `is_angle` where it is one of the
     /// orientation.
     #[must_use]
     pub fn part(is_own: bool, is_angle: bool, remark: RemarkId) -> Self {

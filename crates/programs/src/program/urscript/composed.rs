@@ -8,17 +8,11 @@
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{
-    Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId, Parsed, Shifted,
-};
-use super::tokens::{Kind, Scanner, Token};
+use super::syntax::{Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId};
+use super::tokens::{Kind, Token};
 use super::variables::{VarId, Variables};
 use super::verbs::{self, PoseCall};
-use crate::geometry::Pose;
-use crate::program::number;
-use crate::program::script::{
-    self, DISPLACED_SOMEHOW, DisplacementId, OVERWRITTEN, RemarkId, short,
-};
+use crate::program::script::{self, DisplacementId, OVERWRITTEN, RemarkId, UNBOUNDED, short};
 use foldhash::{HashMap, HashSet, HashSetExt};
 use std::ops::Range;
 
@@ -35,7 +29,6 @@ impl Reader<'_> {
         let mut ahead = self.scanner;
         ahead.at = open.end;
         let is_pose = literal.pose && literal.elements == 6;
-        literal.shifted = shifted(ahead, &mut self.parsed).filter(|_| is_pose);
         let first = self.parsed.composed.len();
         while ahead.at < end
             && let Ok(token) = ahead.next()
@@ -100,45 +93,6 @@ impl Reader<'_> {
         }
         found
     }
-}
-
-/// The elements of another pose in their order, with numbers added to the first three.
-fn shifted<'a>(mut ahead: Scanner<'a>, parsed: &mut Parsed<'a>) -> Option<Shifted> {
-    let bytes = ahead.bytes;
-    let text = |token: Token| &bytes[token.start..token.end];
-    let mut of: Option<Token> = None;
-    let mut by_m = [0.0; 3];
-    for at in 0..6_u8 {
-        let mut next = || ahead.next().ok();
-        let name = next().filter(|token| token.kind == Kind::Word)?;
-        let index = next()
-            .filter(|open| open.is(b'['))
-            .and_then(|_| next())
-            .and_then(|index| number::parse(text(index)))?;
-        let is_same = of.is_none_or(|of| text(of) == text(name));
-        let is_element = (index - f64::from(at)).abs() < 0.1;
-        if !is_same || !is_element || text(name).contains(&b'.') || !next()?.is(b']') {
-            return None;
-        }
-        of.get_or_insert(name);
-        let mut sign = next()?;
-        if let (Some(by), Kind::Sign(plus @ (b'+' | b'-'))) =
-            (by_m.get_mut(usize::from(at)), sign.kind)
-        {
-            let value = number::parse(text(next()?)).filter(|value| value.is_finite())?;
-            *by = if plus == b'+' { value } else { -value };
-            sign = next()?;
-        }
-        if !sign.is(if at == 5 { b']' } else { b',' }) {
-            return None;
-        }
-    }
-    let of = of?;
-    Some(Shifted {
-        name: parsed.symbol(text(of)),
-        offset: short(of.start),
-        by_m,
-    })
 }
 
 impl Variables<'_, '_> {
@@ -271,19 +225,9 @@ impl Goals<'_, '_, '_> {
     pub(super) fn composed(&mut self, id: LiteralId, function: FunctionId, steps: u32) -> Goal {
         let parsed = self.parsed;
         let literal = parsed.literal(id);
-        let known = literal.shifted.filter(|shifted| {
-            let of = self.variables.meaning(shifted.name, function);
-            of.is_some_and(|of| self.variables.list[of as usize].is_position)
-        });
-        if let Some(Shifted {
-            name,
-            offset,
-            by_m: [x, y, z],
-        }) = known
-        {
-            let goal = self.named(name, offset, function, steps);
-            let by = Pose::from_translation(x, y, z);
-            return self.shifted_in_base(goal, Some(by));
+        if let Some((name, along)) = self.variables.grown(id, function) {
+            let goal = self.named(name, literal.offset, function, steps);
+            return self.shifted_along(goal, &along);
         }
         let names = parsed.names_in(id).iter();
         let named = names.filter_map(|name| self.variables.meaning(*name, function));
@@ -291,7 +235,7 @@ impl Goals<'_, '_, '_> {
         let by = if self.variables.has_own_coordinate(id, function) {
             OVERWRITTEN
         } else {
-            DISPLACED_SOMEHOW
+            UNBOUNDED
         };
         let unknown = self.common.expressions;
         self.made_of(named, by, unknown, steps)
@@ -306,7 +250,7 @@ impl Goals<'_, '_, '_> {
     ) -> Goal {
         let mut named = Vec::new();
         self.variables.add_behind(value, function, &mut named);
-        self.made_of(named, DISPLACED_SOMEHOW, self.common.computed, steps)
+        self.made_of(named, UNBOUNDED, self.common.computed, steps)
     }
 
     /// Where a pose is that is computed from variables: next to the targets that flow into it.

@@ -277,7 +277,6 @@ impl Reader<'_> {
                     elements: 6,
                     computed: false,
                     names: 0..0,
-                    shifted: None,
                 });
                 let id = short(self.parsed.literals.len() - 1);
                 Ok(Some(self.parsed.add(Expr::Literal(id))))

@@ -1,13 +1,14 @@
 //! What values mean as positions, features and tools.
 
-use super::numbers::{in_base, in_tool};
+use super::numbers::{along_base, in_base, in_tool};
 use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Quaternion};
+use crate::program::quantity::Quantity;
 use crate::program::script::{
     self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, Remark, RemarkId, Script, Span,
-    ValueId, VariableId,
+    UNBOUNDED, ValueId, VariableId,
 };
 use crate::program::{Displacement, Shift, TargetId};
 use foldhash::{HashMap, HashMapExt};
@@ -242,7 +243,8 @@ impl Goals<'_, '_, '_> {
                         in_tool,
                         ..Shift::along([0.0; 3])
                     });
-                    return self.displaced(goal, by);
+                    let otherwise = self.displaced_somehow(b, function);
+                    return self.displaced(goal, by, otherwise);
                 }
                 if self.variables.is_actual(a, function) {
                     return self.unknown();
@@ -267,7 +269,8 @@ impl Goals<'_, '_, '_> {
                     let by = self.builder.script.displacement(by);
                     return self.displaced_by(goal, by);
                 }
-                self.shifted_in_base(goal, by)
+                let otherwise = self.displaced_somehow(b, function);
+                self.shifted_in_base(goal, by, otherwise)
             }
             Expr::Inverse(_) | Expr::Number(_) | Expr::Other => self.unknown(),
         }
@@ -298,8 +301,33 @@ impl Goals<'_, '_, '_> {
         }
     }
 
+    /// What displaces by an offset that has not one value.
+    fn displaced_somehow(&self, by: ExprId, function: FunctionId) -> DisplacementId {
+        if self.variables.is_of_robot(by, function) {
+            DISPLACED_SOMEHOW
+        } else {
+            UNBOUNDED
+        }
+    }
+
+    /// The position that a variable holds, where that is known.
+    pub(super) fn position_named(
+        &mut self,
+        name: Symbol,
+        function: FunctionId,
+    ) -> Option<script::Expr> {
+        let goal = self.named(name, 0, function, MOST_STEPS);
+        let is_known = !matches!(goal.target, script::Expr::Unknown(_));
+        is_known.then_some(goal.target)
+    }
+
     /// The sum of a position and an offset, as `pose_add` has it.
-    pub(super) fn shifted_in_base(&mut self, goal: Goal, by: Option<Pose>) -> Goal {
+    pub(super) fn shifted_in_base(
+        &mut self,
+        goal: Goal,
+        by: Option<Pose>,
+        otherwise: DisplacementId,
+    ) -> Goal {
         // the sum is in the base, the displacement in the feature
         let base_from_feature = match &goal.feature {
             Feature::Base => Some(Pose::identity()),
@@ -312,7 +340,21 @@ impl Goals<'_, '_, '_> {
                 in_tool: Pose::from_rotation(by.rotation),
                 ..Shift::along(base_from_feature.rotation.transpose() * by.translation)
             });
-        self.displaced(goal, by)
+        self.displaced(goal, by, otherwise)
+    }
+
+    /// A position with something added to its coordinates.
+    pub(super) fn shifted_along(&mut self, goal: Goal, along: &[Quantity; 3]) -> Goal {
+        let exactly = along.each_ref().map(Quantity::exact);
+        if let [Some(x), Some(y), Some(z)] = exactly {
+            let by = Pose::from_translation(x, y, z);
+            return self.shifted_in_base(goal, Some(by), UNBOUNDED);
+        }
+        let by = match goal.feature {
+            Feature::Base => self.builder.script.displacement(along_base(along)),
+            _ => UNBOUNDED,
+        };
+        self.displaced_by(goal, by)
     }
 
     fn literal(&self, id: LiteralId) -> Goal {
@@ -369,13 +411,13 @@ impl Goals<'_, '_, '_> {
         }
     }
 
-    pub(super) fn displaced(&mut self, goal: Goal, by: Option<Shift>) -> Goal {
+    fn displaced(&mut self, goal: Goal, by: Option<Shift>, otherwise: DisplacementId) -> Goal {
         let by: DisplacementId = match by {
             Some(shift) => self
                 .builder
                 .script
                 .displacement(Displacement::By(Box::new(shift))),
-            None => DISPLACED_SOMEHOW,
+            None => otherwise,
         };
         self.displaced_by(goal, by)
     }

@@ -105,6 +105,5 @@ pub(super) fn other(offset: usize, end: usize, pose: bool, elements: u32) -> Lit
         elements,
         computed: false,
         names: 0..0,
-        shifted: None,
     }
 }

@@ -1,13 +1,14 @@
 //! What numbers may be, from all that the text assigns to them.
 
-use super::syntax::{Content, Event, Expr, ExprId, FunctionId};
+use super::syntax::{Content, Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
 use super::variables::Variables;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
-use crate::program::Displacement;
 use crate::program::displacing::Displacing;
 use crate::program::numbers::{Blocks, Numbers, Site, evaluated, parts};
-use crate::program::quantity::{Arithmetic, Quantity, evaluate};
+use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
+use crate::program::{Displacement, number};
+use std::cell::RefCell;
 
 /// Numbers in a pose.
 const OF_POSE: usize = 6;
@@ -19,7 +20,27 @@ pub(super) enum Written {
     Assigned(u32),
     /// By a call, which gives it.
     Given { call: u32, position: usize },
+    /// By the RETURN that begins at this byte of a function.
+    Returned(u32, FunctionId),
 }
+
+/// What functions give has the number of the function, above this.
+const RESULT: u32 = 1 << 31;
+/// Beginnings of the names of functions that make positions of positions.
+const COMPUTING: [&[u8]; 7] = [
+    b"pose_",
+    b"interpolate_",
+    b"get_forward_kin",
+    b"get_inverse_kin",
+    b"inv",
+    b"transpose",
+    b"wrench_",
+];
+/// Functions whose value is worked out of what they are given.
+const WORKED_OUT: [&[u8]; 18] = [
+    b"abs", b"acos", b"asin", b"atan", b"atan2", b"ceil", b"cos", b"d2r", b"floor", b"length",
+    b"log", b"norm", b"pow", b"r2d", b"round", b"sin", b"sqrt", b"tan",
+];
 
 impl Variables<'_, '_> {
     /// Notes all that is written into variables; each write is one of the assignments.
@@ -33,12 +54,13 @@ impl Variables<'_, '_> {
                 match *event {
                     Event::Assign(number) => {
                         let variable = self.assigned[number as usize];
-                        if parsed.assignments[number as usize].part {
-                            numbers.lose(variable);
-                        } else {
-                            let written = Written::Assigned(number);
-                            numbers.write(variable, written, Some(blocks.site()));
-                        }
+                        // an element sets the others not anew
+                        let is_whole = !parsed.assignments[number as usize].part;
+                        let site = is_whole.then(|| blocks.site());
+                        numbers.write(variable, Written::Assigned(number), site);
+                    }
+                    Event::Return(_, offset) => {
+                        numbers.write(RESULT | at, Written::Returned(offset, at), None);
                     }
                     Event::If | Event::Never | Event::Switch => blocks.open(Some(1)),
                     Event::Branch { .. } => blocks.branch(),
@@ -72,6 +94,13 @@ impl Variables<'_, '_> {
                 let start = memchr::memchr(b'=', &text[..end]).map_or(end, |at| at + 1);
                 Some((&text[start..end], assignment.function))
             }
+            Written::Returned(offset, function) => {
+                let text = self.parsed.text.get(offset as usize..)?;
+                let is_end = |b: &u8| matches!(b, b'\n' | b'\r' | b'#' | b';');
+                let end = text.iter().position(is_end).unwrap_or(text.len());
+                let start = text.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+                Some((&text[start.min(end)..end], function))
+            }
             Written::Given { call, position } => {
                 let call = &self.parsed.calls[call as usize];
                 // arguments by name, or left out, are not followed
@@ -85,38 +114,164 @@ impl Variables<'_, '_> {
         }
     }
 
-    /// The six numbers of a pose with expressions in it.
+    /// The six numbers of a pose with expressions in it, or of a variable that has one of several.
     pub(super) fn amounts(
         &self,
         pose: ExprId,
         function: FunctionId,
     ) -> Option<[Quantity; OF_POSE]> {
-        let (Expr::Literal(id), function) = self.follow(pose, function) else {
-            return None;
-        };
-        let literal = self.parsed.literal(id);
-        if !literal.pose || literal.content != Content::Expressions {
-            return None;
+        match self.follow(pose, function) {
+            (Expr::Literal(id), function) => self.amounts_of(id, function),
+            (Expr::Name(name, _), function) => {
+                let variable = self.meaning(name, function)?;
+                let all: Option<Vec<_>> = self
+                    .sources(variable)
+                    .map(|source| match self.follow(source.value, source.function) {
+                        (Expr::Literal(id), function) => self.amounts_of(id, function),
+                        _ => None,
+                    })
+                    .collect();
+                let all = all.filter(|all| !all.is_empty())?;
+                Some(std::array::from_fn(|part| {
+                    let each: Vec<_> = all.iter().map(|of| of[part].clone()).collect();
+                    Quantity::any(&each)
+                }))
+            }
+            _ => None,
         }
-        let text = self
-            .parsed
-            .text
-            .get(literal.offset as usize..literal.end as usize)?;
+    }
+
+    fn amounts_of(&self, id: LiteralId, function: FunctionId) -> Option<[Quantity; OF_POSE]> {
+        let literal = self.parsed.literal(id);
+        match literal.content {
+            _ if !literal.pose => None,
+            Content::Numbers => Some(self.parsed.values(literal)?.map(Quantity::exactly)),
+            Content::Degrees => {
+                let mut values = self.parsed.values(literal)?;
+                for angle in &mut values[3..] {
+                    *angle *= DEG;
+                }
+                Some(values.map(Quantity::exactly))
+            }
+            Content::Expressions => {
+                let range = literal.offset as usize..literal.end as usize;
+                let text = self.parsed.text.get(range)?;
+                let open = memchr::memchr(b'[', text)?;
+                let inside = text[open + 1..].trim_ascii_end().strip_suffix(b"]")?;
+                let parts = parts(inside);
+                let all: Vec<_> = parts.map(|part| self.quantity(part, function)).collect();
+                all.try_into().ok()
+            }
+        }
+    }
+
+    /// The position whose elements a pose has, and what is added to the first three of them.
+    pub(super) fn grown(
+        &self,
+        id: LiteralId,
+        function: FunctionId,
+    ) -> Option<(Symbol, [Quantity; 3])> {
+        let literal = self.parsed.literal(id);
+        let is_composed = literal.pose && literal.content == Content::Expressions;
+        let range = literal.offset as usize..literal.end as usize;
+        let text = self.parsed.text.get(range).filter(|_| is_composed)?;
         let open = memchr::memchr(b'[', text)?;
         let inside = text[open + 1..].trim_ascii_end().strip_suffix(b"]")?;
-        let parts = parts(inside);
-        let all: Vec<_> = parts.map(|part| self.quantity(part, function)).collect();
-        all.try_into().ok()
+        let mut of = None;
+        let mut along = [0.0; 3].map(Quantity::exactly);
+        let mut count = 0;
+        for (at, part) in parts(inside).enumerate() {
+            let (name, rest) = self.term_and_rest(part, at, function)?;
+            if *of.get_or_insert(name) != name {
+                return None;
+            }
+            match along.get_mut(at) {
+                Some(along) => *along = rest,
+                None if rest.exact() == Some(0.0) => {}
+                None => return None,
+            }
+            count += 1;
+        }
+        of.filter(|_| count == OF_POSE).map(|of| (of, along))
+    }
+
+    /// What an assignment adds to an element of a position, and of which.
+    pub(super) fn growth(&self, number: u32) -> Option<(Symbol, usize, Quantity)> {
+        let at = self.parsed.assignments[number as usize].element? as usize;
+        let (text, function) = self.text_of(Written::Assigned(number))?;
+        let (name, by) = self.term_and_rest(text, at, function)?;
+        (at < 3).then_some((name, at, by))
+    }
+
+    /// The one element of a position that stands in a sum, and the rest of that.
+    fn term_and_rest(
+        &self,
+        text: &[u8],
+        at: usize,
+        function: FunctionId,
+    ) -> Option<(Symbol, Quantity)> {
+        let mut term = None;
+        let mut is_one = true;
+        let mut of = |variable| self.value_of(variable);
+        let value = self.evaluated(text, function, &mut of, &mut |operand| {
+            let inside = operand.strip_suffix(b"]")?;
+            let open = memchr::memchr(b'[', inside)?;
+            let index = number::parse(inside[open + 1..].trim_ascii())?;
+            let name = self.parsed.known_symbol(inside[..open].trim_ascii())?;
+            let variable = self.meaning(name, function)?;
+            #[allow(clippy::cast_precision_loss)]
+            let is_element = index == at as f64 && self.list[variable as usize].is_position;
+            if !is_element {
+                return None;
+            }
+            is_one &= term.is_none();
+            term = Some(name);
+            Some(Quantity::own())
+        });
+        let (count, rest) = value.apart();
+        term.filter(|_| is_one && count == 1.0)
+            .map(|term| (term, rest))
+    }
+
+    /// Whether only the running robot, or a file that is not here, tells a value.
+    pub(super) fn is_of_robot(&self, value: ExprId, function: FunctionId) -> bool {
+        match self.follow(value, function) {
+            (Expr::Actual, _) => true,
+            (Expr::Name(name, _), function) => match self.meaning(name, function) {
+                None => true,
+                Some(variable) => {
+                    let mut sources = self.sources(variable).peekable();
+                    sources.peek().is_some()
+                        && sources.all(|of| match self.follow(of.value, of.function) {
+                            (Expr::Call(call), _) => self.is_sensing(call),
+                            (value, _) => value == Expr::Actual,
+                        })
+                }
+            },
+            (Expr::Call(call), _) => self.is_sensing(call),
+            _ => false,
+        }
+    }
+
+    /// Whether a call asks the robot, or what is not in the files.
+    fn is_sensing(&self, call: u32) -> bool {
+        let of = &self.parsed.calls[call as usize];
+        let name = self.parsed.bytes(of.name);
+        let is_computing = COMPUTING.iter().any(|begin| name.starts_with(begin));
+        self.callees(of).is_empty() && !is_computing
     }
 
     fn quantity(&self, text: &[u8], function: FunctionId) -> Quantity {
-        self.evaluated(text, function, &mut |variable| {
-            self.numbers
-                .value(variable, &|written, of| match self.text_of(*written) {
-                    Some((text, function)) => self.evaluated(text, function, of),
-                    None => Quantity::unknown(),
-                })
-        })
+        let mut of = |variable| self.value_of(variable);
+        self.evaluated(text, function, &mut of, &mut |_| None)
+    }
+
+    fn value_of(&self, variable: u32) -> Quantity {
+        self.numbers
+            .value(variable, &|written, of| match self.text_of(*written) {
+                Some((text, function)) => self.evaluated(text, function, of, &mut |_| None),
+                None => Quantity::unknown(),
+            })
     }
 
     fn evaluated(
@@ -124,18 +279,53 @@ impl Variables<'_, '_> {
         text: &[u8],
         function: FunctionId,
         of: &mut dyn FnMut(u32) -> Quantity,
+        own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
+        let of = RefCell::new(of);
         let mut named = |operand: &[u8]| {
             let name = self.parsed.known_symbol(operand);
             let variable = name.and_then(|name| self.meaning(name, function));
-            variable.map_or_else(Quantity::unknown, &mut *of)
+            variable.map_or_else(Quantity::unknown, &mut *of.borrow_mut())
         };
         evaluated(Arithmetic::Real, text, &mut named, &mut |operand| {
-            let degrees = operand.strip_prefix(b"d2r(")?.strip_suffix(b")")?;
-            let exactly = evaluate(degrees, &mut |_| Quantity::unknown())?.exact()?;
-            Some(Quantity::exactly(exactly * DEG))
+            if let Some(own) = own(operand) {
+                return Some(own);
+            }
+            if let Some(degrees) = operand.strip_prefix(b"d2r(") {
+                let degrees = degrees.strip_suffix(b")")?;
+                let exactly = evaluate(degrees, &mut |_| Quantity::unknown())?.exact()?;
+                return Some(Quantity::exactly(exactly * DEG));
+            }
+            let length = operand.iter().take_while(|b| is_letter(**b)).count();
+            let (name, rest) = operand.split_at(length);
+            match rest.trim_ascii_start() {
+                [b'(', ..] if WORKED_OUT.contains(&name) => None,
+                [b'(', ..] => {
+                    let name = self.parsed.known_symbol(name);
+                    let own = name.map_or(&[][..], |name| self.functions_of(name));
+                    let all = own.iter().map(|at| (*of.borrow_mut())(RESULT | at));
+                    let all: Vec<_> = all.collect();
+                    // of the robot, or of files that are not here
+                    Some(Quantity::any(&all))
+                }
+                // any number of a pose
+                [b'[', inside @ .., b']'] if name == b"p" => {
+                    let all = parts(inside).map(|part| {
+                        self.evaluated(part, function, &mut *of.borrow_mut(), &mut |_| None)
+                    });
+                    Some(Quantity::any(&all.collect::<Vec<_>>()))
+                }
+                _ => None,
+            }
         })
     }
+}
+
+/// What is added along the axes of the base.
+pub(super) fn along_base(along: &[Quantity; 3]) -> Displacement {
+    let mut by = Displacing::new();
+    by.along_frame(along);
+    by.displacement()
 }
 
 /// What `pose_add` adds whose offset has these numbers; `None` where the text does not tell how it

@@ -1,6 +1,6 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, Function, FunctionId, OTHER, Parsed, Reach, Symbol};
+use super::syntax::{Assignment, Event, Expr, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::kit::Fault;
@@ -379,7 +379,6 @@ impl<'a> Reader<'a> {
     /// `= …` behind a name or an element of it.
     fn assign(&mut self, name: Token, reach: Reach, part: bool, element: Option<u32>) -> Read<()> {
         let alone = self.number_alone();
-        let grows = element.and_then(|element| self.grows(element));
         let mut value = self.value(name.start)?;
         if let Some(known) = alone.and_then(number::parse) {
             value = self.parsed.add(Expr::Number(known));
@@ -397,24 +396,10 @@ impl<'a> Reader<'a> {
             part: part || dot.is_some(),
             element,
             is_number: alone.is_some(),
-            grows,
         });
         let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));
         Ok(())
-    }
-
-    /// The variable of `p[2]+0.1` for element 2, and what is added.
-    fn grows(&mut self, element: u32) -> Option<(Symbol, f64)> {
-        let text = &self.scanner.bytes[self.scanner.peek().start..];
-        let end = memchr::memchr3(b'\n', b'\r', b'#', text).unwrap_or(text.len());
-        let (term, by) = number::term_and_sum(&text[..end], number::parse)?;
-        let (name, index) = term
-            .strip_suffix(b"]")?
-            .split_at(memchr::memchr(b'[', term)?);
-        let index = index[1..].trim_ascii();
-        let is_same = number::whole_start(index) == Some((element, index.len()));
-        is_same.then(|| (self.parsed.symbol(name.trim_ascii()), by))
     }
 
     /// The number that stands alone up to the end of the statement.

@@ -82,17 +82,6 @@ pub(super) struct Literal {
     pub computed: bool,
     /// Where it is: the names in it, in [`Parsed::composed`].
     pub names: Range<u32>,
-    /// The pose is another one, shifted along the base by what the text tells.
-    pub shifted: Option<Shifted>,
-}
-
-/// `p[a[0] + 0.1, a[1], a[2] - 0.05, a[3], a[4], a[5]]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Shifted {
-    pub name: Symbol,
-    /// Its first byte.
-    pub offset: u32,
-    pub by_m: [f64; 3],
 }
 
 /// A list and what stands between its commas.
@@ -127,8 +116,6 @@ pub(super) struct Assignment {
     pub element: Option<u32>,
     /// Nothing but a number is.
     pub is_number: bool,
-    /// The same element of that variable and something more is.
-    pub grows: Option<(Symbol, f64)>,
 }
 
 /// A move as the text has it.

@@ -297,7 +297,12 @@ impl<'n, 'a> Variables<'n, 'a> {
 
     /// Functions of the file that a call may mean.
     pub(super) fn callees(&self, call: &Called) -> &[FunctionId] {
-        self.functions.get(&call.name).map_or(&[], Vec::as_slice)
+        self.functions_of(call.name)
+    }
+
+    /// The functions of a name.
+    pub(super) fn functions_of(&self, name: Symbol) -> &[FunctionId] {
+        self.functions.get(&name).map_or(&[], Vec::as_slice)
     }
 
     /// Whether a call is of a function of the language that moves nothing.

@@ -219,7 +219,7 @@ fn a_number_of_the_text_displaces_by_what_it_says() {
             "pB.trsf.rx=pB.trsf.rx+20",
             Displacement::Within(Box::new([Stride::Turned(Some(20_f64.to_radians()))])),
         ),
-        ("pB.trsf.z=pB.trsf.z+nZ", Displacement::Unknown),
+        ("pB.trsf.z=pB.trsf.z+nZ", Displacement::Unbounded),
     ] {
         assert_eq!(by(line), wanted, "{line}");
     }

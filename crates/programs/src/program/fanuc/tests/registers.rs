@@ -13,7 +13,11 @@ fn to(program: &Program) -> Vec<(Option<&str>, bool)> {
         .map(|motion| {
             let target = program.target_of(motion);
             let name = target.and_then(|target| target.name.as_deref());
-            (name, motion.displacement == Displacement::Unknown)
+            let is_unknown = matches!(
+                motion.displacement,
+                Displacement::Unknown | Displacement::Unbounded
+            );
+            (name, is_unknown)
         })
         .collect()
 }
@@ -113,9 +117,9 @@ fn a_number_of_the_text_displaces_a_register_by_what_it_says() {
         ("PR[4,3]=R[1] ;", Displacement::Overwritten),
         (
             "R[1]=PR[4,3] ;\nR[1]=R[1]+5 ;\nPR[4,3]=R[1] ;",
-            Displacement::Unknown,
+            Displacement::Unbounded,
         ),
-        ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unknown),
+        ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unbounded),
         (
             "PR[4,6]=PR[4,6]+90 ;",
             Displacement::Within(Box::new([Stride::Turned(Some(90_f64.to_radians()))])),

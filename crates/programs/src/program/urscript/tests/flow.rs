@@ -113,6 +113,7 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         );
     }
     let x = "x=p[.1,.2,.3,0,0,1]\nmovel(x)\n";
+    let along = |z| Displacement::By(Box::new(Shift::along([0.0, 0.0, z])));
     for (lines, z) in [
         ("movel(p[x[0],x[1],x[2]+0.05,x[3],x[4],x[5]])", 0.05),
         (
@@ -130,7 +131,6 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         );
     }
     for lines in [
-        "movel(p[x[0],x[1],x[2]+h,x[3],x[4],x[5]])",
         "movel(p[x[1],x[0],x[2],x[3],x[4],x[5]])",
         "movel(p[x[0],x[1],x[2],x[3]+1,x[4],x[5]])",
         // through other variables, a list, a function
@@ -146,9 +146,19 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         let (to, by, _) = displaced(&format!("{x}{lines}"));
         assert_eq!(
             (to.as_deref(), by),
-            (Some("x"), Displacement::Unknown),
+            (Some("x"), Displacement::Unbounded),
             "{lines}"
         );
+    }
+    for (lines, by) in [
+        // of another file, of a sensor
+        ("", Displacement::Unknown),
+        ("h=read_input_float_register(24)\n", Displacement::Unknown),
+        ("h=0.05\n", along(0.05)),
+    ] {
+        let go = "movel(p[x[0],x[1],x[2]+h,x[3],x[4],x[5]])";
+        let (to, found, _) = displaced(&format!("{x}{lines}{go}"));
+        assert_eq!((to.as_deref(), found), (Some("x"), by), "{lines}");
     }
     let two = path(&format!(
         "{x}w=p[.2,.2,.3,0,0,1]\nmovel(w)\nmovel(p[x[0],w[1],0,0,0,0])"
@@ -188,16 +198,24 @@ fn coordinates_that_come_from_no_target_lose_its_correction() {
     }
     let program = path(&format!("{x}movel(p[.1,.25,.3,x[3],x[4],x[5]])"));
     assert_eq!(program.moves[1].displacement, Displacement::Overwritten);
-    for (before, z) in [
-        ("", "x[2]+h"),
-        ("h=x[2]+0.1\n", "h"),
-        ("now=get_actual_tcp_pose()\n", "now[2]+0.1"),
-        ("def f():\nreturn x[2]+0.1\nend\n", "f()"),
+    for (before, z, by) in [
+        ("", "x[2]+h", Displacement::Unknown),
+        ("h=x[2]+0.1\n", "h", Displacement::Unbounded),
+        (
+            "now=get_actual_tcp_pose()\n",
+            "now[2]+0.1",
+            Displacement::Unbounded,
+        ),
+        (
+            "def f():\nreturn x[2]+0.1\nend\n",
+            "f()",
+            Displacement::Unbounded,
+        ),
     ] {
         for go in [with(z), written(z)] {
             let program = path(&format!("{x}{before}{go}"));
             let last = program.moves.last().expect("a move");
-            assert_eq!(last.displacement, Displacement::Unknown, "{before}{go}");
+            assert_eq!(last.displacement, by, "{before}{go}");
         }
     }
     // an angle
@@ -206,20 +224,18 @@ fn coordinates_that_come_from_no_target_lose_its_correction() {
             "y=x\ny[5]=h\nmovel(y)",
             Displacement::Within(Box::new([Stride::Turned(None)])),
         ),
-        ("movel(p[x[0],x[1],x[2],0,0,h])", Displacement::Unknown),
+        ("movel(p[x[0],x[1],x[2],0,0,h])", Displacement::Unbounded),
     ] {
         let program = path(&format!("{x}h=.25\n{go}"));
         assert_eq!(program.moves[1].displacement, by, "{go}");
     }
-    // of the copy itself; what it is a copy of is a number that only flows into it
-    for (go, by) in [
-        (
-            "y=x\ny[2] = 0.1 + y[2] # up\nmovel(y)",
-            Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.1]))),
-        ),
-        ("y=x\ny[2]=x[2]+0.1\nmovel(y)", Displacement::Unknown),
+    // of the copy itself, and of what it is a copy of
+    for go in [
+        "y=x\ny[2] = 0.1 + y[2] # up\nmovel(y)",
+        "y=x\ny[2]=x[2]+0.1\nmovel(y)",
     ] {
         let program = path(&format!("{x}{go}"));
+        let by = Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.1])));
         assert_eq!(program.moves[1].displacement, by, "{go}");
     }
 }

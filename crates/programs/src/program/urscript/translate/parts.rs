@@ -1,10 +1,10 @@
 //! What assignments make of positions, element by element.
 
 use super::Translator;
-use crate::program::script::{Expr, How, RemarkId};
-use crate::program::urscript::syntax::Assignment;
+use crate::program::quantity::Quantity;
+use crate::program::script::{How, RemarkId};
+use crate::program::urscript::numbers::along_base;
 use crate::program::urscript::variables::VarId;
-use crate::program::{Displacement, Shift};
 
 impl Translator<'_, '_, '_> {
     pub(super) fn assign(&mut self, number: u32) {
@@ -17,32 +17,33 @@ impl Translator<'_, '_, '_> {
         }
         let held = self.goals.held[variable as usize];
         let (computed, changes) = (self.goals.common.computed, self.goals.common.frame_changes);
-        let how = self.part_becomes(variable, assignment, computed);
+        let how = self.part_becomes(variable, number, computed);
         self.write(held.position, how, offset);
         self.write(held.frame, How::PartSomehow(changes), offset);
     }
 
     /// What an assignment makes of an element of a position.
-    fn part_becomes(&mut self, own: VarId, assignment: &Assignment, computed: RemarkId) -> How {
+    fn part_becomes(&mut self, own: VarId, number: u32, computed: RemarkId) -> How {
+        let assignment = &self.goals.parsed.assignments[number as usize];
         let element = assignment.element.map(|at| at as usize);
         // an angle of a joint takes the tool somewhere else altogether
         if self.goals.variables.holds_joints(own) {
             return How::PartNumber(computed);
         }
-        if let (Some((name, by)), Some(at @ 0..3)) = (assignment.grows, element) {
-            let mut along = [0.0; 3];
+        if let Some((name, at, by)) = self.goals.variables.growth(number) {
+            let mut along = [0.0; 3].map(Quantity::exactly);
             along[at] = by;
-            let script = &mut self.goals.builder.script;
-            let by = script.displacement(Displacement::By(Box::new(Shift::along(along))));
+            let by = self.goals.builder.script.displacement(along_base(&along));
             let variables = &self.goals.variables;
             if let Some(other) = variables.meaning(name, assignment.function) {
                 if other == own {
                     return How::PartBy(computed, by);
                 }
-                if let Some(position) = self.goals.held[other as usize].position {
+                let of = self.goals.position_named(name, assignment.function);
+                if let Some(of) = of {
                     return How::PartOf {
                         remark: computed,
-                        of: Expr::Variable(position),
+                        of,
                         axis: at,
                         by,
                     };
