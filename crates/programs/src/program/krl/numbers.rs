@@ -473,11 +473,14 @@ impl Reader {
             if let Some(counting) = known.counting(number, at) {
                 return self.counted(counting, of);
             }
+            // of the controller, or of files that are not here
+            let elsewhere = Quantity::unknown();
             if known.declared.contains(&number) {
                 of(number)
+            } else if known.numbers.is_written(number) {
+                Quantity::any(&[of(number), elsewhere])
             } else {
-                // of the controller, or of files that are not here
-                Quantity::unknown()
+                elsewhere
             }
         };
         evaluated(Arithmetic::Typed, text, &mut named, &mut |operand| {

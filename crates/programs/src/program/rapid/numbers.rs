@@ -35,6 +35,7 @@ pub(super) enum Written {
     },
     /// What it is, and this.
     More(f64),
+    Unfollowed,
     Zero,
 }
 
@@ -295,6 +296,8 @@ impl Resolved<'_> {
             "incr" => Some(Written::More(1.0)),
             "decr" => Some(Written::More(-1.0)),
             "clear" => Some(Written::Zero),
+            // data of the text, by their name
+            "getdataval" => Some(Written::Unfollowed),
             "add" => given.get(1).map(|argument| Written::Added {
                 file,
                 bytes: argument.span,
@@ -302,7 +305,11 @@ impl Resolved<'_> {
             }),
             _ => None,
         };
-        let Some((by, of)) = by.zip(given.first()) else {
+        let of = match by {
+            Some(Written::Unfollowed) => given.last(),
+            _ => given.first(),
+        };
+        let Some((by, of)) = by.zip(of) else {
             return self.lose_all(false, arguments, context, numbers);
         };
         if let Some((name, index)) = self.place_of(&of.expression) {
@@ -413,6 +420,7 @@ impl Resolved<'_> {
     fn written_value(&self, what: Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
         match what {
             Written::Zero => Quantity::exactly(0.0),
+            Written::Unfollowed => Quantity::endless(),
             Written::More(by) => Quantity::own().plus(Quantity::exactly(by)),
             Written::Text {
                 file,
