@@ -53,6 +53,22 @@ fn steps_of_loops_are_counted_as_the_text_counts_them() {
 }
 
 #[test]
+fn a_routine_that_an_interrupt_runs_too_adds_up_without_a_bound() {
+    let step = |trap: &str| {
+        format!(
+            "VAR num e;\nPROC step()\ne:=0;\nFOR i FROM 1 TO 2 DO\ne:=e-10;\n{}\nENDFOR\nENDPROC\nTRAP \
+            t\n{trap}\nENDTRAP\n",
+            go("0,0,e")
+        )
+    };
+    let said = |done: &Compensation| message(done, "displacement-unknown").to_owned();
+    let alone = of_rapid(&step("stopmove;"), "step;");
+    assert!(said(&alone).contains("up to 2 times"), "{}", said(&alone));
+    let inside = of_rapid(&step("step;"), "step;");
+    assert!(said(&inside).contains("any number"), "{}", said(&inside));
+}
+
+#[test]
 fn a_part_set_to_that_of_the_original_takes_back_what_was_added() {
     let step = |by: &str| format!("q.trans.z:={by};\nMoveL q,v100,fine,tool0;\n");
     let all = ["q.trans.z+50", "p.trans.z", "q.trans.z-200"].map(step);

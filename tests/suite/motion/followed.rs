@@ -141,6 +141,11 @@ fn krl_arrays_frames_and_functions_are_worked_out() {
             "set(h)\nq=XP\nq.Y=q.Y-h\nLIN q\nEND\nDEF set(d:OUT)\nDECL REAL d\nd=200\n",
         ),
         (
+            "DECL REAL h\n",
+            "$OUT[set(h)]=TRUE\nq=XP\nq.Y=q.Y-h\nLIN q\nEND\nDEFFCT INT set(d:OUT)\nDECL REAL \
+             d\nd=200\nRETURN(1)\nENDFCT\nDEF last()\n",
+        ),
+        (
             "",
             "q=XP\nq.Y=q.Y-deep(100)\nLIN q\nEND\nDEFFCT REAL deep(d:IN)\nDECL REAL d\nRETURN(2*d)\n\
              ENDFCT\nDEF last()\n",

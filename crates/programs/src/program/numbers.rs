@@ -125,6 +125,8 @@ pub(super) struct Numbers<W> {
     unbounded: HashSet<(u32, u32)>,
     /// The routines that each calls.
     calls: HashMap<u32, HashSet<u32>>,
+    /// Routines that run at any time.
+    concurrent: HashSet<u32>,
     /// Numbers that are one with another.
     same: HashMap<u32, u32>,
     known: RefCell<HashMap<u32, Quantity>>,
@@ -137,6 +139,7 @@ impl<W> Default for Numbers<W> {
             jumping: HashSet::default(),
             unbounded: HashSet::default(),
             calls: HashMap::default(),
+            concurrent: HashSet::default(),
             same: HashMap::default(),
             known: RefCell::default(),
         }
@@ -210,21 +213,39 @@ impl<W> Numbers<W> {
         self.calls.entry(caller).or_default().insert(callee);
     }
 
-    /// Whether a routine may run again before it has ended.
-    fn is_recursive(&self, routine: u32) -> bool {
+    /// An interrupt or a thread runs a routine.
+    pub(super) fn runs_at_any_time(&mut self, routine: u32) {
+        self.concurrent.insert(routine);
+    }
+
+    /// The routines that these call, and so on.
+    fn called_by(&self, mut open: Vec<u32>) -> HashSet<u32> {
         let mut seen = HashSet::default();
-        let mut open = vec![routine];
         while let Some(callees) = open.pop().map(|one| self.calls.get(&one)) {
             for &callee in callees.into_iter().flatten() {
-                if callee == routine {
-                    return true;
-                }
                 if seen.insert(callee) {
                     open.push(callee);
                 }
             }
         }
-        false
+        seen
+    }
+
+    /// Whether a routine may run again before it has ended: it calls itself, or an interrupt or
+    /// thread calls it as others do.
+    fn runs_inside_itself(&self, routine: u32) -> bool {
+        if self.called_by(vec![routine]).contains(&routine) {
+            return true;
+        }
+        if self.concurrent.is_empty() {
+            return false;
+        }
+        let mut at_any_time = self.called_by(self.concurrent.iter().copied().collect());
+        at_any_time.extend(&self.concurrent);
+        let is_called = |(caller, callees): (&u32, &HashSet<u32>)| {
+            callees.contains(&routine) && !at_any_time.contains(caller)
+        };
+        at_any_time.contains(&routine) && self.calls.iter().any(is_called)
     }
 
     /// What a number may be, whenever it is looked at.
@@ -301,7 +322,7 @@ impl<W> Numbers<W> {
 
     /// How often at most a write is come to between two that set the number anew.
     fn most(&self, site: &Site, resets: &[&Site]) -> Option<u32> {
-        if self.jumping.contains(&site.routine) || self.is_recursive(site.routine) {
+        if self.jumping.contains(&site.routine) || self.runs_inside_itself(site.routine) {
             return None;
         }
         let mut before: Vec<_> = resets

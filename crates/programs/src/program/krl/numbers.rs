@@ -65,8 +65,11 @@ pub(super) struct Known {
     loops: Vec<Counting>,
     /// Those that are not closed yet.
     open: Vec<usize>,
-    /// What calls give.
+    /// What calls give, and the routines that they name.
     given: Vec<Given>,
+    pub called: HashSet<(Symbol, Context)>,
+    /// What interrupts call.
+    interrupting: Vec<(Symbol, Context)>,
     declared: HashSet<u32>,
     /// Frames that are asked for components, or displace positions.
     pub displacing: Vec<Symbol>,
@@ -138,6 +141,17 @@ impl Names {
 
     /// Parameters have what calls give them, once all routines are known.
     pub(super) fn give_numbers(&mut self) {
+        for (routine, context) in std::mem::take(&mut self.known.called) {
+            let callee = self.routine(routine, context);
+            if let (Some(callee), Some(caller)) = (callee, context.routine) {
+                self.known.numbers.calls(caller, callee);
+            }
+        }
+        for (routine, context) in std::mem::take(&mut self.known.interrupting) {
+            if let Some(callee) = self.routine(routine, context) {
+                self.known.numbers.runs_at_any_time(callee);
+            }
+        }
         for given in std::mem::take(&mut self.known.given) {
             let Given { routine, at, .. } = given;
             let Written::Value(text, place, context) = given.value else {
@@ -152,9 +166,6 @@ impl Names {
                 }
                 continue;
             };
-            if let Some(caller) = context.routine {
-                self.known.numbers.calls(caller, callee);
-            }
             let parameter = self.heads[callee as usize].parameters.get(at);
             let Some(&(datum, is_written_back)) = parameter else {
                 continue;
@@ -335,6 +346,9 @@ impl Reader {
             }
             b"INTERRUPT" | b"TRIGGER" => {
                 if let Some((name, rest)) = action(cursor) {
+                    let called = self.symbol(&cursor, name);
+                    let context = self.context();
+                    self.names.known.interrupting.push((called, context));
                     self.note_write(name, rest, false);
                 }
             }

@@ -116,8 +116,14 @@ impl Reader {
             }
             _ => {
                 self.note_assignment(first, cursor);
-                if cursor.brackets().is_err() {
-                    return;
+                match cursor.brackets() {
+                    Ok(Some((at, end))) => {
+                        let inside = Cursor { at, end, ..cursor };
+                        self.note_arguments(inside);
+                        self.note_given(first, inside);
+                    }
+                    Ok(None) => {}
+                    Err(_) => return,
                 }
             }
         }
@@ -139,6 +145,10 @@ impl Reader {
                 Kind::Sign(b'(') => {
                     let is_call = before.kind == Kind::Name;
                     let routine = is_call.then(|| self.symbol(&cursor, before));
+                    if let Some(routine) = routine {
+                        let context = self.context();
+                        self.names.known.called.insert((routine, context));
+                    }
                     open.push((routine, 0));
                     start = cursor.at;
                 }

@@ -49,6 +49,11 @@ impl Resolved<'_> {
     pub(super) fn find_numbers(&mut self) {
         let mut numbers = Numbers::default();
         let blank = self.declared(&mut numbers);
+        for (at, routine) in (0..).zip(&self.parsed.routines) {
+            if routine.is_trap {
+                numbers.runs_at_any_time(at);
+            }
+        }
         let mut blocks = Blocks::default();
         let mut context = Context {
             module: 0,

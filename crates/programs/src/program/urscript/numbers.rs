@@ -50,6 +50,9 @@ impl Variables<'_, '_> {
         let mut blocks = Blocks::default();
         for (at, function) in (0..).zip(&parsed.functions) {
             blocks.begin(at);
+            if function.thread {
+                numbers.runs_at_any_time(at);
+            }
             for event in &function.events {
                 match *event {
                     Event::Assign(number) => {
