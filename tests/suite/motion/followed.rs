@@ -54,6 +54,20 @@ fn rapid_functions_parameters_and_coordinates_are_worked_out() {
         ("VAR dnum h:=200;", go("0,0,-DnumToNum(h)")),
         (&*format!("VAR num h:=100;\n{function}"), go("0,0,depth(h)")),
         (&*two, go("0,0,low.trans.z-high.trans.z")),
+        ("VAR pos o:=[0,0,-200];", go("0,0,o.z")),
+        ("PERS pos o:=[5,5,-200];", go("o.x-5,o.y-5,o.z")),
+        (
+            "VAR pos o:=[0,0,-200];\nVAR pos o2:=[0,0,-200];",
+            format!("o:=o2;\n{}", go("o.x,o.y,o.z")),
+        ),
+        (
+            "CONST pos o:=[0,0,-200];",
+            "q:=p;\nq.trans:=q.trans+o;\nMoveL q,v100,fine,tool0;".to_owned(),
+        ),
+        (
+            "PROC go(pos o)\nMoveL Offs(p,o.x,o.y,o.z),v100,fine,tool0;\nENDPROC\n",
+            "go [0,0,-200];".to_owned(),
+        ),
         (
             &*format!("VAR num h;\n{by_reference}"),
             format!("lower h;\n{}", go("0,0,h")),
@@ -65,6 +79,11 @@ fn rapid_functions_parameters_and_coordinates_are_worked_out() {
 
 #[test]
 fn rapid_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_not() {
+    // coordinates that are written one by one
+    let lower = format!("o.z:=-200;\n{}", go("o.x,o.y,o.z"));
+    let lower = of_rapid("VAR pos o;", &lower);
+    let truth = misses(&of_rapid("", &go("0,0,-200")));
+    assert_eq!(unknown(&lower), truth, "{:?}", lower.findings);
     let by_reference = "PROC lower(INOUT num z)\nz:=z-5;\nENDPROC\n";
     let again = format!(
         "WHILE DInput(di1)=1 DO\nlower h;\n{}\nENDWHILE",
@@ -79,7 +98,6 @@ fn rapid_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_no
     );
     for (data, by) in [
         ("VAR num h:=200;", "0,0,-Pow(h,1)"),
-        ("VAR pos o:=[0,0,-200];", "0,0,o.z"),
         ("VAR pos o:=[0,0,-200];", "0,0,-Distance([0,0,0],o)"),
         (
             "RECORD step\nnum h;\nENDRECORD\nVAR step s:=[-200];",

@@ -1,10 +1,11 @@
 //! What numbers may be: constants, what FOR counts, and data with all that is written into them.
 
 use super::builtins::{self, Known};
+use super::places::{PlaceWrite, axis_of};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
-    Argument, Assigned, Base, Called, Callee, Component, Counting, Expression, Function, Index,
-    StatementKind, Storage, Stored, Type, Verb, indices,
+    Argument, Called, Callee, Component, Counting, Function, Index, StatementKind, Storage, Stored,
+    Type, Verb, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::number;
@@ -18,6 +19,9 @@ use std::cell::RefCell;
 const SHARED: u32 = 1 << 31;
 /// What functions give has the number of the routine, above this.
 const RESULT: u32 = 1 << 30;
+/// Coordinates have their number above this.
+pub(super) const COMPONENT: u32 = 1 << 29;
+
 /// What is written into a number.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Written {
@@ -36,6 +40,13 @@ pub(super) enum Written {
     /// What it is, and this.
     More(f64),
     Unfollowed,
+    /// This coordinate of what these bytes name.
+    Coordinate {
+        file: u32,
+        bytes: (u32, u32),
+        context: Context,
+        axis: usize,
+    },
     Zero,
 }
 
@@ -61,6 +72,7 @@ impl Resolved<'_> {
         };
         let mut file = 0;
         let mut sensed = HashMap::default();
+        let mut places = Vec::new();
         for statement in &self.parsed.statements {
             match statement.kind {
                 StatementKind::Text {
@@ -79,7 +91,10 @@ impl Resolved<'_> {
                 } => {
                     self.note_sensed(name, statement.kind, context, &mut sensed);
                     let data = self.numbers_named(name, context);
-                    if !data.is_empty() {
+                    if data.is_empty() {
+                        let (at, mut site) = ((file, statement.offset), || blocks.site());
+                        self.note_place(name, index, at, context, &mut site, &mut places);
+                    } else {
                         let bytes = self.assigned_bytes(file, statement.offset);
                         let written = Written::Text {
                             file,
@@ -92,8 +107,10 @@ impl Resolved<'_> {
                         }
                     }
                 }
-                StatementKind::Assign { name, .. } => {
+                StatementKind::Assign { name, index, .. } => {
                     self.note_sensed(name, statement.kind, context, &mut sensed);
+                    let (at, mut site) = ((file, statement.offset), || blocks.site());
+                    self.note_place(name, index, at, context, &mut site, &mut places);
                 }
                 StatementKind::Function(function) => {
                     let of = self.parsed.functions[function as usize];
@@ -108,7 +125,7 @@ impl Resolved<'_> {
                             context,
                             file,
                             &mut numbers,
-                            &mut sensed,
+                            (&mut sensed, &mut places),
                         );
                     }
                 }
@@ -141,7 +158,8 @@ impl Resolved<'_> {
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            self.give(callee, given, context, file, &mut numbers, &mut sensed);
+                            let data = (&mut sensed, &mut places);
+                            self.give(callee, given, context, file, &mut numbers, data);
                         }
                         _ => {}
                     }
@@ -179,36 +197,9 @@ impl Resolved<'_> {
                 numbers.lose(number);
             }
         }
+        self.coordinates = self.coordinates(&places, &mut numbers);
         self.numbers = numbers;
         self.sensed = sensed;
-    }
-
-    /// Notes whether an assignment gives data what the running robot tells: all of them have to.
-    fn note_sensed(
-        &self,
-        name: Symbol,
-        kind: StatementKind,
-        context: Context,
-        sensed: &mut HashMap<u32, bool>,
-    ) {
-        let StatementKind::Assign {
-            component, value, ..
-        } = kind
-        else {
-            return;
-        };
-        let function = match value {
-            Assigned::To(Expression::Point {
-                base: Base::Function(function),
-                steps,
-            }) if steps.0 == steps.1 => Some(self.parsed.functions[function as usize]),
-            _ => None,
-        };
-        let is_known = function.is_some_and(|of| self.known(&of, context) == Known::Actual);
-        if let Meaning::One(datum) = self.meaning(name, context) {
-            let all = sensed.entry(datum).or_insert(true);
-            *all &= is_known && component == Component::Whole;
-        }
     }
 
     /// Notes what numbers are declared with; those without a value are left.
@@ -259,7 +250,7 @@ impl Resolved<'_> {
     }
 
     /// The value of the assignment that begins there.
-    fn assigned_bytes(&self, file: u32, offset: u32) -> (u32, u32) {
+    pub(super) fn assigned_bytes(&self, file: u32, offset: u32) -> (u32, u32) {
         let text = &self.sources[file as usize].bytes[offset as usize..];
         let end = memchr::memchr(b';', text).unwrap_or(text.len());
         let start = memchr::memmem::find(&text[..end], b":=").map_or(end, |at| at + 2);
@@ -361,7 +352,7 @@ impl Resolved<'_> {
         context: Context,
         file: u32,
         numbers: &mut Numbers<Written>,
-        sensed: &mut HashMap<u32, bool>,
+        (sensed, places): (&mut HashMap<u32, bool>, &mut Vec<PlaceWrite>),
     ) {
         let callees = self.callees(callee, arguments, context, file);
         if callees.foreign {
@@ -379,7 +370,11 @@ impl Resolved<'_> {
                     && let Meaning::One(datum) = self.meaning(name, context)
                 {
                     sensed.insert(datum, false);
+                    self.note_given_place(datum, None, context, None, places);
                 }
+                let value = (file, self.value_bytes(file, argument));
+                let site = Site::at_start(routine);
+                self.note_given_place(datum, Some(value), context, Some(site), places);
                 let written = written.map(|(name, _)| self.numbers_named(name, context));
                 match written.as_deref() {
                     Some([number]) if is_number => numbers.unite(*number, self.number(datum)),
@@ -426,6 +421,17 @@ impl Resolved<'_> {
         match what {
             Written::Zero => Quantity::exactly(0.0),
             Written::Unfollowed => Quantity::endless(),
+            Written::Coordinate {
+                file,
+                bytes,
+                context,
+                axis,
+            } => {
+                let text = self.sources[file as usize].bytes[indices(bytes)].trim_ascii();
+                let text = [text, [&b".x"[..], b".y", b".z"][axis]].concat();
+                let at = Place::new(file, bytes.0);
+                self.evaluated(&text, at, context, of, &mut |_| None)
+            }
             Written::More(by) => Quantity::own().plus(Quantity::exactly(by)),
             Written::Text {
                 file,
@@ -518,6 +524,10 @@ impl Resolved<'_> {
         if self.is_sensed(data) {
             return Some(Quantity::unknown());
         }
+        let coordinate = axis_of(rest).and_then(|axis| self.coordinates.get(&(data, axis)));
+        if let Some(number) = coordinate {
+            return Some(of(*number));
+        }
         if self.is_written(Entity::Declared(data)) {
             return Some(Quantity::endless());
         }
@@ -545,11 +555,6 @@ impl Resolved<'_> {
             .filter(|_| of.kind == Type::Robtarget)?;
         let place = place.trim_ascii().strip_prefix(b"[")?.strip_suffix(b"]")?;
         number::parse(parts(place).nth(axis)?.trim_ascii())
-    }
-
-    /// Whether data have nothing but what the running robot tells.
-    fn is_sensed(&self, datum: u32) -> bool {
-        self.sensed.get(&datum).copied().unwrap_or(false)
     }
 
     /// What a FOR loop counts with.

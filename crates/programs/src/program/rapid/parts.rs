@@ -212,14 +212,17 @@ impl Translator<'_> {
             b'-' => -1.0,
             _ => return None,
         };
-        let inside = rest[1..].strip_prefix(b"[")?.strip_suffix(b"]")?;
         let of = |part: &[u8]| {
             let value = self
                 .resolved
                 .quantity(part, self.here, self.context, &mut |_| None);
             value.times(sign).in_unit(MM)
         };
-        let along: [Quantity; 3] = parts(inside).map(of).collect::<Vec<_>>().try_into().ok()?;
+        let inside = rest[1..].strip_prefix(b"[");
+        let along = match inside.and_then(|inside| inside.strip_suffix(b"]")) {
+            Some(inside) => parts(inside).map(of).collect::<Vec<_>>().try_into().ok()?,
+            None => [&b".x"[..], b".y", b".z"].map(|axis| of(&[&rest[1..], axis].concat())),
+        };
         let mut by = Displacing::new();
         by.along_frame(&along);
         Some(by.displacement())

@@ -3,6 +3,7 @@
 use super::builtins::Known;
 use super::derived::Holder;
 use super::numbers::Written;
+use super::places::Coordinates;
 use super::shared::Group;
 use super::syntax::{
     Argument, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
@@ -37,6 +38,8 @@ pub(super) struct Resolved<'a> {
     pub(super) derived: HashSet<Holder>,
     /// What is written into numbers.
     pub(super) numbers: Numbers<Written>,
+    /// What the coordinates of `pos` data are called in the numbers.
+    pub(super) coordinates: Coordinates,
     /// Whether data have nothing but what the running robot tells, of those that are assigned.
     pub(super) sensed: HashMap<u32, bool>,
     /// The group of each datum that tasks share, and whether its declarations are alike.
@@ -112,6 +115,7 @@ impl<'a> Resolved<'a> {
             in_parts: HashSet::new(),
             derived: HashSet::new(),
             numbers: Numbers::default(),
+            coordinates: Coordinates::default(),
             sensed: HashMap::default(),
             shared,
         };
