@@ -6,6 +6,7 @@ mod bounds;
 mod decided;
 mod displaced;
 mod krl;
+mod registers;
 mod rows;
 mod straight;
 
