@@ -22,6 +22,10 @@ pub(super) const ELEMENTS: u32 = 9;
 pub(super) const MOST_NUMBER: u32 = (1 << 19) - 1;
 const OF_POSITIONS: u32 = 1 << 24;
 const OF_CALLS: u32 = 1 << 30;
+/// The label that a register names.
+pub(super) const ANY_LABEL: u64 = u64::MAX;
+/// Numbers that are known as they were written last.
+const MOST_NOW: usize = 512;
 /// Texts in a value.
 const MOST_TEXTS: usize = 64;
 
@@ -118,7 +122,7 @@ impl Known {
         let mut passed = vec![0_i32; path.order as usize + 2];
         for (at, label) in &path.jumps {
             let to = path.labels.get(label).copied().unwrap_or(path.order + 1);
-            let comes_to_moves = to <= path.last_move || last_jump > to;
+            let comes_to_moves = *label == ANY_LABEL || to <= path.last_move || last_jump > to;
             if to > *at && comes_to_moves {
                 passed[*at as usize] += 1;
                 passed[to as usize] -= 1;
@@ -240,6 +244,7 @@ impl Known {
         let size = 1 + size.sum::<usize>();
         read.sort_unstable();
         read.dedup();
+        let is_own = read.contains(&own) && now(own).is_none();
         // what is subtracted from itself is nothing
         let without = |one: u32| {
             let mut of = |number| {
@@ -266,13 +271,16 @@ impl Known {
             None => Content::Text(text.into()),
         };
         let is_text = matches!(content, Content::Text(_));
+        let read = read.iter().copied();
+        let read = read.filter(|number| is_text && now(*number).is_none());
         Told {
             content,
             element,
             routine: at.1,
             bound: bound.filter(|_| is_text).collect(),
             size: if is_text { size } else { 1 },
-            is_own: is_text && read.contains(&own) && now(own).is_none(),
+            is_own: is_text && is_own,
+            read: read.collect(),
         }
     }
 
@@ -287,6 +295,17 @@ impl Known {
             is_settled: false,
         };
         self.assigned.insert(number);
+        if self.now.len() > MOST_NOW {
+            self.clear();
+        }
+        if written.told.is_own {
+            // it adds up: how often is known once all programs are read
+            self.settle();
+            self.now.retain(|_, of| !of.told.has_read(number));
+            self.all.insert(number);
+            self.numbers.write(number, written.told, Some(written.site));
+            return;
+        }
         self.now.insert(number, written);
         if self.is_concurrent {
             self.clear();

@@ -448,7 +448,7 @@ impl Reader<'_> {
 
 /// Whether a register says which register is read.
 pub(super) fn is_indirect(text: &[u8]) -> bool {
-    memchr::memmem::find(text, b"[R[").is_some() || memchr::memchr(b'*', text).is_some()
+    memchr::memmem::find(text, b"[R[").is_some() || memchr::memchr(b'?', text).is_some()
 }
 
 /// The positions of a sum, and whether each is subtracted, without those that leave nothing; `None`

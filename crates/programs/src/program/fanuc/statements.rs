@@ -4,7 +4,7 @@
 use super::controller::{Kind, Mode, Which, kinds};
 use super::lines::Line;
 use super::moves::Row;
-use super::numbers::{MOST_NUMBER, counter, of_position};
+use super::numbers::{ANY_LABEL, MOST_NUMBER, counter, of_position};
 use super::offsets::Axes;
 use super::reader::{Reader, called};
 use super::told::canonical;
@@ -24,8 +24,6 @@ const KNOWN: &str = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE EN
     JOINT_MAX_SPEED LINEAR_MAX_SPEED LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG \
     RETURN_PATH_DSBL SEMAPHORE SKIP STOP TIMER TOOL_OFFSET UALM UNLOCK VOFFSET WAIT WARTEN WEAVE \
     WELD";
-/// The label that a register names.
-const ANY_LABEL: u64 = u64::MAX;
 
 /// Where one program is while it is read.
 #[derive(Debug, Default)]

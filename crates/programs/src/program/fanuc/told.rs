@@ -24,6 +24,8 @@ pub(super) struct Told {
     pub bound: Box<[(u32, Rc<Told>)]>,
     /// How many texts that is altogether.
     pub size: usize,
+    /// Numbers in it that the program has not just written.
+    pub read: Box<[u32]>,
     /// The number itself stands in it, and the program has not just written it.
     pub is_own: bool,
 }
@@ -50,8 +52,15 @@ impl Told {
             routine,
             bound: Box::default(),
             size: 1,
+            read: Box::default(),
             is_own: false,
         }
+    }
+
+    /// Whether a number stands in it as it was before the program wrote any.
+    pub(super) fn has_read(&self, number: u32) -> bool {
+        let mut bound = self.bound.iter();
+        self.read.contains(&number) || bound.any(|(_, told)| told.has_read(number))
     }
 
     pub(super) fn exact(&self) -> Option<f64> {
@@ -238,7 +247,7 @@ impl Known {
 }
 
 /// A value without the names of what is in it: `R[5]*(PR[4,2]+1)` of `R[5:a*b]*(PR[GP1:4,2:c]+1)`.
-/// Where something else is the index of another stands `*`.
+/// Where something else is the index stands `?`.
 pub(super) fn canonical(text: &[u8]) -> Vec<u8> {
     let mut out = Vec::with_capacity(text.len());
     let mut at = 0;
@@ -280,7 +289,7 @@ fn push_indexed(out: &mut Vec<u8>, word: &[u8], index: &[u8]) {
     out.extend_from_slice(if is_other { b"P" } else { word });
     out.push(b'[');
     if is_other {
-        out.push(b'*');
+        out.push(b'?');
     } else if is_register {
         let of = register(index);
         let number = if word == b"PR" {
@@ -294,7 +303,7 @@ fn push_indexed(out: &mut Vec<u8>, word: &[u8], index: &[u8]) {
         }
         if word == b"PR" && of.is_element {
             out.push(b',');
-            let part = element(index).map_or("*".into(), |part| part.to_string());
+            let part = element(index).map_or("?".into(), |part| part.to_string());
             out.extend_from_slice(part.as_bytes());
         }
     } else if memchr::memchr(b'[', index).is_some() {
@@ -310,7 +319,7 @@ fn push_index(out: &mut Vec<u8>, index: &[u8]) {
     let inside = index.strip_prefix(b"R[");
     match inside.and_then(bracket_end) {
         Some(length) => out.extend_from_slice(&canonical(&index[..length + 3])),
-        None => out.push(b'*'),
+        None => out.push(b'?'),
     }
 }
 
@@ -327,8 +336,8 @@ mod tests {
             ("R[1]DIV R[2]", "R[1] DIV  R[2]"),
             ("R[1] MOD 5", "R[1] MOD  5"),
             ("ABS[R[2:x]]+GI[3:y]", "ABS[R[2]]+GI[0]"),
-            ("PR[GP2:4]", "P[*]"),
-            ("R[AR[1]]", "R[*]"),
+            ("PR[GP2:4]", "P[?]"),
+            ("R[AR[1]]", "R[?]"),
         ] {
             let found = canonical(text.as_bytes());
             assert_eq!(std::str::from_utf8(&found), Ok(wanted), "{text}");

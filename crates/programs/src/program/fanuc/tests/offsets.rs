@@ -58,7 +58,7 @@ fn elsewhere_a_register_is_any_of_what_is_written() {
     // also behind the move: registers last from run to run
     let later = format!("{lines}PR[7,3]=(-300) ;");
     let ends = between(&of(&later)).expect("the text tells it");
-    assert!((ends[1] - ends[0] - 0.4).abs() < 1e-9, "{ends:?}");
+    assert!((ends[0] + 0.3).abs() < 1e-9 && ends[1] >= 0.1, "{ends:?}");
     // another program writes it at any time
     let a = listing(
         &format!("RUN OTHER ;\n{ZERO}PR[7,3]=100 ;\n{GO}"),
