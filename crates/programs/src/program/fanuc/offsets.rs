@@ -83,6 +83,7 @@ pub(super) struct Condition {
     axes: Axes,
     of: Which,
     /// The tool or frame, where it is named.
+    #[allow(clippy::option_option)]
     number: Option<Option<u32>>,
 }
 
@@ -444,22 +445,22 @@ fn add(by: &mut Displacing, axes: Axes, values: Vec<Quantity>, is_followed: bool
     if axes == Axes::Frame {
         by.along_frame(&along);
         let has_known = |of: &Quantity| is_something(of) && of.of_text() == 0.0;
-        return !angles.iter().any(has_known) && turn(by, angles);
+        return !angles.iter().any(has_known) && turn(by, &angles);
     }
     let none = || Quantity::exactly(0.0);
     let [x, y, z] = along;
     by.in_tool(&[x, y, z, none(), none(), none()]);
-    turn(by, angles)
+    turn(by, &angles)
 }
 
 /// About the axes of the tool by W, P and R.
-fn turn(by: &mut Displacing, angles: [Quantity; 3]) -> bool {
+fn turn(by: &mut Displacing, angles: &[Quantity; 3]) -> bool {
     if let [Some(w), Some(p), Some(r)] = angles.each_ref().map(Quantity::exact) {
         let pose = pose_of_angles([0.0, 0.0, 0.0, w, p, r]);
         by.in_tool_exactly(Pose::from_rotation(pose.rotation));
         return true;
     }
-    turn_up_to(by, &angles)
+    turn_up_to(by, angles)
 }
 
 /// About axes that the text does not tell.

@@ -4,7 +4,9 @@ use super::numbers::{ELEMENTS, MOST_NUMBER, of_position};
 use super::offsets::Copied;
 use super::reader::Reader;
 use super::told::{Told, canonical};
-use super::words::{Named, Register, each_position, element, position, register, whole};
+use super::words::{
+    Named, Register, bracket_end, each_position, element, position, register, whole,
+};
 use crate::program::TargetId;
 use crate::program::displacing::grown_by_any;
 use crate::program::quantity::Quantity;
@@ -15,6 +17,9 @@ use std::rc::Rc;
 
 /// A number and what it is.
 type Present = (u32, Option<Rc<Told>>);
+
+/// Where a list of the script begins that a sum may be displaced from, and the registers of these.
+type Bases = (u32, Vec<Option<u32>>);
 
 /// A write of a position that is a sum of others.
 #[derive(Debug)]
@@ -51,11 +56,7 @@ impl Reader<'_> {
             if one.is_none() {
                 self.builder.begin_if(None);
             }
-            self.add_sum(
-                sum.as_ref()
-                    .map(|(first, registers)| (*first, &registers[..])),
-                value,
-            );
+            self.add_sum(sum.as_ref(), value);
             self.set(variable, holds);
             if one.is_none() {
                 self.builder.end_choice();
@@ -74,11 +75,7 @@ impl Reader<'_> {
             self.part_becomes(index, &text)
         } else {
             let (holds, sum) = self.position_value(value);
-            let sum = sum.as_ref();
-            self.add_sum(
-                sum.map(|(first, registers)| (*first, &registers[..])),
-                value,
-            );
+            self.add_sum(sum.as_ref(), value);
             let terms = terms(&text);
             let left = terms.map_or_else(|| text.clone(), |terms| joined(&terms));
             self.copied.copy(&self.listing, number, &left, &text);
@@ -168,8 +165,8 @@ impl Reader<'_> {
         let mut others: Vec<u32> = Vec::new();
         let mut is_own = false;
         for start in memchr::memmem::find_iter(text, b"PR[") {
-            let end = text[start..].iter().position(|b| *b == b']');
-            let one = &text[start + 3..start + end.unwrap_or(0).max(3)];
+            let inside = &text[start + 3..];
+            let one = &inside[..bracket_end(inside).unwrap_or(0)];
             let of = register(one);
             let is_same = of.is_element && element(one) == Some(at);
             match of.number {
@@ -288,7 +285,7 @@ impl Reader<'_> {
 
     /// The position that a value is: a point, another register, where the robot is, or what is
     /// computed of these: of which positions, where that is a sum.
-    fn position_value(&mut self, value: &[u8]) -> (Expr, Option<(u32, Vec<Option<u32>>)>) {
+    fn position_value(&mut self, value: &[u8]) -> (Expr, Option<Bases>) {
         if matches!(value, b"LPOS" | b"JPOS") {
             return (Expr::Value(self.controller.actual), None);
         }
@@ -350,7 +347,7 @@ impl Reader<'_> {
     }
 
     /// The next write is that of a sum.
-    fn add_sum(&mut self, sum: Option<(u32, &[Option<u32>])>, value: &[u8]) {
+    fn add_sum(&mut self, sum: Option<&Bases>, value: &[u8]) {
         let Some((first, registers)) = sum else {
             return;
         };
@@ -374,8 +371,8 @@ impl Reader<'_> {
         }
         self.sums.push(Sum {
             write: self.builder.script.writes.len(),
-            first,
-            registers: registers.to_vec(),
+            first: *first,
+            registers: registers.clone(),
             added,
         });
     }

@@ -9,8 +9,8 @@ use super::offsets::Axes;
 use super::reader::{Reader, called};
 use super::told::canonical;
 use super::words::{
-    Named, Register, assigned, behind_group, comma, concerns_group_1, each_position, indexed,
-    is_word, motion, parts, position, register, whole, word_length, words,
+    Named, Register, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position,
+    indexed, is_word, motion, parts, position, register, whole, word_length, words,
 };
 use crate::program::script::{Argument, Call, Expr, How, Start, VariableId, Written, short};
 use std::collections::BTreeSet;
@@ -299,8 +299,8 @@ impl Reader<'_> {
         let text = canonical(text);
         for at in memchr::memmem::find_iter(&text, b"R[") {
             let is_position = at.checked_sub(1).is_some_and(|before| text[before] == b'P');
-            let end = text[at..].iter().position(|b| *b == b']');
-            let number = register(&text[at + 2..at + end.unwrap_or(2)]).number;
+            let inside = &text[at + 2..];
+            let number = register(&inside[..bracket_end(inside).unwrap_or(0)]).number;
             let Some(number) = number.filter(|number| *number < MOST_NUMBER) else {
                 continue;
             };

@@ -86,10 +86,10 @@ impl Reader<'_> {
 
     /// Whether the text tells what an instruction writes.
     pub(super) fn note_told(&mut self, effect_of: Effect, third: &[u8], written: Written) {
-        let is_told = match effect_of {
-            Effect::Copy | Effect::Argument | Effect::Part | Effect::Computed => true,
-            Effect::System | Effect::None | Effect::Perhaps => false,
-        };
+        let is_told = matches!(
+            effect_of,
+            Effect::Copy | Effect::Argument | Effect::Part | Effect::Computed
+        );
         if is_told && !is_actual(third) {
             match written {
                 Written::One(variable) => _ = self.told.insert(variable),
