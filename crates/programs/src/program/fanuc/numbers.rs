@@ -257,10 +257,10 @@ impl Known {
             let (times, rest) = self.of_text(text, at, &mut of).apart();
             rest.exact().filter(|_| times == 0.0)
         };
-        let twice = read.iter().filter(|_| read.len() < count);
+        let mut twice = read.iter().filter(|_| read.len() < count);
         let exact = whole
             .exact()
-            .or_else(|| twice.filter_map(|one| without(*one)).next());
+            .or_else(|| twice.find_map(|one| without(*one)));
         let bound = read.iter().filter_map(|number| {
             let told = now(*number)?;
             Some((*number, Rc::clone(told)))

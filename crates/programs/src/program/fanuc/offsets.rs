@@ -195,15 +195,12 @@ impl Reader<'_> {
         let mut amounts = Vec::with_capacity(offsets.len());
         for (axes, text) in offsets {
             let of = text.map_or(Which::Condition, which);
-            let now = match of {
-                Which::One(number) => {
-                    let all = (0..ELEMENTS).map(|at| self.known.now(of_position(number, at)));
-                    all.collect()
-                }
-                _ => {
-                    self.known.settle();
-                    Vec::new()
-                }
+            let now = if let Which::One(number) = of {
+                let all = (0..ELEMENTS).map(|at| self.known.now(of_position(number, at)));
+                all.collect()
+            } else {
+                self.known.settle();
+                Vec::new()
             };
             amounts.push(Amount {
                 axes: *axes,
