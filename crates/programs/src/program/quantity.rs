@@ -133,6 +133,12 @@ impl Quantity {
         Some((least, most))
     }
 
+    /// Whether the text tells any of it, and be it that it is nothing.
+    pub(super) fn is_of_program(&self) -> bool {
+        let is_known = self.unknown.is_none() || self.first != 0.0 || !self.steps.is_empty();
+        is_known || self.own != 0.0 || self.is_endless() || self.of_text() > 0.0
+    }
+
     /// What the numbers of the text in the unknown part come to.
     pub(super) fn of_text(&self) -> f64 {
         let of_text = self.unknown.filter(|unknown| unknown.is_of_text);

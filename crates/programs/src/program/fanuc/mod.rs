@@ -26,20 +26,23 @@
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
-//! A move with `Offset`, `Tool_Offset` or `VOFFSET` goes to a point that only the running program
-//! knows: it takes the correction of its point along, which is reported as `displacement-unknown`.
-//! Where the robot stands behind a move that `Skip` or `Search[…]` ended is unknown.
+//! A move with `Offset` or `Tool_Offset` goes to a point that takes the correction of its own along,
+//! displaced by the numbers of a register: [`numbers`] says what the programs write into these,
+//! [`offsets`] what that displaces. Where only the running robot knows them, and with `VOFFSET`, that
+//! is reported as `displacement-unknown`; where the text tells them in a way that is not followed,
+//! nothing bounds it. Where the robot stands behind a move that `Skip` or `Search[…]` ended is
+//! unknown.
 //!
 //! # Limits
 //!
-//! Registers `R[n]` are not followed: what they select is unknown. A program that a local condition
+//! What registers `R[n]` select is unknown: tools, frames, points. A program that a local condition
 //! of a move (TB, TA) calls is taken to run behind the move. `PAYLOAD` is not read: a tool's load
 //! is the profile's. A translated INC, RTCP, COORD, IF or CALL is known in German only. That moves
 //! other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
 mod config;
-mod constants;
+mod content;
 mod controller;
 mod drive;
 mod frames;
@@ -47,8 +50,11 @@ mod insert;
 mod lines;
 pub mod mark;
 mod moves;
+mod numbers;
+mod offsets;
 mod points;
 mod reader;
+mod registers;
 mod sections;
 mod statements;
 mod words;
@@ -79,7 +85,7 @@ static ABOUT: About = About {
         "points that no move uses",
         "moves to position registers that are no copies of points, with a warning",
         "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction \
-         along, a warning says so",
+         along; how far off it lands is said",
         "SYSFRAME.VA and FRAME.DG, which tell tools and user frames",
     ],
     refuses: &[

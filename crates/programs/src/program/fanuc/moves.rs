@@ -2,12 +2,11 @@
 
 use super::controller::{Kind, Why, kinds};
 use super::lines::Line;
+use super::offsets::Axes;
 use super::reader::Reader;
 use super::words::{Named, position, word_length};
 use crate::geometry::units::MM;
-use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, Instruction, Modal, NOT_DISPLACED, Remark, Span, short,
-};
+use crate::program::script::{Expr, Instruction, Modal, Remark, Span, short};
 use crate::program::{Motion, SpeedZone, number};
 use std::ops::Range;
 
@@ -17,8 +16,8 @@ use std::ops::Range;
 struct Words {
     /// By the first four of [`Why`].
     against: [bool; 4],
-    /// `Offset`, `Tool_Offset`, `VOFFSET` and the like.
-    displaced: bool,
+    /// `Offset`, `Tool_Offset`, `VOFFSET` and the like, each with its register.
+    offsets: Vec<(Axes, Option<Range<usize>>)>,
     /// `Wjnt`
     wrist_joint: bool,
     /// `Skip`, `Search[…]`: the robot may stop on the way.
@@ -26,6 +25,8 @@ struct Words {
     speed_zone: SpeedZone,
     /// Nothing but how fast and how near to go.
     is_plain: bool,
+    /// Nothing but that and offsets.
+    is_harmless: bool,
     /// What happens at the end: calls, jumps, writes.
     then: Vec<Range<usize>>,
 }
@@ -78,11 +79,6 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
-            displacement: if words.displaced {
-                DISPLACED_SOMEHOW
-            } else {
-                NOT_DISPLACED
-            },
             ..Instruction::at(self.place)
         };
         let modal = Modal {
@@ -98,6 +94,7 @@ impl Reader<'_> {
             ..Modal::default()
         };
         let listed = self.builder.script.instructions.len();
+        let named: Vec<Named> = points.iter().map(|(named, _)| *named).collect();
         for (index, (named, span)) in points.into_iter().enumerate() {
             let motion = match (letter, is_arc, index) {
                 (b'J', ..) => Motion::Joint,
@@ -118,12 +115,23 @@ impl Reader<'_> {
             );
         }
         self.row(is_row, listed);
+        self.known.moves();
+        if !words.offsets.is_empty() {
+            let here = listed..self.builder.script.instructions.len();
+            let offsets = words.offsets.iter();
+            let offsets = offsets.map(|(axes, at)| (*axes, at.clone().map(|at| &text[at])));
+            self.displace(here, &offsets.collect::<Vec<_>>(), &named);
+        }
         // what else it does may write registers
-        if !words.is_plain {
-            self.state.constants.clear();
+        if !words.is_harmless {
+            self.known.clear();
+            self.known.open();
         }
         for part in words.then {
             self.then(&text[part]);
+        }
+        if !words.is_harmless {
+            self.known.close();
         }
         if words.may_stop {
             // where the robot stands then is known to nobody
@@ -323,6 +331,7 @@ impl Words {
     fn of(text: &[u8], from: usize) -> Self {
         let mut words = Self {
             is_plain: true,
+            is_harmless: true,
             ..Self::default()
         };
         let mut at = from;
@@ -335,6 +344,18 @@ impl Words {
                 continue;
             }
             words.is_plain &= is_plain(text);
+            if let Some((_, register @ None)) = words.offsets.last_mut()
+                && matches!(position(text), Some((Named::Register(_), _)))
+            {
+                *register = Some(token);
+                continue;
+            }
+            let axes = Axes::of(&text.to_ascii_uppercase());
+            if let Some(axes) = axes {
+                words.offsets.push((axes, None));
+                continue;
+            }
+            words.is_harmless &= is_plain(text) || text.starts_with(b"VR[");
             is_called = !words.speed_zone_of(text) && words.take(text, token);
         }
         words
@@ -351,12 +372,8 @@ impl Words {
             b"SKIP" | b"SEARCH" => self.may_stop = true,
             b"CALL" | b"AUFRUF" => return true,
             b"LBL" | b"LABEL" => self.then.push(at),
-            name => {
-                self.displaced |= name.ends_with(b"OFFSET");
-                if text.contains(&b'=') {
-                    self.then.push(at);
-                }
-            }
+            _ if text.contains(&b'=') => self.then.push(at),
+            _ => {}
         }
         false
     }
@@ -450,14 +467,15 @@ mod tests {
     fn what_follows_a_point_is_reported() {
         let plain = words("R[25:INC Offset]mm/sec FINE ACC100 TB .10sec,CALL RTCP(1),LBL[3:COORD]");
         assert_eq!(plain.against, [false; 4]);
-        assert!(!plain.displaced && plain.then.len() == 2);
+        assert!(plain.offsets.is_empty() && plain.then.len() == 2);
         for text in [
             "Tool_Offset,PR[2]",
             "Offset,PR[60:Corr]",
             "WKZ_Offset",
             "VOFFSET,VR[1]",
         ] {
-            assert!(words(&format!("9mm/sec FINE {text}")).displaced, "{text}");
+            let found = words(&format!("9mm/sec FINE {text}"));
+            assert!(found.offsets.len() == 1 && found.is_harmless, "{text}");
         }
         assert!(words("9mm/sec FINE INC").against[0]);
         assert!(words("9mm/sec FINE RTCP").against[1]);

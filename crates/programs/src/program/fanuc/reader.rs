@@ -4,10 +4,13 @@ use super::ABOUT;
 use super::controller::{Controller, Why};
 use super::frames::{self, Frames};
 use super::lines::Lines;
+use super::numbers::Known;
+use super::offsets::{Condition, Copied, Offset};
 use super::points::{Content, Point, Points, bad_value};
+use super::registers::{Part, Sum};
 use super::sections::Sections;
 use super::statements::State;
-use super::words::{Named, Register};
+use super::words::{Named, Register, words};
 use crate::finding::{Finding, Severity};
 use crate::program::kit::{Fault, not_this_language};
 use crate::program::script::{
@@ -88,10 +91,34 @@ pub(super) struct Reader<'a> {
     pub copies: Vec<(Place, u32)>,
     /// Writes of tools and frames from registers.
     pub from_registers: Vec<(usize, u32)>,
-    /// Writes of frames by registers whose numbers the program has just written.
-    pub from_constants: Vec<usize>,
     /// Moves to any register.
     pub to_any_register: Vec<usize>,
+    /// What the numbers in registers may be.
+    pub known: Known,
+    pub copied: Copied,
+    /// What depends on these.
+    pub offsets: Vec<Offset>,
+    pub conditions: Vec<Condition>,
+    pub sums: Vec<Sum>,
+    pub parts: Vec<Part>,
+    /// Points that programs write.
+    pub written_points: BTreeSet<TargetId>,
+}
+
+/// Whether a program runs another at the same time.
+fn starts_others(bytes: &[u8], names: &HashMap<Box<str>, Vec<(RoutineId, bool)>>) -> bool {
+    let has = |word: &[u8]| memchr::memmem::find(bytes, word).is_some();
+    if !has(b"RUN") && !has(b"MONITOR") {
+        return false;
+    }
+    Lines::new(bytes, 0..bytes.len()).any(|line| {
+        let mut words = words(&bytes[line.text]);
+        let is_start = |word: &[u8]| matches!(word, b"RUN" | b"MONITOR");
+        words.any(is_start)
+            && words
+                .next()
+                .is_some_and(|name| names.contains_key(&called(name)))
+    })
 }
 
 /// Whether an instruction is `R[1]=PR[4,3]`, or a sum with such an element.
@@ -147,9 +174,19 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         gets_elements: sources.iter().any(|source| gets_elements(&source.bytes)),
         copies: Vec::new(),
         from_registers: Vec::new(),
-        from_constants: Vec::new(),
         to_any_register: Vec::new(),
+        known: Known::default(),
+        copied: Copied::default(),
+        offsets: Vec::new(),
+        conditions: Vec::new(),
+        sums: Vec::new(),
+        parts: Vec::new(),
+        written_points: BTreeSet::new(),
     };
+    reader.known.is_concurrent = listings.iter().any(|listing| {
+        let bytes = &reader.sources[listing.file as usize].bytes;
+        starts_others(&bytes[listing.lines.clone()], &reader.by_name)
+    });
     for listing in listings {
         reader.listing(listing);
     }
@@ -299,6 +336,7 @@ impl Reader<'_> {
         let (lists, arguments) = (script.lists.len(), script.arguments.len());
         let (instructions, writes) = (script.instructions.len(), script.writes.len());
         self.builder.open(self.listing.routine);
+        self.known.begin(self.listing.routine);
         for line in Lines::new(self.bytes, self.listing.lines.clone()) {
             let offset = short(line.text.start);
             self.place = Place::new(file, offset);
@@ -349,6 +387,7 @@ impl Reader<'_> {
 
     /// The variable of a point that the program writes.
     pub(super) fn written(&mut self, target: TargetId) -> VariableId {
+        self.written_points.insert(target);
         let script = &mut self.builder.script;
         *self.listing.written.entry(target).or_insert_with(|| {
             let Target { name, .. } = script.targets[target].clone();
@@ -406,14 +445,8 @@ impl Reader<'_> {
                 self.builder.script.writes[write].how = How::Whole(Expr::Variable(variable));
             }
         }
-        // a program that runs concurrently may have written the registers meanwhile
-        let mut routines = self.builder.script.routines.iter();
-        if routines.any(|routine| routine.start == Start::Concurrent) {
-            for write in std::mem::take(&mut self.from_constants) {
-                let assigned = Expr::Unknown(self.controller.assigned);
-                self.builder.script.writes[write].how = How::Whole(assigned);
-            }
-        }
+        let copied = self.finish_offsets();
+        self.finish_registers(&copied);
         let mut all = vec![Expr::Unknown(self.controller.computed)];
         for number in std::mem::take(&mut self.aliased) {
             all.push(Expr::Variable(self.register(number)));

@@ -1,28 +1,29 @@
 //! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and
 //! points.
 
-use super::constants::Constants;
+use super::content::canonical;
 use super::controller::{Kind, Mode, Which, kinds};
 use super::lines::Line;
 use super::moves::Row;
+use super::numbers::{ANY_LABEL, MOST_NUMBER, counter, of_position};
+use super::offsets::Axes;
 use super::reader::{Reader, called};
 use super::words::{
     Named, Register, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position,
-    element, indexed, is_word, motion, parts, position, register, whole, word_length, words,
+    indexed, is_word, motion, parts, position, register, whole, word_length, words,
 };
-use crate::program::notation::grown_by;
-use crate::program::number;
-use crate::program::script::{
-    Argument, Call, DISPLACED_SOMEHOW, Expr, How, Start, VariableId, Written, short,
-};
+use crate::program::script::{Argument, Call, Expr, How, Start, VariableId, Written, short};
 use std::collections::BTreeSet;
 
 /// Conditions inside conditions.
 const DEEPEST: u32 = 4;
 /// Arguments of a call.
 const MOST_ARGUMENTS: u32 = 10;
-/// The label that a register names.
-const ANY_LABEL: u64 = u64::MAX;
+/// Words of the language that begin instructions.
+const KNOWN: &str = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN \
+    JOINT_MAX_SPEED LINEAR_MAX_SPEED LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG \
+    RETURN_PATH_DSBL SEMAPHORE SKIP STOP TIMER TOOL_OFFSET UALM UNLOCK VOFFSET WAIT WARTEN WEAVE \
+    WELD";
 
 /// Where one program is while it is read.
 #[derive(Debug, Default)]
@@ -34,7 +35,6 @@ pub(super) struct State {
     labels: BTreeSet<u64>,
     /// A register says which label the program goes to.
     goes_anywhere: bool,
-    pub constants: Constants,
 }
 
 impl Reader<'_> {
@@ -51,17 +51,17 @@ impl Reader<'_> {
         let is_case = text.starts_with(b"=") || is_else && comma(text).is_some();
         if !is_case && std::mem::take(&mut self.state.selects) {
             self.builder.end_choice();
+            self.known.close();
         }
         if is_case || is_else {
             // what the branch before wrote is not there in this one
-            self.state.constants.clear();
+            self.known.branch();
             self.builder.next_branch(is_else);
             self.behind_comma(text, 0);
         } else if let Some((letter, at)) = motion(text) {
             self.go(line, letter, at);
         } else if !text.is_empty() {
             self.statement(text, 0);
-            self.state.constants.follow(text);
         }
     }
 
@@ -71,6 +71,7 @@ impl Reader<'_> {
         if state.selects {
             self.builder.end_choice();
         }
+        self.known.end();
         if state.goes_anywhere {
             self.builder.back();
             self.builder.label(ANY_LABEL);
@@ -90,28 +91,50 @@ impl Reader<'_> {
             (b"LBL" | b"LABEL", _) if depth == 0 => {
                 if let Some(Some(number)) = indexed(rest) {
                     self.state.labels.insert(number.into());
+                    self.known.label(number.into());
                     self.builder.label(number.into());
                 }
             }
             (b"LBL" | b"LABEL", _) => self.jump(rest, false),
             (b"JMP" | b"SPRUNG", _) => self.jump(&rest[word_length(rest)..], false),
             (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => {
+                self.known.open();
                 self.builder.begin_if(None);
             }
-            (b"ENDIF", _) => self.builder.end_choice(),
-            (b"FOR", _) => self.builder.begin_loop(true),
-            (b"ENDFOR", _) => self.builder.end_loop(false),
+            (b"ENDIF", _) => {
+                self.known.close();
+                self.builder.end_choice();
+            }
+            (b"FOR", _) => {
+                let text = canonical(rest);
+                let most = self
+                    .known
+                    .begin_loop(self.builder.script.loops.len(), counter(&text));
+                self.builder.begin_rounds(true, most);
+            }
+            (b"ENDFOR", _) => {
+                self.known.end_loop();
+                self.builder.end_loop(false);
+            }
             (b"SELECT", _) if depth == 0 => {
                 self.state.selects = true;
+                self.known.clear();
+                self.known.open();
                 self.builder.begin_choice();
                 self.builder.next_branch(false);
                 self.behind_comma(rest, 0);
             }
             (b"CALL" | b"AUFRUF", _) => self.call(rest),
-            (b"RUN" | b"MONITOR", _) => self.start(rest),
+            (b"RUN" | b"MONITOR", _) => {
+                self.known.clear();
+                self.start(rest);
+            }
             (b"END" | b"ENDE", None) => self.builder.back(),
             (b"ABORT" | b"ABBRUCH", None) => self.builder.exit(),
-            (b"TOUCH" | b"SEARCH" | b"TRACK", _) => self.mode(&name, rest),
+            (b"TOUCH" | b"SEARCH" | b"TRACK", _) => {
+                self.known.clear();
+                self.mode(&name, rest);
+            }
             (_, Some(b'=')) if selects(&name).is_some() => {
                 self.select(selects(&name).flatten(), rest[1..].trim_ascii());
             }
@@ -119,7 +142,12 @@ impl Reader<'_> {
                 let (index, value) = assigned(rest).expect("just asked");
                 self.assign(&name, index, value);
             }
-            _ => self.other(&name, text, depth),
+            _ => match Axes::of(&name) {
+                Some(axes) if memchr::memmem::find(rest, b"PR[").is_some() => {
+                    self.condition(axes, rest);
+                }
+                _ => self.other(&name, text, depth),
+            },
         }
     }
 
@@ -147,9 +175,22 @@ impl Reader<'_> {
         let mut known = text;
         if let Some(comma) = comma.filter(|_| is_condition) {
             known = &text[..comma];
+            let action = text[comma + 1..].trim_ascii();
+            let word = action[..word_length(action)].to_ascii_uppercase();
+            // what goes elsewhere leaves behind it all as it is
+            let is_jump = is_one_of(&word, "JMP SPRUNG LBL LABEL END ENDE ABORT ABBRUCH");
+            if !is_jump {
+                self.known.open();
+            }
             self.builder.begin_if(None);
             self.behind_comma(text, depth);
             self.builder.end_choice();
+            if !is_jump {
+                self.known.close();
+            }
+        } else if !is_condition && !is_harmless(name) {
+            self.known.clear();
+            self.lose_registers(text);
         }
         let mut given = Vec::new();
         each_position(known, |named| {
@@ -167,6 +208,7 @@ impl Reader<'_> {
         let Some(number) = indexed(index) else { return };
         self.state.goes_anywhere |= number.is_none();
         let key = number.map_or(ANY_LABEL, u64::from);
+        self.known.jump(key);
         if may {
             self.builder.may_go_to(key);
         } else {
@@ -182,13 +224,18 @@ impl Reader<'_> {
         let given = given.strip_suffix(b")").unwrap_or(given);
         let callees = self.by_name.get(&name).cloned().unwrap_or_default();
         let first = short(self.builder.script.arguments.len());
+        for (routine, _) in &callees {
+            self.known.calls(*routine);
+        }
         for (routine, _) in callees.iter().filter(|(_, uses_arguments)| *uses_arguments) {
             for (number, value) in (1..=MOST_ARGUMENTS).zip(parts(given)) {
+                self.known.give(*routine, number, &canonical(value));
                 let value = self.selection(None, value);
                 let parameter = Some(self.argument(*routine, number));
                 self.give(parameter, value);
             }
         }
+        self.known.clear();
         let callees = callees.iter().map(|(routine, _)| *routine).collect();
         let arguments = first..short(self.builder.script.arguments.len());
         self.builder
@@ -238,13 +285,33 @@ impl Reader<'_> {
 
     // ---- writes
 
-    fn write(&mut self, variable: Written, how: How) {
+    pub(super) fn write(&mut self, variable: Written, how: How) {
         let place = self.place;
         self.builder.write(place, variable, how);
     }
 
     pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
         self.write(Written::One(variable), How::Whole(value));
+    }
+
+    /// An instruction that nobody knows may write the registers that it names.
+    fn lose_registers(&mut self, text: &[u8]) {
+        let text = canonical(text);
+        for at in memchr::memmem::find_iter(&text, b"R[") {
+            let is_position = at.checked_sub(1).is_some_and(|before| text[before] == b'P');
+            let inside = &text[at + 2..];
+            let number = register(&inside[..bracket_end(inside).unwrap_or(0)]).number;
+            let Some(number) = number.filter(|number| *number < MOST_NUMBER) else {
+                continue;
+            };
+            if is_position {
+                for element in 0..6 {
+                    self.known.lose(of_position(number, element));
+                }
+            } else if at == 0 || !is_word(text[at - 1]) {
+                self.known.lose(number);
+            }
+        }
     }
 
     fn mode(&mut self, name: &[u8], rest: &[u8]) {
@@ -263,6 +330,7 @@ impl Reader<'_> {
             {
                 let register = self.register(number);
                 self.set(register, Expr::Unknown(self.controller.computed));
+                self.lose_registers(rest);
             }
         }
     }
@@ -302,6 +370,7 @@ impl Reader<'_> {
             b"P" => self.set_point(index, value),
             b"PR" | b"UFRAME" | b"UTOOL" if !is_ours => {}
             b"PR" => self.set_register(index, value),
+            b"R" => self.set_number(index, value),
             b"UFRAME" | b"UTOOL" => {
                 self.set_frame(kind_of(name), whole(behind_group(index)), value);
             }
@@ -346,9 +415,8 @@ impl Reader<'_> {
             let script = &mut self.builder.script;
             let entry = self.controller.entry(script, kind, number);
             let written = source.filter(|_| which.is_some());
-            let numbers = written.and_then(|register| self.state.constants.pose(register));
+            let numbers = written.and_then(|register| self.known.pose(register));
             if let Some(pose) = numbers {
-                self.from_constants.push(script.writes.len());
                 let value = Expr::Value(script.frame(number.to_string(), Some(pose)));
                 self.set(entry, value);
                 continue;
@@ -363,7 +431,7 @@ impl Reader<'_> {
     }
 
     /// `UTOOL[1]` as a value.
-    fn other_frame(&mut self, value: &[u8]) -> Option<Expr> {
+    pub(super) fn other_frame(&mut self, value: &[u8]) -> Option<Expr> {
         let (word, index) = value.split_at(word_length(value));
         let kind = match word {
             b"UTOOL" => Kind::Tool,
@@ -375,125 +443,6 @@ impl Reader<'_> {
             .controller
             .entry(&mut self.builder.script, kind, number);
         Some(Expr::Variable(entry))
-    }
-
-    /// `P[2]=PR[4]`
-    fn set_point(&mut self, index: &[u8], value: &[u8]) {
-        let one = whole(index).map(Named::Point);
-        let holds = self.position_value(value);
-        for target in self.targets(one.unwrap_or(Named::AnyPoint)) {
-            let variable = self.written(target);
-            // a register says which: each may be written
-            if one.is_none() {
-                self.builder.begin_if(None);
-            }
-            self.set(variable, holds);
-            if one.is_none() {
-                self.builder.end_choice();
-            }
-        }
-    }
-
-    /// `PR[4]=P[2]`, `PR[4,3]=R[1]`
-    fn set_register(&mut self, index: &[u8], value: &[u8]) {
-        let Register { number, is_element } = register(index);
-        let how = if is_element {
-            self.part_becomes(index, value)
-        } else {
-            How::Whole(self.position_value(value))
-        };
-        let Some(number) = number else {
-            return self.write(Written::AnyOf(self.controller.registers), how);
-        };
-        if matches!(how, How::Whole(holds) if !matches!(holds, Expr::Unknown(_))) {
-            self.aliased.insert(number);
-        }
-        each_position(value, |named| {
-            if matches!(named, Named::Point(_) | Named::AnyPoint) {
-                self.copies.push((self.place, number));
-            }
-        });
-        let register = self.register(number);
-        self.write(Written::One(register), how);
-    }
-
-    /// What `PR[4,3]=` makes of a register: it displaces it by 200 mm where `PR[4,3]+200` is behind
-    /// it.
-    fn part_becomes(&mut self, index: &[u8], value: &[u8]) -> How {
-        let computed = self.controller.computed;
-        let (own, at) = (register(index).number, element(index));
-        let is_own = |inside: &[u8]| {
-            (register(inside).number, element(inside)) == (own, at) && concerns_group_1(inside)
-        };
-        let number = at.and_then(|at| (at as usize).checked_sub(1));
-        if let Some(number) = number
-            && let Some((term, by)) = number::term_and_sum(value, number::parse)
-            && let Some(inside) = term.strip_prefix(b"PR[").and_then(|t| t.strip_suffix(b"]"))
-            && let Some(displacement) = grown_by(number, by)
-        {
-            if own.is_some() && is_own(inside) {
-                return self.builder.script.part_by(computed, displacement);
-            }
-            if let Some(other) = register(inside).number
-                && element(inside) == at
-                && number < 3
-                && concerns_group_1(inside)
-            {
-                let other = Expr::Variable(self.register(other));
-                let by = self.builder.script.displacement(displacement);
-                return How::PartOf {
-                    remark: computed,
-                    of: other,
-                    axis: number,
-                    by,
-                };
-            }
-        }
-        let mut elements = memchr::memmem::find_iter(value, b"PR[").filter_map(|at| {
-            let inside = &value[at + 3..];
-            Some(&inside[..bracket_end(inside)?])
-        });
-        // what a number register holds may be what an element was
-        let is_number = memchr::memmem::find_iter(value, b"R[")
-            .any(|at| at.checked_sub(1).is_none_or(|before| value[before] != b'P'));
-        let is_own = elements.any(is_own) || is_number && self.gets_elements;
-        How::part(is_own, matches!(number, Some(3..6)), computed)
-    }
-
-    /// The position that a value is: a point, another register, where the robot is, or what is
-    /// computed of these.
-    fn position_value(&mut self, value: &[u8]) -> Expr {
-        if matches!(value, b"LPOS" | b"JPOS") {
-            return Expr::Value(self.controller.actual);
-        }
-        if let Some(frame) = self.other_frame(value) {
-            return frame;
-        }
-        let (mut all, mut positions) = (Vec::new(), Vec::new());
-        each_position(value, |named| all.push(named));
-        for named in all {
-            match named {
-                Named::Point(_) => {
-                    positions.extend(self.targets(named).into_iter().map(Expr::Target));
-                }
-                Named::Register(register) => {
-                    if let Some(number) = self.reads(register) {
-                        positions.push(Expr::Variable(self.register(number)));
-                    }
-                }
-                Named::AnyPoint | Named::Computed => {}
-            }
-        }
-        let is_whole = position(value).is_some_and(|(_, length)| length == value.len());
-        let script = &mut self.builder.script;
-        match positions.as_slice() {
-            [] => Expr::Unknown(self.controller.computed),
-            [one] if is_whole => *one,
-            _ => {
-                let any = script.any(positions);
-                script.displaced(any, DISPLACED_SOMEHOW)
-            }
-        }
     }
 }
 
@@ -543,14 +492,15 @@ fn is_data(name: &[u8]) -> bool {
     is_one_of(name, "R AR SR VR DO RO GO AO DI RI GI AI F M TIMER")
 }
 
+/// Whether an instruction that is no assignment writes no registers, and calls nothing.
+fn is_harmless(name: &[u8]) -> bool {
+    let is_value = matches!(name, [] | [b'$', ..]);
+    is_value || is_one_of(name, "OVERRIDE PAYLOAD PAUSE UALM LOCK UNLOCK SKIP")
+}
+
 /// Whether an instruction may be a macro of the user's, which is a call: words of the language, and
 /// those with an index or an assignment, are none.
 fn is_macro(name: &[u8], text: &[u8]) -> bool {
-    let known = "ABORT ABBRUCH ARC BREAK CASE COL CONTINUE DEFAULT ENABLE END ENDE IF WENN \
-        JOINT_MAX_SPEED LINEAR_MAX_SPEED \
-        LOCK MOVE OFFSET OVERRIDE PAUSE RESET RESUME_PROG RETURN_PATH_DSBL SEMAPHORE SKIP STOP \
-            TIMER TOOL_OFFSET UALM \
-        UNLOCK VOFFSET WAIT WARTEN WEAVE WELD";
     let plain = !text.iter().any(|b| matches!(b, b'[' | b'='));
-    plain && !is_one_of(name, known) && name.first().is_some_and(|b| *b != b'$')
+    plain && !is_one_of(name, KNOWN) && name.first().is_some_and(|b| *b != b'$')
 }

@@ -2,6 +2,7 @@
 
 mod compensated;
 mod flow;
+mod offsets;
 mod posts;
 mod registers;
 mod robust;

@@ -74,10 +74,7 @@ pub(super) fn position(text: &[u8]) -> Option<(Named, usize)> {
 /// `4`, `4:name`, `GP1:4`, `4,2:name`, `R[1]`
 pub(super) fn register(index: &[u8]) -> Register {
     let index = behind_group(index);
-    let colon = memchr::memchr(b':', index).unwrap_or(index.len());
-    // a comma may be a part of the name
-    let comma = memchr::memchr(b',', index);
-    let comma = comma.filter(|comma| *comma < colon || index[..colon].contains(&b'['));
+    let comma = comma_of_element(index);
     Register {
         number: whole(index[..comma.unwrap_or(index.len())].trim_ascii()),
         is_element: comma.is_some(),
@@ -86,8 +83,23 @@ pub(super) fn register(index: &[u8]) -> Register {
 
 /// Which number of a register is meant: 2 of `4,2:name`.
 pub(super) fn element(index: &[u8]) -> Option<u32> {
-    let index = behind_group(index).split(|&b| b == b':').next()?;
-    whole(index.rsplit(|&b| b == b',').next()?.trim_ascii())
+    let index = behind_group(index);
+    whole(index[comma_of_element(index)? + 1..].trim_ascii())
+}
+
+/// The comma behind the number of a register: one may be a part of the name, too.
+fn comma_of_element(index: &[u8]) -> Option<usize> {
+    let mut open = 0_u32;
+    let ends = |b: &u8| {
+        match b {
+            b'[' => open += 1,
+            b']' => open = open.saturating_sub(1),
+            _ => return open == 0 && matches!(b, b',' | b':'),
+        }
+        false
+    };
+    let at = index.iter().position(ends)?;
+    (index[at] == b',').then_some(at)
 }
 
 /// The length of what stands before the `]` that closes a bracket.

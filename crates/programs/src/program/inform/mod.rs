@@ -34,6 +34,7 @@ mod job;
 mod judge;
 mod lines;
 mod moves;
+mod parts;
 mod rconf;
 mod reader;
 mod relative;

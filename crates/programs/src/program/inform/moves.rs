@@ -318,6 +318,7 @@ impl<'a> Reader<'a> {
         }
         self.place_variables();
         self.follow_copies();
+        self.finish_parts();
         self.judge_positions();
         self.say_starts();
         self.say_copied();

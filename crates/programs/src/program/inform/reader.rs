@@ -4,14 +4,15 @@ use super::cnd::Conditions;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
+use super::parts::{Added, known_numbers};
 use super::relative::{Frames, Given, given, is_relative};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
 use crate::program::kit::label_key;
-use crate::program::number::{self, whole};
+use crate::program::number::whole;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, Held, How, Place, Remark, RemarkId, RoutineId, Script, Start,
-    TableId, ValueId, VariableId, Written, short,
+    Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
+    ValueId, VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -47,6 +48,10 @@ pub(super) fn script<'a>(
         external_names,
         written_external: written_external(sources, &positions),
         given_frames: given(sources, &positions),
+        known_numbers: known_numbers(sources, &positions),
+        written_parts: HashSet::new(),
+        written_any: HashSet::new(),
+        added: Vec::new(),
         gets_parts: sources
             .iter()
             .any(|source| memchr::memmem::find(&source.bytes, b"GETE").is_some()),
@@ -121,7 +126,14 @@ pub(super) struct Reader<'a> {
     /// Calls that give jobs a user frame.
     given_frames: Vec<Given<'a>>,
     /// Numbers of positions are written into others (`GETE`).
-    gets_parts: bool,
+    pub(super) gets_parts: bool,
+    /// Variables with numbers that the text writes.
+    pub(super) known_numbers: HashSet<&'a [u8]>,
+    /// Positions of which the text tells what is written into them.
+    pub(super) written_parts: HashSet<VariableId>,
+    pub(super) written_any: HashSet<TableId>,
+    /// Writes that add one position to another.
+    pub(super) added: Vec<Added>,
 }
 
 /// The letters of variables with axes of a base or a station, and their number; none where only the
@@ -385,6 +397,7 @@ impl<'a> Reader<'a> {
             Written::AnyOf(table) => self.all_written.insert(table),
         };
         let third = words(line.text).nth(2).unwrap_or_default();
+        self.note_told(effect, third, written);
         let value = match effect {
             // with another tool it is another place
             Effect::Copy if !words(line.text).any(|word| word.starts_with(b"TL#")) => {
@@ -406,7 +419,8 @@ impl<'a> Reader<'a> {
         let computed = self.builder.script.remark(Cause::Computed.remark());
         match effect {
             Effect::Part => {
-                self.write(line, written, self.part_becomes(line, computed));
+                let how = self.part_becomes(line, computed);
+                self.write(line, written, how);
             }
             Effect::Perhaps => {
                 self.builder.begin_if(None);
@@ -415,16 +429,6 @@ impl<'a> Reader<'a> {
             }
             _ => self.write(line, written, How::Whole(Expr::Unknown(computed))),
         }
-    }
-
-    /// What `SETE P001 (3) D005` makes of a position: it is displaced where the number may come from
-    /// one.
-    fn part_becomes(&self, line: Line, computed: RemarkId) -> How {
-        let sets = line.text.starts_with(b"SETE");
-        let (value, part) = (words(line.text).last(), words(line.text).nth(2));
-        let is_number = value.is_some_and(|value| number::parse(value).is_some());
-        let is_angle = part.is_some_and(|part| matches!(part, b"(4)" | b"(5)" | b"(6)"));
-        How::part(!sets || !is_number && self.gets_parts, is_angle, computed)
     }
 
     /// Notes the P variables that something is computed from.

@@ -117,9 +117,9 @@ fn a_number_of_the_text_displaces_a_register_by_what_it_says() {
         ("PR[4,3]=R[1] ;", Displacement::Overwritten),
         (
             "R[1]=PR[4,3] ;\nR[1]=R[1]+5 ;\nPR[4,3]=R[1] ;",
-            Displacement::Unbounded,
+            along([0.0, 0.0, 0.005]),
         ),
-        ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unbounded),
+        ("PR[4,3]=PR[4,3]+R[1] ;", Displacement::Unknown),
         (
             "PR[4,6]=PR[4,6]+90 ;",
             Displacement::Within(Box::new([Stride::Turned(Some(90_f64.to_radians()))])),
@@ -236,6 +236,10 @@ fn a_frame_is_what_the_program_has_just_written() {
     let pose = known.expect("the tool");
     assert!((pose.translation[0] + 0.03).abs() < 1e-12 && found.is_empty());
     assert!((pose.rotation.angle() - 60_f64.to_radians()).abs() < 1e-12);
+    let (computed, _) = tool(&format!(
+        "{numbers}R[5]=2 ;\nPR[3,1]=PR[3,1]+R[5]/4 ;\n{behind}"
+    ));
+    assert!((computed.expect("the tool").translation[0] + 0.0295).abs() < 1e-12);
     // behind a label, a call, a condition, a move that does more; another register, one from
     // elsewhere, one that is not whole
     for line in [
@@ -247,7 +251,7 @@ fn a_frame_is_what_the_program_has_just_written() {
         "ELSE ;\nPR[3,1]=5 ;",
         "PR[R[1]]=PR[4] ;",
         "PR[3,1]=R[5] ;",
-        "PR[3,1]=PR[3,1]+1 ;",
+        "PR[3,1]=PR[3,1]+R[5] ;",
     ] {
         let (_, found) = tool(&format!("{numbers}{line}\n{behind}"));
         assert!(

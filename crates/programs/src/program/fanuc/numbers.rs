@@ -1,0 +1,445 @@
+//! What the numbers in registers may be: `R[n]`, `PR[n,i]`, and arguments of programs, `AR[n]`.
+//!
+//! What the program has just written is known, from the last branch, label or call on; elsewhere a
+//! register is any of what the text writes into it (see [`crate::program::numbers`]), and what it
+//! held before where the text may come to a move without a write.
+
+use super::content::{Content, Entered, Own};
+use super::words::whole;
+use crate::geometry::Pose;
+use crate::program::TargetId;
+use crate::program::notation::pose_of_angles;
+use crate::program::numbers::{Blocks, Numbers, Site, rounds};
+use crate::program::quantity::Quantity;
+use crate::program::script::RoutineId;
+use foldhash::{HashMap, HashSet};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Numbers of a position: of the arm, and of other axes.
+pub(super) const ELEMENTS: u32 = 9;
+/// Registers have numbers below this.
+pub(super) const MOST_NUMBER: u32 = (1 << 19) - 1;
+const OF_POSITIONS: u32 = 1 << 24;
+const OF_CALLS: u32 = 1 << 30;
+/// The label that a register names.
+pub(super) const ANY_LABEL: u64 = u64::MAX;
+/// Numbers that are known as they were written last.
+const MOST_NOW: usize = 512;
+/// Texts in a value.
+const MOST_TEXTS: usize = 64;
+
+/// One of a position register, the first being 0; any of all registers where those have no number.
+pub(super) fn of_position(number: u32, element: u32) -> u32 {
+    OF_POSITIONS | number << 4 | element
+}
+
+/// An argument of a program.
+pub(super) fn of_call(routine: RoutineId, number: u32) -> u32 {
+    OF_CALLS | routine << 4 | number
+}
+
+/// A register is written that another register names.
+fn any_of(number: u32) -> u32 {
+    match number {
+        OF_CALLS.. => number,
+        OF_POSITIONS.. => of_position(MOST_NUMBER, number & 15),
+        _ => MOST_NUMBER,
+    }
+}
+
+/// What the program has just written.
+#[derive(Debug)]
+struct Written {
+    entered: Rc<Entered>,
+    site: Site,
+    /// In the present program, in no branch.
+    order: Option<u32>,
+    is_settled: bool,
+}
+
+/// The way through the present program.
+#[derive(Debug, Default)]
+struct Path {
+    routine: RoutineId,
+    order: u32,
+    /// Branches that are open.
+    depth: u32,
+    jumps: Vec<(u32, u64)>,
+    labels: HashMap<u64, u32>,
+    last_move: u32,
+    /// What is written in no branch, and where.
+    written: Vec<(u32, u32)>,
+}
+
+/// A loop that counts.
+#[derive(Debug)]
+struct Loop {
+    counter: u32,
+    block: (u32, u32),
+    /// Among those of the script.
+    number: usize,
+}
+
+/// What is known of the numbers in registers.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    numbers: Numbers<Rc<Entered>>,
+    blocks: Blocks,
+    now: BTreeMap<u32, Written>,
+    path: Path,
+    /// Other programs run at the same time.
+    pub is_concurrent: bool,
+    /// Numbers that are written whatever way the programs go.
+    sure: HashSet<u32>,
+    all: HashSet<u32>,
+    /// Any register may be written.
+    any: Vec<(u32, Rc<Entered>)>,
+    loops: Vec<Loop>,
+    assigned: HashSet<u32>,
+    /// Points whose numbers are written into registers.
+    pub points: HashMap<(RoutineId, u32), TargetId>,
+    /// The numbers of those that nothing rewrites.
+    pub values: HashMap<TargetId, [f64; 6]>,
+}
+
+impl Known {
+    // ---- the way
+
+    pub(super) fn begin(&mut self, routine: RoutineId) {
+        self.blocks.begin(routine);
+        self.path = Path {
+            routine,
+            ..Path::default()
+        };
+    }
+
+    /// The end of a program: what is written before all moves that a jump may come to.
+    pub(super) fn end(&mut self) {
+        self.clear();
+        let path = std::mem::take(&mut self.path);
+        let last_jump = path.jumps.iter().map(|(at, _)| *at).max().unwrap_or(0);
+        let mut passed = vec![0_i32; path.order as usize + 2];
+        for (at, label) in &path.jumps {
+            let to = path.labels.get(label).copied().unwrap_or(path.order + 1);
+            let comes_to_moves = *label == ANY_LABEL || to <= path.last_move || last_jump > to;
+            if to > *at && comes_to_moves {
+                passed[*at as usize] += 1;
+                passed[to as usize] -= 1;
+            }
+        }
+        let mut over = 0;
+        for passed in &mut passed {
+            over += *passed;
+            *passed = over;
+        }
+        let sure = path.written.into_iter();
+        let sure = sure.filter(|(_, at)| passed[*at as usize] == 0);
+        self.sure.extend(sure.map(|(number, _)| number));
+    }
+
+    /// A branch begins.
+    pub(super) fn open(&mut self) {
+        self.settle();
+        self.path.depth += 1;
+        self.blocks.open(Some(1));
+    }
+
+    pub(super) fn branch(&mut self) {
+        self.clear();
+        self.blocks.branch();
+    }
+
+    pub(super) fn close(&mut self) {
+        self.clear();
+        self.path.depth = self.path.depth.saturating_sub(1);
+        self.blocks.close();
+    }
+
+    pub(super) fn label(&mut self, key: u64) {
+        self.clear();
+        self.path.order += 1;
+        self.path.labels.insert(key, self.path.order);
+    }
+
+    pub(super) fn jump(&mut self, key: u64) {
+        self.settle();
+        self.path.order += 1;
+        self.path.jumps.push((self.path.order, key));
+        self.numbers.jumps(self.path.routine);
+    }
+
+    pub(super) fn calls(&mut self, routine: RoutineId) {
+        self.numbers.calls(self.path.routine, routine);
+    }
+
+    /// A move that may be displaced.
+    pub(super) fn moves(&mut self) {
+        self.path.order += 1;
+        self.path.last_move = self.path.order;
+    }
+
+    /// `FOR R[1]=1 TO 4`, the next loop of a script; the counter where it is known. How often it runs
+    /// at most.
+    pub(super) fn begin_loop(&mut self, next: usize, counter: Option<(u32, &[u8])>) -> Option<u32> {
+        let counting = counter.and_then(|(number, range)| {
+            let at = |word: &[u8]| memchr::memmem::find(range, word);
+            let (start, length, is_down) = match (at(b"DOWNTO"), at(b"TO")) {
+                (Some(at), _) => (at, 6, true),
+                (None, Some(at)) => (at, 2, false),
+                _ => return None,
+            };
+            Some((number, &range[..start], &range[start + length..], is_down))
+        });
+        let exact = |text: &[u8]| self.entered(u32::MAX, text.trim_ascii(), 0).exact();
+        let mut most = None;
+        if let Some((_, from, to, is_down)) = counting {
+            let step = if is_down { -1.0 } else { 1.0 };
+            let ends = exact(from).zip(exact(to));
+            most = ends.and_then(|(from, to)| rounds(from, to, step));
+        }
+        self.clear();
+        if let Some((number, from, to, is_down)) = counting {
+            let text = |text: &[u8]| Rc::from(text.trim_ascii());
+            let (from, to) = (text(from), text(to));
+            let content = Content::Counted { from, to, is_down };
+            let entered = Rc::new(Entered::of(content, self.path.routine));
+            let site = self.blocks.site();
+            self.all.insert(number);
+            self.numbers.write(number, entered, Some(site));
+        } else if let Some((number, _)) = counter {
+            self.lose(number);
+        }
+        self.path.depth += 1;
+        self.blocks.open(most);
+        self.loops.extend(counter.map(|(counter, _)| Loop {
+            counter,
+            block: self.blocks.last(),
+            number: next,
+        }));
+        most
+    }
+
+    pub(super) fn end_loop(&mut self) {
+        self.close();
+    }
+
+    // ---- what is written
+
+    /// What a number becomes, by a text without names.
+    pub(super) fn entered(&self, own: u32, text: &[u8], element: usize) -> Entered {
+        let at = (element, self.path.routine);
+        let mut read = Vec::new();
+        let now = |number| self.now.get(&number).map(|written| &written.entered);
+        let known = |number| now(number).and_then(|entered| entered.exact());
+        let value = |number| known(number).map_or_else(Quantity::unknown, Quantity::exactly);
+        let whole = self.of_text(text, at, &mut |number| {
+            read.push(number);
+            value(number)
+        });
+        let count = read.len();
+        let size = read
+            .iter()
+            .map(|number| now(*number).map_or(1, |entered| entered.size));
+        let size = 1 + size.sum::<usize>();
+        read.sort_unstable();
+        read.dedup();
+        let is_own = read.contains(&own) && now(own).is_none();
+        // what is subtracted from itself is nothing
+        let without = |one: u32| {
+            let mut of = |number| {
+                if number == one {
+                    Quantity::own()
+                } else {
+                    value(number)
+                }
+            };
+            let (times, rest) = self.of_text(text, at, &mut of).apart();
+            rest.exact().filter(|_| times == 0.0)
+        };
+        let mut twice = read.iter().filter(|_| read.len() < count);
+        let exact = whole
+            .exact()
+            .or_else(|| twice.find_map(|one| without(*one)));
+        let bound = read.iter().filter_map(|number| {
+            let entered = now(*number)?;
+            Some((*number, Rc::clone(entered)))
+        });
+        let content = match exact {
+            Some(exact) => Content::Exactly(exact),
+            None if size > MOST_TEXTS => Content::Endless,
+            None => Content::Text(text.into()),
+        };
+        let is_text = matches!(content, Content::Text(_));
+        let read = read.iter().copied();
+        let read = read.filter(|number| is_text && now(*number).is_none());
+        Entered {
+            content,
+            element,
+            routine: at.1,
+            bound: bound.filter(|_| is_text).collect(),
+            size: if is_text { size } else { 1 },
+            is_own: is_text && is_own,
+            read: read.collect(),
+        }
+    }
+
+    /// A number becomes something.
+    pub(super) fn write(&mut self, number: u32, entered: Entered) {
+        self.path.order += 1;
+        let is_sure = self.path.depth == 0 && !entered.is_own;
+        let written = Written {
+            entered: Rc::new(entered),
+            site: self.blocks.site(),
+            order: Some(self.path.order).filter(|_| is_sure),
+            is_settled: false,
+        };
+        self.assigned.insert(number);
+        if self.now.len() > MOST_NOW {
+            self.clear();
+        }
+        if written.entered.is_own {
+            // it adds up: how often is known once all programs are read
+            self.settle();
+            self.now.retain(|_, of| !of.entered.has_read(number));
+            self.all.insert(number);
+            self.numbers
+                .write(number, written.entered, Some(written.site));
+            return;
+        }
+        self.now.insert(number, written);
+        if self.is_concurrent {
+            self.clear();
+        }
+    }
+
+    /// A register becomes something, and another register says which.
+    pub(super) fn write_any(&mut self, of: u32, entered: Entered) {
+        self.clear();
+        self.any.push((any_of(of), Rc::new(entered)));
+    }
+
+    /// Something else may write a number.
+    pub(super) fn lose(&mut self, number: u32) {
+        self.settle();
+        self.now.remove(&number);
+        self.all.insert(number);
+        self.numbers.lose(number);
+    }
+
+    /// A program has what a call gives it.
+    pub(super) fn give(&mut self, routine: RoutineId, number: u32, text: &[u8]) {
+        let parameter = of_call(routine, number);
+        let entered = Rc::new(self.entered(parameter, text, 0));
+        let site = Some(Site::at_start(routine));
+        self.numbers.write(parameter, entered, site);
+    }
+
+    /// What was written is all that is known elsewhere.
+    pub(super) fn settle(&mut self) {
+        for (&number, written) in &mut self.now {
+            if std::mem::replace(&mut written.is_settled, true) {
+                continue;
+            }
+            let (entered, site) = (Rc::clone(&written.entered), written.site.clone());
+            self.all.insert(number);
+            self.numbers.write(number, entered, Some(site));
+            let order = written.order.map(|order| (number, order));
+            self.path.written.extend(order);
+        }
+    }
+
+    /// What was written may not be there any more.
+    pub(super) fn clear(&mut self) {
+        self.settle();
+        self.now.clear();
+    }
+
+    // ---- what they are
+
+    /// What the program has just written into a number.
+    pub(super) fn now(&self, number: u32) -> Option<Rc<Entered>> {
+        self.now
+            .get(&number)
+            .map(|written| Rc::clone(&written.entered))
+    }
+
+    /// The pose of a register all of whose numbers are known.
+    pub(super) fn pose(&self, register: u32) -> Option<Pose> {
+        let mut values = [0.0; 6];
+        for (value, element) in values.iter_mut().zip(0..) {
+            *value = self.now(of_position(register, element))?.exact()?;
+        }
+        Some(pose_of_angles(values))
+    }
+
+    /// The number as the text writes it, or any.
+    pub(super) fn existing(&self, number: u32) -> u32 {
+        if self.numbers.is_written(number) {
+            number
+        } else {
+            any_of(number)
+        }
+    }
+
+    /// All programs are read. The loops of the script that do not count as they say.
+    pub(super) fn finish(&mut self) -> Vec<usize> {
+        let is_any = |number: u32| number == any_of(number);
+        for (of, entered) in std::mem::take(&mut self.any) {
+            let concerned = self.all.iter().filter(|number| any_of(**number) == of);
+            for number in concerned.copied().chain([of]).collect::<Vec<_>>() {
+                self.numbers.write(number, Rc::clone(&entered), None);
+                self.assigned.insert(number);
+            }
+            self.numbers.lose(of);
+        }
+        for &number in &self.all {
+            if !self.sure.contains(&number) && !is_any(number) {
+                let is_counter = self.loops.iter().any(|of| of.counter == number);
+                if !is_counter || self.assigned.contains(&number) {
+                    self.numbers.lose(number);
+                }
+            }
+        }
+        let assigned = self.loops.iter();
+        let assigned = assigned.filter(|of| self.assigned.contains(&of.counter));
+        let assigned = assigned.map(|of| {
+            self.numbers.unbounded(of.block);
+            of.number
+        });
+        assigned.collect()
+    }
+
+    /// What is written comes to; `own` where that number stands for itself.
+    pub(super) fn value(&self, entered: &Entered, own: Option<Own>) -> Quantity {
+        self.evaluate(entered, own, &mut |number| self.anywhere(number))
+    }
+
+    /// What a number may be anywhere.
+    pub(super) fn anywhere(&self, number: u32) -> Quantity {
+        let evaluate = |entered: &Rc<Entered>, of: &mut dyn FnMut(u32) -> Quantity| {
+            self.evaluate(entered, None, of)
+        };
+        self.numbers.value(self.existing(number), &evaluate)
+    }
+
+    /// Whether the text writes numbers of positions.
+    pub(super) fn writes_positions(&self) -> bool {
+        let is_position = |number: &u32| (OF_POSITIONS..OF_CALLS).contains(number);
+        self.all.iter().any(is_position) || self.numbers.is_written(of_position(MOST_NUMBER, 0))
+    }
+
+    /// The present program.
+    pub(super) fn routine(&self) -> RoutineId {
+        self.path.routine
+    }
+}
+
+/// The counter and range of `R[1]=1 TO 4`.
+pub(super) fn counter(text: &[u8]) -> Option<(u32, &[u8])> {
+    let inside = text.strip_prefix(b"R[")?;
+    let end = memchr::memchr(b']', inside)?;
+    let number = whole(&inside[..end]).filter(|number| *number < MOST_NUMBER)?;
+    let range = inside[end + 1..].trim_ascii_start().strip_prefix(b"=")?;
+    Some((number, range))
+}

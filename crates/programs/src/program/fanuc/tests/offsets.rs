@@ -1,0 +1,146 @@
+//! What offsets of moves come to.
+
+use super::*;
+
+/// All numbers of a register are nothing.
+const ZERO: &str = "PR[7]=LPOS ;\nPR[7]=PR[7]-PR[7] ;\n";
+const GO: &str = "L P[1] 9mm/sec FINE Offset,PR[7] ;\n";
+
+/// What displaces the point of the last move.
+fn last(files: &[(&str, &str)]) -> Displacement {
+    let program = read_files(files).expect("a program");
+    program.moves.last().expect("a move").displacement.clone()
+}
+
+fn of(lines: &str) -> Displacement {
+    last(&[("a.ls", &listing(lines, &usual("1")))])
+}
+
+fn up(by: f64) -> Displacement {
+    Displacement::By(Box::new(Shift::along([0.0, 0.0, by])))
+}
+
+/// The least and the greatest along z, of what the text tells all.
+fn between(displacement: &Displacement) -> Option<[f64; 2]> {
+    let Displacement::Within(strides) = displacement else {
+        return None;
+    };
+    let mut ends = [0.0, 0.0];
+    for stride in strides {
+        let Stride::By { shift, most } = stride else {
+            return None;
+        };
+        let by = shift.in_frame.translation[2] * f64::from((*most)?);
+        ends[usize::from(by > 0.0)] += by;
+    }
+    Some(ends)
+}
+
+#[test]
+fn what_was_written_last_counts() {
+    let far = "PR[7,3]=300 ;\n";
+    for lines in [
+        format!("{ZERO}PR[7,3:z]=100 ;\n{GO}"),
+        format!("{far}{GO}{ZERO}PR[7,3]=100 ;\n{GO}{far}"),
+        format!("{ZERO}PR[7,3]=40 ;\nPR[7,3]=PR[7,3]*2+20 ;\n{GO}{far}"),
+        format!("{ZERO}R[1]=40 ;\nR[2]=R[1] ;\nR[1]=999 ;\nPR[7,3]=(R[2]+R[2])+20 ;\n{GO}{far}"),
+        format!("{ZERO}R[1]=11 DIV 2 ;\nPR[7,3]=R[1]*20 ;\n{GO}"),
+    ] {
+        assert_eq!(of(&lines), up(0.1), "{lines}");
+    }
+    assert_eq!(of(&format!("{ZERO}{GO}")), Displacement::None);
+}
+
+#[test]
+fn elsewhere_a_register_is_any_of_what_is_written() {
+    let lines = format!("{ZERO}PR[7,3]=100 ;\nCALL X ;\n{GO}");
+    assert_eq!(of(&lines), up(0.1));
+    // also behind the move: registers last from run to run
+    let later = format!("{lines}PR[7,3]=(-300) ;");
+    let ends = between(&of(&later)).expect("the text tells it");
+    assert!(ends[0] < -0.3 + 1e-9 && ends[1] > 0.1 - 1e-9, "{ends:?}");
+    // another program writes it at any time
+    let a = listing(
+        &format!("RUN OTHER ;\n{ZERO}PR[7,3]=100 ;\n{GO}"),
+        &usual("1"),
+    );
+    let b = listing("PR[7,3]=300 ;", "").replace("TEST", "OTHER");
+    assert_eq!(last(&[("a.ls", &a)]), up(0.1), "not in the files");
+    assert_ne!(last(&[("a.ls", &a), ("b.ls", &b)]), up(0.1));
+}
+
+#[test]
+fn a_register_keeps_what_it_held_where_a_way_passes_the_writes() {
+    let some = format!("{ZERO}PR[7,3]=100 ;\n");
+    for lines in [
+        format!("IF DI[1]=ON,JMP LBL[1] ;\n{some}LBL[1] ;\n{GO}"),
+        format!("IF (DI[1]) THEN ;\n{some}ENDIF ;\n{GO}"),
+        format!("SELECT R[1]=1,PR[7,3]=100 ;\nELSE,JMP LBL[1] ;\nLBL[1] ;\n{GO}"),
+        format!("JMP LBL[R[1]] ;\n{some}LBL[1] ;\n{GO}"),
+        format!("{some}SOMETHING[PR[7]] ON ;\nWELD_IT PR[7] ;\n{GO}"),
+    ] {
+        let by = of(&lines);
+        assert!(matches!(by, Displacement::AtLeast(_)), "{lines}: {by:?}");
+    }
+    // the way around leads to no move
+    let around = format!("IF DI[1]=ON,JMP LBL[9] ;\n{some}CALL X ;\n{GO}LBL[9] ;");
+    assert_eq!(of(&around), up(0.1));
+}
+
+#[test]
+fn loops_count_and_jumps_do_not() {
+    let grown = |head: &str, end: &str| {
+        let step = "R[1]=R[1]+50 ;\nPR[7,3]=R[1] ;\n";
+        of(&format!("{ZERO}R[1]=0 ;\n{head}\n{step}{GO}{end}"))
+    };
+    let ends = between(&grown("FOR R[2:i]=1 TO 4 ;", "ENDFOR ;")).expect("counted");
+    assert!((ends[1] - 0.2).abs() < 1e-9, "{ends:?}");
+    let down = between(&grown("FOR R[2]=4 DOWNTO 3 ;", "ENDFOR ;")).expect("counted");
+    assert!((down[1] - 0.1).abs() < 1e-9, "{down:?}");
+    for (head, end) in [
+        ("LBL[1] ;", "JMP LBL[1] ;"),
+        ("FOR R[2]=1 TO R[3] ;", "ENDFOR ;"),
+        ("FOR R[2]=1 TO 4 ;\nIF DI[1]=ON,R[2]=1 ;", "ENDFOR ;"),
+    ] {
+        assert_eq!(between(&grown(head, end)), None, "{head}");
+    }
+    let counter = format!("{ZERO}FOR R[2]=1 TO 4 ;\nPR[7,3]=R[2]*10 ;\n{GO}ENDFOR ;");
+    let ends = between(&of(&counter)).expect("counted");
+    assert!((ends[1] - 0.04).abs() < 1e-9, "{ends:?}");
+}
+
+#[test]
+fn what_the_robot_alone_knows_is_unknown_and_what_is_not_followed_has_no_bound() {
+    for lines in [
+        GO.to_owned(),
+        format!("PR[7]=LPOS ;\n{GO}"),
+        format!("PR[7]=VR[1].OFFSET ;\n{GO}"),
+        format!("{ZERO}PR[7,2]=GI[1] ;\n{GO}"),
+        format!("{ZERO}PR[7,2]=ABS[GI[1]] ;\n{GO}"),
+        format!("{ZERO}R[4]=R[5] ;\nPR[7,6]=R[4] ;\n{GO}"),
+        "OFFSET CONDITION PR[1] ;\nL P[1] 9mm/sec FINE Offset ;".into(),
+        "L P[1] 9mm/sec FINE Offset,PR[R[1]] ;".into(),
+        format!("{ZERO}L P[1] 9mm/sec FINE VOFFSET,VR[1] ;"),
+    ] {
+        assert_eq!(of(&lines), Displacement::Unknown, "{lines}");
+    }
+    for lines in [
+        format!("{ZERO}PR[7,5]=1 ;\n{GO}"),
+        format!("PR[7]=P[1] ;\n{GO}"),
+        format!("{ZERO}R[1]=5 ;\nPR[7,2]=SIN[R[1]] ;\n{GO}"),
+        format!("PR[7]=JPOS ;\nPR[7]=PR[7]-PR[7] ;\nPR[7,1]=5 ;\n{GO}"),
+        format!("{ZERO}R[1]=0 ;\nLBL[1] ;\nR[1]=R[1]+AI[1] ;\nPR[7,1]=R[1] ;\n{GO}JMP LBL[1] ;"),
+        format!("{ZERO}PR[7,1]=5 ;\nL P[1] 9mm/sec FINE Offset,PR[R[1]] ;"),
+        format!(
+            "{ZERO}PR[7,1]=5 ;\nOFFSET CONDITION PR[7],UFRAME[1] ;\nL P[1] 9mm/sec FINE Offset ;"
+        ),
+        format!("{ZERO}PR[7,1]=5 ;\nL P[1] 9mm/sec FINE UTENS_OFFSET,PR[7] ;"),
+        format!("{ZERO}PR[R[1],3]=PR[R[1],3]+5 ;\n{GO}"),
+    ] {
+        assert_eq!(of(&lines), Displacement::Unbounded, "{lines}");
+    }
+    let same = format!(
+        "{ZERO}PR[7,3]=100 ;\nOFFSET CONDITION PR[7],UFRAME[2] ;\nL P[1] 9mm/sec FINE Offset ;"
+    );
+    assert_eq!(of(&same), up(0.1), "the frame of the point");
+}

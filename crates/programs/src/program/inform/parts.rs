@@ -1,0 +1,150 @@
+//! What instructions add to copies of positions: `ADD LP001 P002`, `SETE LP001 (3) D005`.
+//!
+//! What only the running robot knows displaces a copy as a sensor does. A position of the files that
+//! nothing writes displaces it by its numbers; whatever else the text tells is not followed, and has
+//! no bound.
+
+use super::instruction::{Effect, Operand, is_actual};
+use super::job::{Coordinates, Positions};
+use super::lines::{Line, Lines, words};
+use super::reader::Reader;
+use crate::geometry::units::MM;
+use crate::program::script::{
+    DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, UNBOUNDED, VariableId, Written,
+};
+use crate::program::{Displacement, Shift, Source, number};
+use foldhash::{HashSet, HashSetExt};
+
+/// Instructions that write what the robot or the cell tells.
+const OF_ROBOT: &[&[u8]] = &[b"GETS", b"DIN", b"AIN", b"LOADV", b"VWAIT"];
+
+/// A write that adds one position to another.
+#[derive(Debug)]
+pub(super) struct Added {
+    write: usize,
+    added: VariableId,
+    /// 1, or −1 where it is subtracted.
+    sign: f64,
+}
+
+/// The variables with numbers (`D005`) that the text of all jobs writes.
+pub(super) fn known_numbers<'a>(sources: &'a [Source], positions: &Positions) -> HashSet<&'a [u8]> {
+    let mut written_parts = HashSet::new();
+    for job in &positions.jobs {
+        let bytes = &sources[job.file as usize].bytes[..job.instructions.end];
+        for line in Lines::from(bytes, job.instructions.start) {
+            let mut words = words(line.text);
+            let (first, second) = (words.next(), words.next());
+            if let Some((first, second)) = first.zip(second)
+                && !OF_ROBOT.contains(&first)
+            {
+                written_parts.insert(second);
+            }
+        }
+    }
+    written_parts
+}
+
+impl Reader<'_> {
+    /// What an instruction makes of a part of a position: it is displaced where what it becomes
+    /// may come from one.
+    pub(super) fn part_becomes(&mut self, line: Line, computed: RemarkId) -> How {
+        let first = words(line.text).next().unwrap_or_default();
+        let mut behind = words(line.text).skip(2);
+        let third = behind.next();
+        let part = third.filter(|word| word.starts_with(b"("));
+        let value = if part.is_some() { behind.next() } else { third };
+        let value = value.unwrap_or_default();
+        let is_number = number::parse(value).is_some();
+        let is_angle = part.is_some_and(|part| matches!(part, b"(4)" | b"(5)" | b"(6)"));
+        let is_indexed = memchr::memchr(b'[', value).is_some();
+        let is_of_program = is_number || is_indexed || self.known_numbers.contains(value);
+        if first == b"SETE" {
+            return match !is_number && self.gets_parts {
+                true if is_of_program => How::PartBy(computed, UNBOUNDED),
+                is_own => How::part(is_own, is_angle, computed),
+            };
+        }
+        let sign = match first {
+            b"ADD" => 1.0,
+            b"SUB" => -1.0,
+            _ => 0.0,
+        };
+        let place = self.place(line.start);
+        match Operand::of(value).map(|of| self.written_by(of, place)) {
+            Some(Some(Written::One(added))) if sign != 0.0 => {
+                let write = self.builder.script.writes.len();
+                self.added.push(Added { write, added, sign });
+                // until all jobs are read
+                How::PartNumber(computed)
+            }
+            Some(_) => How::PartBy(computed, UNBOUNDED),
+            None if is_of_program => How::PartBy(computed, UNBOUNDED),
+            None => How::part(true, is_angle, computed),
+        }
+    }
+
+    /// Whether the text tells what an instruction writes.
+    pub(super) fn note_told(&mut self, effect_of: Effect, third: &[u8], written: Written) {
+        let is_of_program = matches!(
+            effect_of,
+            Effect::Copy | Effect::Argument | Effect::Part | Effect::Computed
+        );
+        if is_of_program && !is_actual(third) {
+            match written {
+                Written::One(variable) => _ = self.written_parts.insert(variable),
+                Written::AnyOf(table) => _ = self.written_any.insert(table),
+            }
+        }
+    }
+
+    // ---- when all jobs are read
+
+    pub(super) fn finish_parts(&mut self) {
+        for added in std::mem::take(&mut self.added) {
+            let by = self.amount(&added);
+            let write = &mut self.builder.script.writes[added.write];
+            if let How::PartNumber(remark) = write.how {
+                write.how = How::PartBy(remark, by);
+            }
+        }
+    }
+
+    /// What a position displaces another by that it is added to.
+    fn amount(&mut self, added: &Added) -> DisplacementId {
+        let variable = added.added;
+        let script = &self.builder.script;
+        let is_entry = |table: &u32| {
+            let mut entries = script.tables[*table as usize].entries.values();
+            entries.any(|one| *one == variable)
+        };
+        let is_written =
+            self.written_parts.contains(&variable) || self.written_any.iter().any(is_entry);
+        let is_written = is_written || self.copies.values().any(|from| from.contains(&variable));
+        let is_changed = self.written.contains(&variable) || self.all_written.iter().any(is_entry);
+        match script.variables[variable as usize].declared {
+            Expr::Target(target) if !is_written && !is_changed => {
+                let range = self.positions.targets[target].numbers.clone();
+                let numbers = &self.positions.numbers[range.start as usize..range.end as usize];
+                let header = self.positions.header(target);
+                let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
+                match numbers.first_chunk::<6>() {
+                    // a position that moves go to is rewritten
+                    Some([x, y, z, angles @ ..])
+                        if is_pose
+                            && !self.named[target]
+                            && angles.iter().all(|angle| angle.value == 0.0) =>
+                    {
+                        let by = [x, y, z].map(|of| added.sign * MM * of.value);
+                        let by = Displacement::By(Box::new(Shift::along(by)));
+                        self.builder.script.displacement(by)
+                    }
+                    _ => UNBOUNDED,
+                }
+            }
+            Expr::Target(_) | Expr::Any { .. } => UNBOUNDED,
+            _ if is_written => UNBOUNDED,
+            _ => DISPLACED_SOMEHOW,
+        }
+    }
+}
