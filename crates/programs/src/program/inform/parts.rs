@@ -85,7 +85,7 @@ impl Reader<'_> {
     }
 
     /// Whether the text tells what an instruction writes.
-    pub(super) fn note_told(&mut self, effect_of: Effect, third: &[u8], written: Written) {
+    pub(super) fn note_known(&mut self, effect_of: Effect, third: &[u8], written: Written) {
         let is_of_program = matches!(
             effect_of,
             Effect::Copy | Effect::Argument | Effect::Part | Effect::Computed

@@ -397,7 +397,7 @@ impl<'a> Reader<'a> {
             Written::AnyOf(table) => self.all_written.insert(table),
         };
         let third = words(line.text).nth(2).unwrap_or_default();
-        self.note_told(effect, third, written);
+        self.note_known(effect, third, written);
         let value = match effect {
             // with another tool it is another place
             Effect::Copy if !words(line.text).any(|word| word.starts_with(b"TL#")) => {
