@@ -211,6 +211,11 @@ fn urscript_offsets_lists_and_functions_are_worked_out() {
             same(&done, &truth, &body);
         }
     }
+    let made = format!(
+        "t=pose_trans(w,p[0,0,-0.2,0,0,0])\nh=t[2]\n{}",
+        go("p[0,0,h,0,0,0]")
+    );
+    refused(&of_urscript("", &made), &made);
     let either = "if (get_digital_in(1)):\noff=p[0,0,-0.2,0,0,0]\nelse:\noff=p[0,0,0,0,0,0]\nend\n";
     let either = of_urscript("", &format!("{either}{}", go("off")));
     assert_eq!(

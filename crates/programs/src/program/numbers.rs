@@ -397,8 +397,22 @@ pub(super) fn evaluated(
     named: &mut dyn FnMut(&[u8]) -> Quantity,
     own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
 ) -> Quantity {
+    evaluated_inside(arithmetic, text, named, own, 0)
+}
+
+/// Likewise, inside so many calls.
+fn evaluated_inside(
+    arithmetic: Arithmetic,
+    text: &[u8],
+    named: &mut dyn FnMut(&[u8]) -> Quantity,
+    own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
+    depth: usize,
+) -> Quantity {
+    if depth > DEEPEST {
+        return Quantity::endless();
+    }
     if let Some(inside) = list(text.trim_ascii()) {
-        let all = inside.map(|part| evaluated(arithmetic, part, named, own));
+        let all = inside.map(|part| evaluated_inside(arithmetic, part, named, own, depth + 1));
         return Quantity::any(&all.collect::<Vec<_>>());
     }
     let value = evaluate_in(arithmetic, text, &mut |operand| {
@@ -422,7 +436,7 @@ pub(super) fn evaluated(
                 let plain = |part: &'_ [u8]| part.iter().position(|b| *b == b'\\');
                 let given = parts(inside).map(|part| {
                     let part = &part[..plain(part).unwrap_or(part.len())];
-                    evaluated(arithmetic, part, named, own)
+                    evaluated_inside(arithmetic, part, named, own, depth + 1)
                 });
                 functions::value(name, &given.collect::<Vec<_>>())
             }
@@ -571,6 +585,17 @@ mod tests {
         numbers.write(4, "[[0,-c],[7,5]]", None);
         numbers.write(5, "e{1,2}+1", None);
         assert_eq!(value(&numbers, 5).ends(), Some((-2.0, 8.0)));
+    }
+
+    #[test]
+    fn calls_inside_calls_are_followed_to_a_depth() {
+        let nested = |depth: usize| "abs(".repeat(depth) + "-3" + &")".repeat(depth);
+        let (few, many) = (nested(5), nested(20_000));
+        let mut numbers = Numbers::default();
+        numbers.write(0, &*few, None);
+        numbers.write(1, &*many, None);
+        assert_eq!(value(&numbers, 0).exact(), Some(3.0));
+        assert!(value(&numbers, 1).is_endless());
     }
 
     #[test]

@@ -14,6 +14,9 @@ use foldhash::HashSet;
 /// The components of a frame, in their order.
 const LETTERS: [u8; 6] = *b"XYZABC";
 
+/// Bytes between brackets that are looked back over.
+const LONGEST_INDEX: usize = 80;
+
 /// What is written into a frame.
 #[derive(Debug)]
 pub(super) struct FrameWrite {
@@ -85,7 +88,11 @@ impl Reader {
                 && !line.get(at + 2).copied().is_some_and(is_letter);
             let before = line[..at].trim_ascii_end();
             let before = match before.strip_suffix(b"]") {
-                Some(inside) => &inside[..memchr::memrchr(b'[', inside).unwrap_or(0)],
+                Some(inside) => {
+                    let near = inside.len().saturating_sub(LONGEST_INDEX);
+                    let open = memchr::memrchr(b'[', &inside[near..]);
+                    &inside[..open.map_or(0, |open| near + open)]
+                }
                 None => before,
             };
             let length = before.iter().rev().take_while(|b| is_letter(**b)).count();

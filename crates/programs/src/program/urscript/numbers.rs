@@ -303,6 +303,9 @@ impl Variables<'_, '_> {
             let (name, rest) = operand.split_at(length);
             match rest.trim_ascii_start() {
                 [b'(', ..] if WORKED_OUT.contains(&name) => None,
+                [b'(', ..] if COMPUTING.iter().any(|begin| name.starts_with(begin)) => {
+                    Some(Quantity::endless())
+                }
                 [b'(', ..] => {
                     let name = self.parsed.known_symbol(name);
                     let own = name.map_or(&[][..], |name| self.functions_of(name));
@@ -312,7 +315,12 @@ impl Variables<'_, '_> {
                     Some(Quantity::any(&all))
                 }
                 // any number of a pose
-                [b'[', inside @ .., b']'] if name == b"p" => {
+                [b'[', inside @ .., b']']
+                    if name == b"p" && memchr::memchr(b',', inside).is_some() =>
+                {
+                    if memchr::memchr(b'[', inside).is_some() {
+                        return Some(Quantity::endless());
+                    }
                     let all = parts(inside).map(|part| {
                         self.evaluated(part, function, &mut *of.borrow_mut(), &mut |_| None)
                     });
