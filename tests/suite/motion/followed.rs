@@ -54,6 +54,8 @@ fn rapid_functions_parameters_and_coordinates_are_worked_out() {
         ("VAR dnum h:=200;", go("0,0,-DnumToNum(h)")),
         (&*format!("VAR num h:=100;\n{function}"), go("0,0,depth(h)")),
         (&*two, go("0,0,low.trans.z-high.trans.z")),
+        ("VAR num a{200};", go("0,0,-Dim(a,1)")),
+        ("VAR num a{3,200};", go("0,0,-Dim(a,2)")),
         ("VAR pos o:=[0,0,-200];", go("0,0,o.z")),
         ("PERS pos o:=[5,5,-200];", go("o.x-5,o.y-5,o.z")),
         (

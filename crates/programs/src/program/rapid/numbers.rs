@@ -507,6 +507,11 @@ impl Resolved<'_> {
             let is_known = sign == b'(' && builtins::is_worked_out(&spelling);
             return (!is_known).then(Quantity::unknown);
         };
+        if sign == b'(' && spelling == "dim" {
+            let (size, file) = self.dimension(operand, context)?;
+            let at = Place::new(file, 0);
+            return Some(self.evaluated(size, at, context, of, &mut |_| None));
+        }
         if sign == b'(' {
             return match self.function_of(name, context) {
                 Some(routine) => Some(of(RESULT | routine)),

@@ -112,6 +112,29 @@ impl Resolved<'_> {
         first.is_some_and(is_pos)
     }
 
+    /// The text of how many elements an array has: `Dim(a,1)` of `CONST num a{40}`.
+    pub(super) fn dimension(&self, call: &[u8], context: Context) -> Option<(&[u8], u32)> {
+        let inside = call.strip_suffix(b")")?;
+        let inside = &inside[memchr::memchr(b'(', inside)? + 1..];
+        let mut given = parts(inside);
+        let (array, which) = (given.next()?.trim_ascii(), given.next()?.trim_ascii());
+        let name = self.parsed.symbols.find(array)?;
+        let Meaning::One(datum) = self.meaning(name, context) else {
+            return None;
+        };
+        let of = self.datum(datum);
+        let is_parameter = matches!(of.storage, Storage::Parameter { .. });
+        let text = &self.sources[of.place.file as usize].bytes[of.place.offset as usize..];
+        let end = memchr::memchr2(b';', b':', text).filter(|_| !is_parameter)?;
+        let open = memchr::memchr(b'{', &text[..end])? + 1;
+        let size = which
+            .first()?
+            .checked_sub(b'1')
+            .filter(|_| which.len() == 1)?;
+        let size = parts(&text[open..end]).nth(usize::from(size))?;
+        Some((size, of.place.file))
+    }
+
     /// Puts all that is written into coordinates into the numbers.
     pub(super) fn coordinates(
         &self,
