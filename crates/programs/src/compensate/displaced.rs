@@ -7,10 +7,12 @@ use super::{Job, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Separation, norm};
+use crate::inverse::Branch;
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, SOMEHOW_M, Shift};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::f64::consts::TAU;
 
 /// So far from a target is looked how long its correction is right, metres.
 const DISTANCES_M: [f64; 10] = [1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
@@ -52,6 +54,7 @@ pub(super) fn check(
 ) {
     let ground = &job.ground;
     let limit_m = limit_m(job);
+    let mut judged = Judged::default();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
@@ -123,8 +126,11 @@ pub(super) fn check(
             }
             Displacement::Within(steps) => {
                 let reach_m = reach_m(job, approach);
-                if let Some(places) = strides::places(steps, reach_m, false) {
-                    let most = most_m(&mut places.into_iter());
+                let most = judged.most_m(&motion.displacement, &uses, || {
+                    let places = strides::places(steps, reach_m, false)?;
+                    Some(most_m(&mut places.into_iter()))
+                });
+                if let Some(most) = most {
                     let message = format!(
                         "a point derived from {name} takes its correction along {}: within reach \
                          that is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
@@ -138,9 +144,13 @@ pub(super) fn check(
             }
             Displacement::AtLeast(steps) => {
                 let reach_m = reach_m(job, approach);
-                if let Some(places) = strides::places(steps, reach_m, true) {
-                    let known = places.into_iter();
-                    let most = most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M)));
+                let most = judged.most_m(&motion.displacement, &uses, || {
+                    let known = strides::places(steps, reach_m, true)?.into_iter();
+                    Some(most_m(
+                        &mut known.chain(strides::along_each_axis(SOMEHOW_M)),
+                    ))
+                });
+                if let Some(most) = most {
                     let message = format!(
                         "a point derived from {name} at run time takes its correction along: the \
                          numbers of the text alone, with 1 for each factor that only the running \
@@ -197,6 +207,67 @@ pub(super) fn check(
             }
         };
         findings.push(ground.at_move(id, severity, motion, message, hint));
+    }
+}
+
+/// Displacements that were judged last: many moves to the same target are displaced by the same
+/// numbers, and each is judged at thousands of places.
+#[derive(Default)]
+struct Judged {
+    last: VecDeque<(Displacement, Vec<Use>, Option<f64>)>,
+}
+
+/// Displacements that are remembered.
+const MOST_JUDGED: usize = 16;
+
+/// What the error of a use depends on: the target, with what the robot comes there and in which
+/// posture, with whole rotations.
+#[derive(Clone, PartialEq)]
+struct Use {
+    target: u32,
+    tool: u32,
+    frame: u32,
+    branch: Branch,
+    direction: [i8; 6],
+    middle: bool,
+    rotations: [f64; 6],
+}
+
+impl Use {
+    fn of(approach: &Approach) -> Self {
+        Self {
+            target: approach.target,
+            tool: approach.tool,
+            frame: approach.frame,
+            branch: approach.branch,
+            direction: approach.direction,
+            middle: approach.middle.is_some(),
+            rotations: approach.nominal_q.map(|q| (q / TAU).round()),
+        }
+    }
+}
+
+impl Judged {
+    /// The largest miss of a displacement, worked out where it is none of the last; `None` where
+    /// nothing bounds it.
+    fn most_m(
+        &mut self,
+        displacement: &Displacement,
+        uses: &[Approach],
+        work_out: impl FnOnce() -> Option<f64>,
+    ) -> Option<f64> {
+        let uses: Vec<Use> = uses.iter().map(Use::of).collect();
+        let is_arc = uses.iter().any(|of| of.middle);
+        let same = |of: &&(Displacement, Vec<Use>, Option<f64>)| {
+            of.0 == *displacement && of.1 == uses && !is_arc
+        };
+        if let Some((_, _, most)) = self.last.iter().find(same) {
+            return *most;
+        }
+        let most = work_out();
+        self.last.truncate(MOST_JUDGED - 1);
+        self.last.push_front((displacement.clone(), uses, most));
+        most
     }
 }
 
