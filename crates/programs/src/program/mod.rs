@@ -44,6 +44,7 @@ mod quantity;
 pub mod rapid;
 pub mod script;
 mod source;
+mod told;
 pub mod urscript;
 pub mod val3;
 mod words;
