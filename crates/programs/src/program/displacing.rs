@@ -10,7 +10,7 @@ use crate::geometry::{Pose, Rotation, Vector, norm};
 pub(crate) const SOMEHOW_M: f64 = 0.005;
 
 /// A displacement in the making.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Displacing {
     exact: Shift,
     strides: Vec<Stride>,

@@ -45,6 +45,7 @@ mod quantity;
 pub mod rapid;
 pub mod script;
 mod source;
+mod transformations;
 pub mod urscript;
 pub mod val3;
 mod words;

@@ -26,53 +26,6 @@ pub fn parse(text: &[u8]) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// The one term of a sum that is no number, and what the numbers add to it: `p.Z` and 200 of
-/// `p.Z+200`, −5 of `10+p.Z-(15)`. `None` where there is another such term, or it is subtracted.
-pub(crate) fn term_and_sum(
-    text: &[u8],
-    number_of: impl Fn(&[u8]) -> Option<f64>,
-) -> Option<(&[u8], f64)> {
-    let (mut sum, mut sign, mut other) = (0.0, 1.0, None);
-    let (mut start, mut depth) = (0, 0_u32);
-    for at in 0..=text.len() {
-        let byte = text.get(at);
-        let ends = match byte {
-            Some(b'(' | b'[') => {
-                depth += 1;
-                false
-            }
-            Some(b')' | b']') => {
-                depth = depth.saturating_sub(1);
-                false
-            }
-            Some(b'+' | b'-') => depth == 0,
-            Some(_) => false,
-            None => true,
-        };
-        if !ends {
-            continue;
-        }
-        let term = text[start..at].trim_ascii();
-        let next = if byte == Some(&b'-') { -1.0 } else { 1.0 };
-        start = at + 1;
-        if term.is_empty() {
-            // a sign in front of a term
-            byte?;
-            sign *= next;
-            continue;
-        }
-        let inside = term.strip_prefix(b"(").and_then(|t| t.strip_suffix(b")"));
-        let inside = inside.unwrap_or(term).trim_ascii();
-        match number_of(inside) {
-            Some(number) => sum += sign * number,
-            None if sign > 0.0 && other.is_none() => other = Some(inside),
-            None => return None,
-        }
-        sign = next;
-    }
-    Some((other?, sum))
-}
-
 /// The number that is all of a text, which begins at a byte of its file.
 pub(crate) fn placed(text: &[u8], start: usize) -> Option<Number> {
     Some(Number {
@@ -412,30 +365,6 @@ mod tests {
     fn a_field_keeps_its_last_column() {
         assert_eq!(written("  1922.978", &[], -54.3281), "   -54.328");
         assert_eq!(written(" 9.999", &[], 12_345.678), " 12345.678");
-    }
-
-    #[test]
-    fn sums_of_numbers_add_to_their_own_term() {
-        let added = |text: &str| {
-            let sum = term_and_sum(text.as_bytes(), parse);
-            sum.filter(|(term, _)| *term == b"p[a+1].Z")
-                .map(|(_, by)| by)
-        };
-        for (text, value) in [
-            ("p[a+1].Z+200", Some(200.0)),
-            (" 10 + p[a+1].Z - (-15.5)", Some(25.5)),
-            ("-5+p[a+1].Z", Some(-5.0)),
-            ("p[a+1].Z", Some(0.0)),
-            ("p[a+1].Z+200*2", None),
-            ("p[a+1].Z+h", None),
-            ("5-p[a+1].Z", None),
-            ("p[a+1].Z+p[a+1].Z", None),
-            ("p[a+1].Z+", None),
-            ("5", None),
-            ("", None),
-        ] {
-            assert_eq!(added(text), value, "{text}");
-        }
     }
 
     #[test]

@@ -514,6 +514,12 @@ impl Reader<'_, '_> {
                 self.at += 1;
                 inside
             }
+            // names of a program's own begin with a dot in some languages
+            b'.' if rest.get(1).is_some_and(u8::is_ascii_alphabetic) => {
+                let start = self.at;
+                self.operand()?;
+                (self.of)(self.text[start..self.at].trim_ascii())
+            }
             b'0'..=b'9' | b'.' => {
                 let (value, length) = number::parse_start(rest)?;
                 if rest.get(length).copied().is_some_and(is_letter) {

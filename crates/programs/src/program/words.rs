@@ -308,6 +308,13 @@ impl<'a> Words<'a, '_> {
         found
     }
 
+    /// What is multiplied outside brackets.
+    pub(super) fn factors(&self) -> Vec<Self> {
+        let mut found = Vec::new();
+        self.each_part(|sign| sign == b'*', |_, part| found.push(part));
+        found
+    }
+
     /// What stands between commas outside brackets.
     pub(super) fn list(&self) -> Vec<Self> {
         // a pose, joints: most lists

@@ -2,7 +2,7 @@
 
 use super::arrays::is_array;
 use super::reader::Reader;
-use super::remarks::COMPUTED;
+use super::remarks::{COMPUTED, taken_apart};
 use super::sections::Statement;
 use super::targets::Name;
 use crate::program::Source;
@@ -62,28 +62,53 @@ impl Any {
 }
 
 impl<'a> Reader<'a> {
-    /// Names that are handed to programs that write them are written, too.
+    /// Names that are handed to programs that write them are written, too; likewise those whose
+    /// numbers are read out of them.
     pub(super) fn note_handed(&mut self, handed: &[Handed]) {
         loop {
-            let known = self.written.len();
+            let known = (self.written.len(), self.apart.len());
             for one in handed {
-                let is_written = |callee: &RoutineId| {
-                    let parameter = self.parameters[*callee as usize].get(one.number);
-                    parameter.is_some_and(|parameter| {
-                        let own = (*callee, stem_of(parameter, &one.name));
-                        self.written.contains(&own)
-                    })
-                };
-                if self.programs_of(&one.to).iter().any(is_written) {
-                    self.written.insert((one.by, one.name.stem.clone()));
+                for &callee in &self.programs_of(&one.to) {
+                    let Some(parameter) = self.parameters[callee as usize].get(one.number) else {
+                        continue;
+                    };
+                    let own = stem_of(parameter, &one.name);
+                    if self.written.contains(&(callee, own.clone())) {
+                        self.written.insert((one.by, one.name.stem.clone()));
+                    }
+                    if let Some(place) = self.apart.get(&(Some(callee), own)).copied() {
+                        let owner = self.owner_in(&one.name, one.by);
+                        let name = (owner, one.name.stem.clone());
+                        self.apart.entry(name).or_insert(place);
+                    }
                 }
             }
-            if self.written.len() == known {
+            for (copy, of) in &self.copied {
+                if let Some(place) = self.apart.get(copy).copied() {
+                    self.apart.entry(of.clone()).or_insert(place);
+                }
+            }
+            if known == (self.written.len(), self.apart.len()) {
                 break;
             }
         }
         let names = self.written.iter().map(|(_, name)| name.clone());
         self.assigned.extend(names);
+    }
+
+    /// Targets whose numbers a program reads out of them stay as they are.
+    pub(super) fn refuse_apart(&mut self) {
+        let mut apart: Vec<_> = std::mem::take(&mut self.apart).into_iter().collect();
+        apart.sort_unstable();
+        for ((owner, stem), place) in apart {
+            let source = &self.sources[place.file as usize];
+            let (line, _) = source.line_column(place.offset as usize);
+            let remark = taken_apart(&source.name, line);
+            let elements = self.names.get(&owner).and_then(|names| names.get(&stem));
+            if let Some(table) = elements.map(|elements| elements.table) {
+                self.builder.script.refuse_all(table, remark);
+            }
+        }
     }
 
     /// The programs of a name; none where the files do not have it.

@@ -26,6 +26,7 @@ mod calls;
 mod insert;
 mod keywords;
 mod moves;
+mod numbers;
 mod plates;
 mod reader;
 mod remarks;

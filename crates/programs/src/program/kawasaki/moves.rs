@@ -3,11 +3,12 @@
 use super::reader::Reader;
 use super::remarks::{ARC_CHAIN, OTHER_MOVE, RELATIVE, SEARCH};
 use super::sections::Statement;
-use super::targets::{Position, literals};
-use crate::geometry::Pose;
-use crate::geometry::units::MM;
-use crate::program::notation::pose_of_turning_angles;
-use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
+use super::targets::Position;
+use crate::program::quantity::Quantity;
+use crate::program::script::{
+    Expr, Held, How, Instruction, Modal, Remark, Span, Variable, Written, short,
+};
+use crate::program::transformations::{Steps, exactly};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
 
@@ -115,10 +116,7 @@ impl<'a> Reader<'a> {
     pub(super) fn moves(&mut self, part: Words<'a, '_>, verb: Verb) {
         let list = part.behind(1).list();
         let first = list.first().copied().unwrap_or(part.part(0..0));
-        let second = list.get(1).and_then(Words::value);
-        if !matches!(verb, Verb::Arc(_)) {
-            self.here.arc = 0;
-        }
+        let second = list.get(1).copied().unwrap_or(part.part(0..0));
         match verb {
             Verb::To(motion, is_free) => {
                 if is_joints(first) {
@@ -129,40 +127,49 @@ impl<'a> Reader<'a> {
                 self.go(part, Some(first), &found, motion, is_free, None);
             }
             Verb::Arc(is_end) => {
-                self.here.arc += 1;
-                let motion = if is_end || self.here.arc.is_multiple_of(2) {
+                let motion = if is_end {
                     Motion::ArcEnd
                 } else {
                     Motion::ArcVia
                 };
-                if is_end {
-                    self.here.arc = 0;
-                }
-                let is_chain = !is_end && self.here.arc > 1;
                 let found = self.position(first);
-                let modal = is_chain.then(|| self.refused(ARC_CHAIN, motion, &found));
-                self.go(part, Some(first), &found, motion, false, modal);
+                let mut modal = self.modal_of(motion, &found);
+                if !is_end {
+                    modal.guards = self.chains;
+                }
+                self.go(part, Some(first), &found, motion, false, Some(modal));
+                let script = &mut self.builder.script;
+                let value = if is_end {
+                    Held::Flag(false)
+                } else {
+                    Held::Remark(script.remark(ARC_CHAIN))
+                };
+                let value = script.held(value);
+                self.write(Written::One(self.chained), How::Whole(value));
             }
             Verb::Near(motion) => {
-                let found = self.position(first).in_tool(second.map(back));
+                let found = self.position(first).in_tool(self.back(second));
                 self.go(part, None, &found, motion, false, None);
             }
             Verb::Away(motion) => {
-                let found = self.here.last;
-                let found = found.map(|last| last.in_tool(first.value().map(back)));
-                self.relative(part, found.as_ref(), motion);
+                let found = self.here.last.take();
+                let found = found.map(|last| last.in_tool(self.back(first)));
+                self.relative(part, found, motion);
             }
             Verb::Draw(in_tool) => {
-                let given = literals::<6>(&list[..list.len().min(6)]);
-                let found = self.here.last.zip(given).map(|(last, by)| {
-                    let [x, y, z, turned @ ..] = by;
+                let found = self.here.last.take().map(|last| {
+                    let by @ [x, y, z, turned @ ..] = &self.quantities(&list);
                     if in_tool {
-                        last.in_tool(Some(pose_of_turning_angles(by)))
+                        return last.in_tool(Steps::one(by.clone()));
+                    }
+                    let is_turned = turned.iter().any(|angle| angle.exact() != Some(0.0));
+                    if is_turned {
+                        last.in_tool(Steps::endless())
                     } else {
-                        last.along((turned == [0.0; 3]).then_some([x, y, z]))
+                        last.along(&[x, y, z].map(Quantity::clone))
                     }
                 });
-                self.relative(part, found.as_ref(), Motion::Linear);
+                self.relative(part, found, Motion::Linear);
             }
             Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
@@ -198,10 +205,9 @@ impl<'a> Reader<'a> {
     }
 
     /// A move from where the robot stands.
-    fn relative(&mut self, part: Words<'a, '_>, to: Option<&Position>, motion: Motion) {
-        let known = to.filter(|to| to.by.is_some());
-        if let Some(known) = known {
-            return self.go(part, None, known, motion, false, None);
+    fn relative(&mut self, part: Words<'a, '_>, to: Option<Position>, motion: Motion) {
+        if let Some(known) = to {
+            return self.go(part, None, &known, motion, false, None);
         }
         let unknown = Position::plain(self.unknown(RELATIVE));
         self.go(part, None, &unknown, motion, false, None);
@@ -261,16 +267,18 @@ impl<'a> Reader<'a> {
             ..Instruction::at(self.place(whole.start))
         };
         self.builder.go(instruction, modal);
-        self.here.last = Some(*to);
+        self.here.last = Some(to.clone());
+    }
+
+    /// Back along the tool, mm.
+    fn back(&self, by: Words<'a, '_>) -> Steps {
+        let mut step = exactly([0.0; 6]);
+        step[2] = self.quantity(by).times(-1.0);
+        Steps::one(step)
     }
 }
 
 /// Whether words are joints: `#p`, `.#p`, `#[…]`.
 pub(super) fn is_joints(part: Words) -> bool {
     part.is(0, b'#') || part.is_word(0, b".") && part.is(1, b'#')
-}
-
-/// Back along the tool, mm.
-fn back(mm: f64) -> Pose {
-    Pose::from_translation(0.0, 0.0, -mm * MM)
 }

@@ -5,7 +5,7 @@ use super::moves::Verb;
 use super::pose_of;
 use super::reader::Reader;
 use super::remarks::ASSIGNED;
-use super::sections::{Sections, Statement};
+use super::sections::Statement;
 use super::targets::Name;
 use crate::geometry::Pose;
 use crate::program::script::{Expr, Held, How, Place, Variable, VariableId, Written};
@@ -90,10 +90,10 @@ fn sum_of_move<'a, 'w>(
 impl<'a> Reader<'a> {
     /// Finds the plates: names that all moves only add objects to, which no other plate has and
     /// nothing else uses. Where no file tells any base they would hide that it is missing.
-    pub(super) fn find_plates(&mut self, sections: &Sections, start: Option<Pose>) {
+    pub(super) fn find_plates(&mut self, start: Option<Pose>) {
         let mut sums = Sums::default();
         let has_sum = |line: &[u8]| memchr::memchr(b'+', line).is_some();
-        self.each_line(sections, has_sum, |line, own| {
+        self.each_line(has_sum, |line, own| {
             if let Some((plate, object, _)) = sum_of_move(line, own) {
                 let objects = sums.entry(plate).or_default();
                 objects.extend(object.stem().map(<[u8]>::to_vec));
@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
         if sums.is_empty() {
             return;
         }
-        let mut found = self.free_plates(sections, &sums, start.is_some());
+        let mut found = self.free_plates(&sums, start.is_some());
         found.sort_unstable_by(|(a, _), (b, _)| (&a.stem, &a.key).cmp(&(&b.stem, &b.key)));
         for (name, pose) in found {
             let text = name.text();
@@ -115,12 +115,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Those of sums whose names nothing else uses, and where they are.
-    fn free_plates(
-        &self,
-        sections: &Sections,
-        sums: &Sums,
-        mut has_base: bool,
-    ) -> Vec<(Name, Pose)> {
+    fn free_plates(&self, sums: &Sums, mut has_base: bool) -> Vec<(Name, Pose)> {
         let plates: HashSet<&[u8]> = sums.keys().map(|plate| &*plate.stem).collect();
         let mut times: HashMap<&[u8], u32> = HashMap::default();
         for object in sums.values().flatten() {
@@ -128,7 +123,6 @@ impl<'a> Reader<'a> {
         }
         let mut others: HashSet<Vec<u8>> = HashSet::default();
         self.each_line(
-            sections,
             |_| true,
             |line, own| {
                 let part = line.words;
@@ -174,11 +168,10 @@ impl<'a> Reader<'a> {
     /// Visits the lines of all programs whose text is wanted, with the parameters of their program.
     fn each_line(
         &self,
-        sections: &Sections,
         is_wanted: impl Fn(&[u8]) -> bool + Copy,
         mut visit: impl FnMut(&Statement, &[Vec<u8>]),
     ) {
-        for (program, own) in sections.programs.iter().zip(&self.parameters) {
+        for (program, own) in self.sections.programs.iter().zip(&self.parameters) {
             let source = &self.sources[program.place.file as usize];
             program.each(&source.bytes, is_wanted, |line| visit(line, own));
         }
@@ -223,7 +216,7 @@ impl<'a> Reader<'a> {
         } else {
             let first = words.list().first().copied().unwrap_or(words);
             let name = crate::program::Source::text(first.whole());
-            let pose = self.known_sum(first);
+            let pose = self.steps(first).exact();
             pose.map(|pose| (name.into(), Some(pose)))
         };
         for plate in plates {

@@ -4,6 +4,7 @@ use super::arrays::Given;
 use super::calls::{Any, Handed};
 use super::keywords::find;
 use super::moves::{Verb, is_joints};
+use super::numbers::Known;
 use super::plates::Plates;
 use super::remarks::{COMPUTED, SAVED, SWITCHED};
 use super::sections::{Entry, Program, Sections, Statement};
@@ -13,12 +14,13 @@ use crate::geometry::Pose;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, RoutineId, Script, Start, ValueId, Variable, VariableId,
-    Written, short,
+    Builder, Expr, Held, How, Place, RoutineId, Script, Start, UNBOUNDED, ValueId, Variable,
+    VariableId, Written, short,
 };
 use crate::program::words::Words;
-use crate::program::{Number, Source, SpeedZone};
+use crate::program::{Number, Source, SpeedZone, TargetId};
 use foldhash::{HashMap, HashSet};
+use std::cell::{OnceCell, RefCell};
 
 /// Where the reader is.
 #[derive(Default)]
@@ -32,15 +34,16 @@ pub(super) struct Here {
     /// Speed and corner of all moves, and of the next one alone.
     pub always: SpeedZone,
     pub next: Option<SpeedZone>,
-    /// Points of the present arc.
-    pub arc: usize,
     /// Where signals are watched.
     watched: Vec<Watch>,
 }
 
-#[derive(Default)]
+/// The stem of a name, and the program that it belongs to; none where it is of all.
+pub(super) type Owned = (Option<RoutineId>, Vec<u8>);
+
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
+    pub sections: &'a Sections<'a>,
     pub builder: Builder,
     /// Names of each program, and of all.
     pub names: HashMap<Option<RoutineId>, HashMap<Vec<u8>, Elements>>,
@@ -52,6 +55,14 @@ pub(super) struct Reader<'a> {
     pub programs: HashMap<Vec<u8>, Vec<RoutineId>>,
     /// Parameters of each program.
     pub parameters: Vec<Vec<Vec<u8>>>,
+    /// What reals and transformations are, once a position asks.
+    pub known: OnceCell<Known<'a>>,
+    /// Targets whose numbers are added to those of others.
+    pub taken: RefCell<Vec<TargetId>>,
+    /// Names whose numbers programs read out of them, and where first.
+    pub apart: HashMap<Owned, Place>,
+    /// Names that `POINT` writes, each with one in what it writes.
+    pub copied: Vec<(Owned, Owned)>,
     /// Names that are work frames of objects on them.
     pub plates: Plates,
     /// Elements of arrays that calls hand over.
@@ -68,13 +79,16 @@ pub(super) struct Reader<'a> {
     /// script's guards.
     switched: VariableId,
     pub switches: u32,
+    /// Likewise behind the first part of an arc, for another one.
+    pub chained: VariableId,
+    pub chains: u32,
     /// Configuration data count.
     pub honoured: ValueId,
     pub here: Here,
 }
 
 /// The statements of all files.
-pub(super) fn script(sources: &[Source], sections: &Sections) -> Script {
+pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> Script {
     let mut builder = Builder::default();
     let honoured = builder.script.value(Held::Flag(true));
     let off = builder.script.held(Held::Flag(false));
@@ -83,6 +97,7 @@ pub(super) fn script(sources: &[Source], sections: &Sections) -> Script {
         builder.script.variable(made)
     };
     let switched = state(&mut builder, "configuration", off);
+    let chained = state(&mut builder, "arc", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
     let saved = starts.map(|pose| {
         let remark = builder.script.remark(SAVED);
@@ -95,12 +110,32 @@ pub(super) fn script(sources: &[Source], sections: &Sections) -> Script {
     });
     let mut reader = Reader {
         sources,
+        sections,
         switches: builder.script.guard([switched, saved[0], saved[1]]),
+        chains: builder
+            .script
+            .guard([chained, switched, saved[0], saved[1]]),
         saved,
         builder,
         switched,
+        chained,
         honoured,
-        ..Reader::default()
+        names: HashMap::default(),
+        assigned: HashSet::default(),
+        written: HashSet::default(),
+        programs: HashMap::default(),
+        parameters: Vec::new(),
+        known: OnceCell::new(),
+        apart: HashMap::default(),
+        copied: Vec::new(),
+        taken: RefCell::default(),
+        plates: Plates::default(),
+        given: Given::default(),
+        called: HashSet::default(),
+        any: Vec::new(),
+        tool: 0,
+        base: 0,
+        here: Here::default(),
     };
     let [tool, base] = [("TOOL", starts[0]), ("BASE", starts[1])].map(|(name, pose)| {
         let before = reader.frame_value(name, pose);
@@ -121,10 +156,11 @@ pub(super) fn script(sources: &[Source], sections: &Sections) -> Script {
     }
     reader.note_handed(&handed);
     reader.note_arrays(&handed);
-    reader.find_plates(sections, starts[1]);
+    reader.find_plates(starts[1]);
     for (routine, program) in (0..).zip(&sections.programs) {
         reader.program(routine, program);
     }
+    reader.refuse_apart();
     reader.start_uncalled();
     reader.write_any();
     let mut script = reader.builder.finish();
@@ -156,13 +192,20 @@ impl<'a> Reader<'a> {
 
     /// Notes the names that a program writes, whenever it runs, and those that it hands to others.
     fn note_assigned(&mut self, program: &Program, routine: RoutineId, handed: &mut Vec<Handed>) {
-        let bytes = &self.sources[program.place.file as usize].bytes;
+        let file = program.place.file;
+        let bytes = &self.sources[file as usize].bytes;
         // most lines write no name
         program.each(bytes, may_write, |line| {
             let part = line.words;
+            self.note_apart(part, Place::new(file, short(line.start)), routine);
             if matches!(line.keyword, "POint" | "HEre") {
                 let name = if part.is(1, b'/') { 3 } else { 1 };
-                if let Some((name, _)) = Name::defined(part.behind(name).before(b'=')) {
+                let defined = part.behind(name).before(b'=');
+                if let Some((name, _)) = Name::defined(defined) {
+                    let owned = (self.owner_in(&name, routine), name.stem.clone());
+                    for of in self.names_in(part.behind(1 + defined.len()), routine) {
+                        self.copied.push((owned.clone(), of));
+                    }
                     self.written.insert((routine, name.stem));
                 }
             } else if line.keyword == "HSENSE" {
@@ -172,6 +215,25 @@ impl<'a> Reader<'a> {
                 Handed::note(part.behind(at + 1), routine, handed);
             }
         });
+    }
+
+    /// The names in words.
+    fn names_in(&self, part: Words, routine: RoutineId) -> Vec<Owned> {
+        let names = (0..part.len()).filter_map(|at| Name::of(part.behind(at)));
+        let owned = |(name, _): (Name, usize)| (self.owner_in(&name, routine), name.stem);
+        names.map(owned).collect()
+    }
+
+    /// Notes the names whose numbers `FRAME(a,b,c,d)` and `DECOMPOSE x[0]=a` read.
+    fn note_apart(&mut self, part: Words, place: Place, routine: RoutineId) {
+        let decomposed = find(part, "DECompose").map(|_| part.behind(part.before(b'=').len() + 1));
+        let frame = part.find(b"FRAME").filter(|at| part.is(at + 1, b'('));
+        let framed = frame.map(|at| part.inside(at + 1).0);
+        for read in decomposed.into_iter().chain(framed) {
+            for name in self.names_in(read, routine) {
+                self.apart.entry(name).or_insert(place);
+            }
+        }
     }
 
     fn program(&mut self, routine: RoutineId, program: &Program<'a>) {
@@ -336,6 +398,7 @@ impl<'a> Reader<'a> {
             if self
                 .here
                 .last
+                .as_ref()
                 .is_some_and(|last| self.may_be(last.base, written))
             {
                 self.here.last = None;
@@ -373,8 +436,12 @@ impl<'a> Reader<'a> {
         let value = part.behind(defined.len() + 1);
         if is_partial {
             let remark = self.builder.script.remark(COMPUTED);
-            let is_own = is_sum || mentions(value.whole(), defined.whole());
-            let how = How::part(is_own, false, remark);
+            let how = if is_sum || mentions(value.whole(), defined.whole()) {
+                // worked out of itself in a way that is not followed
+                How::PartBy(remark, UNBOUNDED)
+            } else {
+                How::PartNumber(remark)
+            };
             return self.write_name(&name, how);
         }
         // joints of a pose, and a pose of joints, are those of the tool, base and posture of that
@@ -423,7 +490,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a line may be one that writes a name, or hands one to a program.
+/// Whether a line may be one that writes a name, reads it, or hands one to a program.
 fn may_write(line: &[u8]) -> bool {
     let has = |first: u8, other: u8, word: &[u8]| {
         let mut places = memchr::memchr2_iter(first, other, line);
@@ -437,6 +504,8 @@ fn may_write(line: &[u8]) -> bool {
         || has(b'H', b'h', b"HE")
         || has(b'H', b'h', b"HS")
         || has(b'C', b'c', b"CA")
+        || has(b'F', b'f', b"FRAME")
+        || has(b'D', b'd', b"DEC")
 }
 
 /// The joints that `HSENSE number result,status,#joints,error,left` writes.

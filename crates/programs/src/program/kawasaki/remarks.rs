@@ -106,3 +106,15 @@ pub(super) fn added_up(file: &str, line: usize) -> Remark {
         "give what is added a name of its own in .TRANS",
     )
 }
+
+/// A target whose numbers a program reads: they would be those that are written here.
+pub(super) fn taken_apart(file: &str, line: usize) -> Remark {
+    Remark::error_about(
+        "target-used-as-frame",
+        format!(
+            "FRAME or DECOMPOSE reads the numbers of this target (see {file} line {line}), and \
+             what the program makes of corrected ones is not followed"
+        ),
+        "give what is read a name of its own in .TRANS",
+    )
+}

@@ -39,6 +39,8 @@ pub(super) struct Sections<'a> {
     pub entries: Vec<Entry<'a>>,
     /// `TOOL` and `BASE` of `.SYSDATA`: what they were when the controller was saved.
     pub saved: Vec<Entry<'a>>,
+    /// Names of `.REALS`, and their values.
+    pub reals: Vec<(&'a [u8], f64)>,
 }
 
 /// A line without its end, and where it begins.
@@ -92,7 +94,7 @@ fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>
 }
 
 /// How words are written: names have dots.
-static SPELLING: Spelling = Spelling {
+pub(super) static SPELLING: Spelling = Spelling {
     comment: b";",
     in_names: in_names(b"_.$"),
     has_escapes: false,
@@ -177,6 +179,7 @@ impl<'a> Sections<'a> {
             Nothing,
             Entries,
             System,
+            Reals,
             Program,
             Other,
         }
@@ -195,13 +198,19 @@ impl<'a> Sections<'a> {
                 (open, opened_at, is_one) = (Open::Entries, line.start, true);
             } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
                 let is_system = opens(text, b".SYSDATA");
-                open = if is_system { Open::System } else { Open::Other };
+                open = match () {
+                    () if is_system => Open::System,
+                    () if opens(text, b".REALS") => Open::Reals,
+                    () => Open::Other,
+                };
                 opened_at = line.start;
                 is_one |= is_system;
             } else if matches!(open, Open::System) {
                 if text.starts_with(b"TOOL ") || text.starts_with(b"BASE ") {
                     self.saved.extend(entry(line, file).ok().flatten());
                 }
+            } else if matches!(open, Open::Reals) {
+                self.reals.extend(real(text));
             } else if matches!(open, Open::Entries) {
                 self.entries.extend(entry(line, file)?);
             } else if matches!(open, Open::Program)
@@ -212,7 +221,7 @@ impl<'a> Sections<'a> {
         }
         match open {
             // others may be a line alone
-            Open::Nothing | Open::Other => Ok(is_one),
+            Open::Nothing | Open::Other | Open::Reals => Ok(is_one),
             Open::Entries | Open::System | Open::Program => Err(Fault::unclosed(
                 opened_at,
                 "the section (its last line is .END)",
@@ -253,6 +262,13 @@ fn parameter(part: Words) -> Vec<u8> {
         1 => last,
         _ => [b".", &last[..]].concat(),
     }
+}
+
+/// `name = 1.0`
+fn real(line: &[u8]) -> Option<(&[u8], f64)> {
+    let at = memchr::memchr(b'=', line)?;
+    let value = number::parse(line[at + 1..].trim_ascii())?;
+    Some((line[..at].trim_ascii(), value))
 }
 
 /// `name 1.0 2.0 …`; nothing of an empty line.

@@ -1,17 +1,18 @@
 //! Positions: names of `.TRANS` and `.JOINTS`, `TRANS(…)`, `#[…]`, and what is added to them.
 
 use super::plates::Object;
-use super::pose_of;
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, added_up, not_in_files};
+use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, not_in_files};
 use super::sections::Entry;
-use crate::geometry::units::{DEG, MM};
-use crate::geometry::{Pose, Rotation};
+use crate::geometry::Pose;
+use crate::program::displacing::Displacing;
+use crate::program::quantity::Quantity;
 use crate::program::script::{
     Expr, Held, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
 };
+use crate::program::transformations::{Steps, along};
 use crate::program::words::{Kind, Word, Words, six};
-use crate::program::{Layout, Number, Shape, Shift, Source, Target, TargetId};
+use crate::program::{Layout, Number, Shape, Source, Target, TargetId};
 use foldhash::HashMap;
 use std::ops::Range;
 
@@ -86,17 +87,17 @@ impl Name {
 /// What the elements of one name are.
 #[derive(Debug)]
 pub(super) struct Elements {
-    table: TableId,
+    pub table: TableId,
     /// By key.
     pub variables: HashMap<Vec<u8>, VariableId>,
 }
 
 /// A position before it is put into the script.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Position {
     pub base: Expr,
-    /// What is added; `None` where only the running program knows.
-    pub by: Option<Shift>,
+    /// What is added.
+    by: Displacing,
     /// The plate that it is on: the work frame, and where that is on the base.
     pub on: Option<(VariableId, Pose)>,
 }
@@ -105,46 +106,23 @@ impl Position {
     pub(super) fn plain(base: Expr) -> Self {
         Self {
             base,
-            by: Some(Shift::none()),
+            by: Displacing::new(),
             on: None,
         }
     }
 
-    /// With a motion in the tool frame added.
-    pub(super) fn in_tool(mut self, by: Option<Pose>) -> Self {
-        self.by = self.by.zip(by).map(|(own, by)| Shift {
-            in_tool: own.in_tool * by,
-            ..own
-        });
+    /// With steps in the tool frame added.
+    pub(super) fn in_tool(mut self, steps: Steps) -> Self {
+        steps.in_tool(&mut self.by);
         self
     }
 
-    /// With a translation in the base frame added, mm.
-    pub(super) fn along(mut self, by: Option<[f64; 3]>) -> Self {
-        self.by = self.by.zip(by).map(|(own, by)| {
-            let along = Shift::along(by.map(|mm| mm * MM)).in_frame;
-            let in_frame = match self.on {
-                Some((_, plate)) => plate.inverse() * along * plate * own.in_frame,
-                None => along * own.in_frame,
-            };
-            Shift { in_frame, ..own }
-        });
+    /// With a way in the base frame added, mm.
+    pub(super) fn along(mut self, way: &[Quantity; 3]) -> Self {
+        let plate = self.on.map_or(Pose::identity(), |(_, plate)| plate);
+        along(way, &plate.rotation.transpose(), &mut self.by);
         self
     }
-}
-
-/// The numbers of a list, blanks as 0; `None` where one is computed.
-pub(super) fn literals<const COUNT: usize>(list: &[Words]) -> Option<[f64; COUNT]> {
-    let mut found = [0.0; COUNT];
-    if list.len() > COUNT {
-        return None;
-    }
-    for (value, part) in found.iter_mut().zip(list) {
-        if !part.is_empty() {
-            *value = part.value()?;
-        }
-    }
-    Some(found)
 }
 
 impl<'a> Reader<'a> {
@@ -232,7 +210,7 @@ impl<'a> Reader<'a> {
 
     /// Names of the program's own begin with a dot; parameters are its own, too.
     fn is_local(&self, name: &Name) -> bool {
-        name.plain().starts_with(b".") || self.is_parameter(name)
+        self.owner(name).is_some()
     }
 
     fn is_parameter(&self, name: &Name) -> bool {
@@ -240,13 +218,25 @@ impl<'a> Reader<'a> {
         own.is_some_and(|own| own.iter().any(|own| own == name.plain()))
     }
 
-    /// The program that a name belongs to; none where it is of all.
+    /// The program that a name belongs to where one uses it; none where it is of all.
+    pub(super) fn owner_in(&self, name: &Name, routine: RoutineId) -> Option<RoutineId> {
+        let own = self.parameters.get(routine as usize);
+        let is_parameter = own.is_some_and(|own| own.iter().any(|own| own == name.plain()));
+        (is_parameter || name.plain().starts_with(b".")).then_some(routine)
+    }
+
     fn owner(&self, name: &Name) -> Option<RoutineId> {
-        self.is_local(name).then_some(self.here.routine)
+        self.owner_in(name, self.here.routine)
+    }
+
+    pub(super) fn elements_in(&self, name: &Name, routine: RoutineId) -> Option<&Elements> {
+        self.names
+            .get(&self.owner_in(name, routine))?
+            .get(&name.stem)
     }
 
     fn elements(&self, name: &Name) -> Option<&Elements> {
-        self.names.get(&self.owner(name))?.get(&name.stem)
+        self.elements_in(name, self.here.routine)
     }
 
     /// Whether a name is one of the files' positions.
@@ -320,8 +310,9 @@ impl<'a> Reader<'a> {
             self.term(*first)
         };
         for (sign, term) in others {
-            let by = self.known_pose(*term);
-            found = found.in_tool(by.map(|by| if *sign == b'-' { by.inverse() } else { by }));
+            let steps = self.steps(*term);
+            let is_back = *sign == b'-';
+            found = found.in_tool(if is_back { steps.inverse() } else { steps });
         }
         found
     }
@@ -336,8 +327,8 @@ impl<'a> Reader<'a> {
         if part.is_word(0, b"SHIFT") && part.is(1, b'(') {
             let (inside, _) = part.inside(1);
             if let Some(by) = inside.find(b"BY") {
-                let moved = literals(&inside.behind(by + 1).list());
-                return self.position(inside.part(0..by)).along(moved);
+                let [x, y, z, ..] = self.quantities(&inside.behind(by + 1).list());
+                return self.position(inside.part(0..by)).along(&[x, y, z]);
             }
         }
         if part.is_word(0, b"HERE") || part.is(0, b'#') && part.is_word(1, b"HERE") {
@@ -367,62 +358,11 @@ impl<'a> Reader<'a> {
         self.unknown(remark)
     }
 
-    /// What poses that are added up are, where the text tells it.
-    pub(super) fn known_sum(&mut self, part: Words<'a, '_>) -> Option<Pose> {
-        let add = |sum: Pose, (sign, term): (u8, Words<'a, '_>)| {
-            let by = self.known_pose(term)?;
-            Some(sum * if sign == b'-' { by.inverse() } else { by })
-        };
-        part.terms().into_iter().try_fold(Pose::identity(), add)
-    }
-
-    /// What is added to a position, where the text tells it; a name whose numbers are taken keeps
-    /// them.
-    fn known_pose(&mut self, part: Words<'a, '_>) -> Option<Pose> {
-        if part.is(1, b'(') {
-            let list = part.rest_list(1)?;
-            let turn = |turn: fn(f64) -> Rotation| {
-                let [angle] = literals(&list)?;
-                Some(Pose {
-                    rotation: turn(angle * DEG),
-                    ..Pose::identity()
-                })
-            };
-            return match () {
-                () if part.is_word(0, b"TRANS") => literals(&list).map(pose_of),
-                () if part.is_word(0, b"RX") => turn(Rotation::about_x),
-                () if part.is_word(0, b"RY") => turn(Rotation::about_y),
-                () if part.is_word(0, b"RZ") => turn(Rotation::about_z),
-                () => None,
-            };
-        }
-        if part.is_word(0, b"NULL") && part.len() == 1 {
-            return Some(Pose::identity());
-        }
-        let (name, words) = Name::of(part)?;
-        let is_constant = words == part.len() && !self.assigned.contains(&name.stem);
-        let key = name
-            .key
-            .as_ref()
-            .filter(|_| is_constant && !name.is_joints())?;
-        let variable = *self.elements(&name)?.variables.get(key)?;
-        let source = &self.sources[self.here.file as usize];
-        let (line, _) = source.line_column(self.here.at);
-        let script = &mut self.builder.script;
-        let Expr::Target(target) = script.variables[variable as usize].declared else {
-            return None;
-        };
-        script.refuse(target, added_up(&source.name, line));
-        let numbers = script.numbers_of(target);
-        Some(pose_of(std::array::from_fn(|i| numbers[i].value)))
-    }
-
     /// A position as the script has it.
     pub(super) fn expr(&mut self, position: &Position) -> Expr {
-        match position.by {
-            Some(by) if by == Shift::none() => position.base,
-            by => self.builder.script.shifted(position.base, by),
-        }
+        let script = &mut self.builder.script;
+        let by = script.displacement(position.by.clone().displacement());
+        script.displaced(position.base, by)
     }
 
     // ---- tools and bases
@@ -442,7 +382,7 @@ impl<'a> Reader<'a> {
                     self.frame_value(&name.text(), None)
                 }
             }
-            _ => match self.known_sum(part) {
+            _ => match self.steps(part).exact() {
                 Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),
                 None => self.unknown(ASSIGNED),
             },

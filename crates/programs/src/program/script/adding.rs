@@ -6,7 +6,7 @@ use super::{
     Variable, VariableId, short,
 };
 use crate::geometry::Pose;
-use crate::program::{Displacement, Number, Shift, Source, Target, TargetId};
+use crate::program::{Displacement, Number, Source, Target, TargetId};
 use std::ops::Range;
 
 /// How many of the last [`Script::modals`] a new one is compared with: moves of a kind mostly
@@ -167,13 +167,6 @@ impl Script {
             first,
             end: short(self.lists.len()),
         }
-    }
-
-    /// A position, displaced by a motion; by what nobody knows where that is `None`.
-    pub fn shifted(&mut self, base: Expr, by: Option<Shift>) -> Expr {
-        let by = by.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
-        let by = self.displacement(by);
-        self.displaced(base, by)
     }
 
     /// A position, displaced.

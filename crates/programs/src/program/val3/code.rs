@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// Since s7, code stands as it is.
-static PLAIN: Spelling = Spelling {
+pub(super) static PLAIN: Spelling = Spelling {
     comment: b"//",
     in_names: in_names(b"$_"),
     has_escapes: true,

@@ -22,6 +22,7 @@ pub(super) enum Kind {
     Tool,
     Trsf,
     Mdesc,
+    Num,
     /// A point or joints of an arm that has not six axes.
     OtherArm,
     Other,
@@ -37,6 +38,7 @@ impl Kind {
             b"tool" => Self::Tool,
             b"trsf" => Self::Trsf,
             b"mdesc" => Self::Mdesc,
+            b"num" => Self::Num,
             _ if name.starts_with(b"point") || name.starts_with(b"joint") => Self::OtherArm,
             _ => Self::Other,
         }
@@ -138,6 +140,15 @@ impl<'a> Element<'a> {
         if kind == Kind::Mdesc {
             self.key = tag.attribute(b"key")?.map_or(self.key, |key| key.value);
             self.speed_zone = speed_zone(tag)?;
+            return Ok(());
+        }
+        if kind == Kind::Num {
+            self.key = tag.attribute(b"key")?.map_or(self.key, |key| key.value);
+            // a number that is none is refused where a move needs it
+            let value = tag.attribute(b"value")?.map(|value| value.number());
+            if let Some(Ok(value)) = value {
+                (self.numbers[0], self.is_given) = (value, true);
+            }
             return Ok(());
         }
         let has_numbers = tag.name != b"cpValue";
@@ -260,7 +271,7 @@ impl Datum<'_> {
 
     /// The first value whose key another one before it has.
     fn again(&self) -> Option<&Element<'_>> {
-        let is_read = !matches!(self.kind, Kind::Other | Kind::OtherArm);
+        let is_read = !matches!(self.kind, Kind::Other | Kind::OtherArm | Kind::Num);
         let mut known = HashSet::new();
         let mut all = self.elements.iter().filter(|_| is_read);
         all.find(|one| !known.insert(plain_key(one.key)))
@@ -374,6 +385,9 @@ fn inside<'a>(datum: &mut Datum<'a>, tag: &Tag<'a>, father: &mut Father<'a>) -> 
                 .attribute(b"index")?
                 .map_or(element.key, |key| key.value);
             element.father = *father;
+            if datum.kind == Kind::Num {
+                element.add(datum.kind, tag)?;
+            }
             datum.elements.push(element);
         }
         name if name.ends_with(b"Value") => {

@@ -6,8 +6,12 @@ use super::reader::Reader;
 use super::remarks::{FRAME_CHOSEN, frame_assigned};
 use super::targets::pose_of;
 use crate::geometry::Pose;
+use crate::program::displacing::Displacing;
 use crate::program::kit;
-use crate::program::script::{DisplacementId, Expr, Remark, VariableId};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, Remark, UNBOUNDED, VariableId,
+};
+use crate::program::transformations::Steps;
 use crate::program::words::Words;
 use crate::program::{Displacement, Shift, Source};
 
@@ -18,7 +22,7 @@ pub(super) struct Composed<'a> {
     base: Expr,
     /// The frame that it names, and the project that does.
     asked: (u32, Father<'a>),
-    by: Pose,
+    by: Steps,
 }
 
 /// No tool or frame is rotated by more, degrees.
@@ -27,19 +31,24 @@ const MOST_ANGLE: f64 = 720.0;
 const LONGEST_CHAIN: u32 = 32;
 
 impl<'a> Reader<'a> {
-    /// What `compose` does to a position, known once all copies are; `None` where only the running
-    /// program knows the frame.
+    /// What `compose` does to a position, known once all copies are.
     pub(super) fn compose(
         &mut self,
         base: Expr,
         frame: Words<'a, '_>,
-        by: Pose,
-    ) -> Option<DisplacementId> {
-        let name = Reference::whole(frame)?;
+        by: Steps,
+    ) -> DisplacementId {
+        let name = Reference::whole(frame).and_then(|name| Some((name, name.key?)));
+        if by.is_unknown() {
+            return DISPLACED_SOMEHOW;
+        }
+        let Some((name, index)) = name else {
+            return UNBOUNDED;
+        };
         let asked = Father {
             alias: name.alias,
             name: name.name,
-            index: name.key?,
+            index,
         };
         let nothing = Displacement::By(Box::new(Shift::none()));
         let displacement = self.builder.script.displacement(nothing);
@@ -49,20 +58,21 @@ impl<'a> Reader<'a> {
             asked: (self.here.project, asked),
             by,
         });
-        Some(displacement)
+        displacement
     }
 
     /// Finds the displacements of all `compose`.
     pub(super) fn settle_composed(&mut self) {
         for composed in std::mem::take(&mut self.composed) {
-            let shift = self.shift_of(&composed);
-            let shift = shift.map_or(Displacement::Unknown, |by| Displacement::By(Box::new(by)));
-            self.builder.script.displacements[composed.displacement as usize] = shift;
+            let at = composed.displacement as usize;
+            // of what the text tells and is not followed nothing is known
+            let by = self.composed_by(composed);
+            self.builder.script.displacements[at] = by.unwrap_or(Displacement::Unbounded);
         }
     }
 
     /// What a `compose` does to a position, in its own frame.
-    fn shift_of(&self, composed: &Composed<'a>) -> Option<Shift> {
+    fn composed_by(&self, composed: Composed<'a>) -> Option<Displacement> {
         let [only] = self.fathers(composed.base)[..] else {
             return None;
         };
@@ -77,10 +87,15 @@ impl<'a> Reader<'a> {
         } else {
             place(own)?.inverse() * place(asked)?
         };
-        Some(Shift {
-            in_frame: own_from_asked * composed.by * own_from_asked.inverse(),
-            in_tool: Pose::identity(),
-        })
+        if let Some(by) = composed.by.exact() {
+            return Some(Displacement::By(Box::new(Shift {
+                in_frame: own_from_asked * by * own_from_asked.inverse(),
+                in_tool: Pose::identity(),
+            })));
+        }
+        let mut by = Displacing::new();
+        let is_followed = composed.by.in_frame(&own_from_asked.rotation, &mut by);
+        is_followed.then(|| by.displacement())
     }
 
     /// The tool that an argument is.
@@ -98,10 +113,15 @@ impl<'a> Reader<'a> {
                     Some(key) => asked_name(name.alias, name.name, key),
                     None => return self.unknown(FRAME_CHOSEN),
                 };
+                let meant = self.world.meant_by(self.here.project, name.alias);
+                let asked = (asked, meant);
                 if let Some(known) = self.variables.tools.get(&asked) {
                     return *known;
                 }
-                let made = self.frame_value(&asked, is_flange.then(Pose::identity));
+                let made = self.frame_value(&asked.0, is_flange.then(Pose::identity));
+                if !is_flange {
+                    self.asked.push((made, asked.clone(), self.here.project));
+                }
                 self.variables.tools.insert(asked, made);
                 made
             }
@@ -213,6 +233,24 @@ impl<'a> Reader<'a> {
         found.unwrap_or(Expr::Absent)
     }
 
+    /// Tools and frames that several projects ask for by one name, and do not mean the same, have
+    /// that of the project in front.
+    pub(super) fn tell_apart(&mut self) {
+        let all = std::mem::take(&mut self.asked);
+        for (made, (name, meant), project) in &all {
+            let mut others = all
+                .iter()
+                .filter(|(_, (other, of), _)| other == name && of != meant);
+            let Some(_) = others.next() else { continue };
+            let label = self.world.label(*project);
+            if let Expr::Value(value) = made
+                && let Held::Frame(frame) = &mut self.builder.script.values[*value as usize]
+            {
+                frame.name = format!("{label}/{name}").into();
+            }
+        }
+    }
+
     fn frame(&mut self, place: u32) -> Expr {
         if let Some(known) = self.variables.frames[place as usize] {
             return known;
@@ -223,15 +261,21 @@ impl<'a> Reader<'a> {
             let of = &self.world.data[datum as usize];
             Some(of.name_of(of.element(father.index)?))
         });
+        let mut asked = None;
         let name = match named {
             Some(name) => name,
             None if father.is_world() => "world".to_owned(),
-            None => asked_name(father.alias, father.name, father.index),
+            None => {
+                let name = asked_name(father.alias, father.name, father.index);
+                asked = Some((name.clone(), self.world.meant_by(project, father.alias)));
+                name
+            }
         };
         let made = match self.chain(project, father, Kind::Frame, 0) {
             Ok(pose) => self.frame_value(&name, pose),
             Err(remark) => self.unknown(remark),
         };
+        self.asked.extend(asked.map(|asked| (made, asked, project)));
         self.variables.frames[place as usize] = Some(made);
         made
     }

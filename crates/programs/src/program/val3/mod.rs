@@ -17,7 +17,7 @@
 //! # Limits
 //!
 //! A frame that the running program changes anywhere is unknown everywhere. Fields of structures of
-//! the user's own are not followed. Arrays handed over with all values are followed in their first.
+//! the user's own are not followed.
 
 mod arrays;
 mod code;
@@ -26,6 +26,7 @@ mod drive;
 mod frames;
 mod insert;
 mod moves;
+mod numbers;
 mod project;
 mod reader;
 mod remarks;

@@ -123,6 +123,7 @@ impl<'a> Reader<'a> {
             let of = script.modals[script.instructions[at].modal as usize];
             script.instructions[at].modal = script.modal(Modal { frame, ..of });
         }
+        self.tell_apart();
         self.builder.finish()
     }
 }

@@ -347,6 +347,38 @@ impl<'a> World<'a> {
         self.at_path(project, path)
     }
 
+    /// What an alias of a project means: the path of the library; that of the project without one.
+    pub(super) fn meant_by(&self, project: u32, alias: &[u8]) -> String {
+        let own = &self.projects[project as usize];
+        let mut libraries = own.libraries.iter().filter(|_| !alias.is_empty());
+        let Some((_, path)) = libraries.find(|(name, _)| *name == alias) else {
+            return [&own.path, "/", &*Source::text(alias)].concat();
+        };
+        if memchr::memmem::find(path, b"://").is_some() {
+            return String::from_utf8_lossy(path).into_owned();
+        }
+        below(folder_of(&own.path), path)
+    }
+
+    /// What a project is called: its name where no other has it, else its path.
+    pub(super) fn label(&self, project: u32) -> &str {
+        let stem = |of: &'_ Project| -> String {
+            let name = of.path.rsplit('/').next().unwrap_or_default();
+            name.to_lowercase()
+        };
+        let own = &self.projects[project as usize];
+        let same = self
+            .projects
+            .iter()
+            .filter(|other| stem(other) == stem(own));
+        let path = own.path.strip_suffix(".pjx").unwrap_or(&own.path);
+        if same.count() > 1 {
+            path
+        } else {
+            path.rsplit('/').next().unwrap_or_default()
+        }
+    }
+
     /// The project at a path, from the folder of another: `./Prog1`, `Disk://Prog1/Prog1.pjx`. Where
     /// none is exactly there, the only one whose path ends so in the nearest folder around.
     pub(super) fn at_path(&self, project: u32, path: &[u8]) -> Option<u32> {

@@ -2,18 +2,22 @@
 
 use super::arrays::Arrays;
 use super::code::{Code, Reference};
-use super::data::Kind;
+use super::data::{Kind, POSE};
 use super::frames::Composed;
 use super::moves::Verb;
+use super::numbers::{axis, turned_by_any};
 use super::project::{Program, World};
-use super::remarks::{COMPUTED, frame_assigned, library};
+use super::remarks::{COMPUTED, REORDERED, frame_assigned, library};
 use super::targets::{Of, Variables};
-use crate::program::notation::{grown_by, mentions, turned_by};
+use crate::program::Source;
+use crate::program::displacing::grown_by_any;
+use crate::program::notation::mentions;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, VariableId, short,
+    Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, UNBOUNDED, VariableId,
+    Written, short,
 };
+use crate::program::transformations::Entries;
 use crate::program::words::{self, Words, unquoted};
-use crate::program::{Source, number};
 use foldhash::{HashMap, HashSet};
 
 /// Built-in instructions, and which of their arguments they write.
@@ -26,11 +30,16 @@ const WRITES: &[(&[u8], usize)] = &[
     (b"setFrame", 3),
     (b"link", 0),
     (b"getLatch", 0),
+    (b"toNum", 1),
+    (b"sioGet", 1),
+    (b"get", 0),
+    (b"fromBinary", 3),
     (b"resize", 0),
-    (b"append", 0),
     (b"insert", 0),
     (b"delete", 0),
 ];
+/// Those of them after which values have other keys.
+const REORDER: &[&[u8]] = &[b"resize", b"insert", b"delete"];
 
 /// The argument that a built-in instruction writes.
 pub(super) fn written_argument(name: &[u8]) -> Option<usize> {
@@ -64,6 +73,11 @@ pub(super) struct Reader<'a> {
     /// Nothing new was found about arrays.
     pub is_settled: bool,
     pub composed: Vec<Composed<'a>>,
+    /// Tools and frames that the files do not have: what they are asked for by, what has them, and
+    /// the project that asks.
+    pub asked: Vec<(Expr, (String, String), u32)>,
+    /// What numbers and transformations are.
+    pub entries: Entries<'a>,
     pub here: Here,
 }
 
@@ -92,9 +106,12 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         let name = Source::text(program.name);
         reader.builder.declare(name, place, Start::Called);
     }
+    reader.declare_numbers();
     for (program, code) in codes.iter().enumerate() {
+        reader.entries.begin(short(program));
         reader.program(program, code, Reader::note_assigned);
     }
+    reader.entries.finish();
     while !std::mem::replace(&mut reader.is_settled, true) {
         for (program, code) in codes.iter().enumerate() {
             reader.program(program, code, Reader::note_given);
@@ -130,6 +147,7 @@ impl<'a> Reader<'a> {
 
     /// Notes what a statement changes, whenever it runs.
     fn note_assigned(&mut self, line: Words<'a, '_>) {
+        self.tell(line);
         if let Some(target) = Reference::of(line)
             && line.is(target.words, b'=')
         {
@@ -248,7 +266,12 @@ impl<'a> Reader<'a> {
                 let given = line.inside(at + 1).0.list();
                 let target = given.get(argument).and_then(|one| Reference::of(*one));
                 if let Some(target) = target {
-                    self.write_something(&target, line.span().start, name == b"link");
+                    let (offset, relinks) = (line.span().start, name == b"link");
+                    if REORDER.contains(&name) && self.kind_of(&target).is_place() {
+                        self.reorder(&target, offset);
+                    } else {
+                        self.write_something(&target, offset, relinks);
+                    }
                 }
             }
         }
@@ -331,43 +354,45 @@ impl<'a> Reader<'a> {
         let own = letters(field.whole());
         let last = field.len().checked_sub(3);
         let last = last.filter(|last| field.text(*last) == b"trsf");
-        let fields = [&b"x"[..], b"y", b"z", b"rx", b"ry", b"rz"];
-        let at = last.and_then(|last| {
-            let name = field.text(last + 2);
-            fields.iter().position(|known| *known == name)
-        });
-        if let (Some(at), Some((term, by))) =
-            (at, number::term_and_sum(value.whole(), number::parse))
-        {
+        let at = last.and_then(|last| axis(field.text(last + 2)));
+        let found = self.term_and_rest(value.whole(), letters);
+        if let (Some(at), Some((term, by))) = (at, found) {
             let displacement = match at {
-                0..=2 => grown_by(at, by),
+                0..=2 => grown_by_any(at, by),
                 // Rx · Ry · Rz
-                _ => Some(turned_by(by)),
+                _ => turned_by_any(&by),
             };
-            let Some(displacement) = displacement else {
-                return How::PartSomehow(remark);
-            };
-            if letters(term) == own {
-                return self.builder.script.part_by(remark, displacement);
+            if term == own {
+                return match displacement {
+                    Some(by) => self.builder.script.part_by(remark, by),
+                    None => How::part(true, at > 2, remark),
+                };
             }
-            let other = Reference::of(value).filter(|other| other.has_field && other.words > 4);
-            if let Some(other) = other.filter(|_| at < 3) {
-                let end = letters(value.part(other.words - 4..other.words).whole());
-                let is_same = end == [b".trsf.", fields[at]].concat();
-                if is_same && letters(value.part(0..other.words).whole()) == letters(term) {
-                    let other = self.given(Kind::Point, value.part(0..other.words - 4));
-                    let by = self.builder.script.displacement(displacement);
-                    return How::PartOf {
-                        remark,
-                        of: other,
-                        axis: at,
-                        by,
-                    };
-                }
+            let is_same = term.ends_with(&[b".trsf.", POSE[at].as_bytes()].concat());
+            let others = (0..value.len()).filter_map(|start| {
+                let other = Reference::of(value.behind(start))?;
+                let end = start + other.words;
+                let is_it = other.words > 4 && letters(value.part(start..end).whole()) == term;
+                is_it.then(|| value.part(start..end - 4))
+            });
+            let other = others.into_iter().next().filter(|_| is_same && at < 3);
+            if let (Some(other), Some(by)) = (other, displacement) {
+                let of = self.given(Kind::Point, other);
+                let by = self.builder.script.displacement(by);
+                return How::PartOf {
+                    remark,
+                    of,
+                    axis: at,
+                    by,
+                };
             }
         }
-        let is_own = mentions(&letters(value.whole()), &own);
-        How::part(is_own, at.is_some_and(|at| at > 2), remark)
+        if mentions(&letters(value.whole()), &own) {
+            // worked out of itself in a way that is not followed
+            How::PartBy(remark, UNBOUNDED)
+        } else {
+            How::PartNumber(remark)
+        }
     }
 
     /// A built-in instruction changes something in a manner of its own.
@@ -380,6 +405,23 @@ impl<'a> Reader<'a> {
         };
         let value = self.unknown(remark);
         self.write(target, offset, How::Whole(value));
+    }
+
+    /// The values of an array get other keys: each of them may be any.
+    fn reorder(&mut self, target: &Reference<'a>, offset: usize) {
+        let Some(known) = self.meaning(target) else {
+            return;
+        };
+        let table = self.all(known, target.name);
+        let value = self.unknown(REORDERED);
+        let place = self.place(offset);
+        let entries = &self.builder.script.tables[table as usize].entries;
+        let all: Vec<VariableId> = entries.values().copied().collect();
+        for variable in all {
+            let how = How::Whole(value);
+            (self.builder).write(place, Written::One(variable), how);
+        }
+        self.builder.script.refuse_all(table, REORDERED);
     }
 
     fn write(&mut self, target: &Reference<'a>, offset: usize, how: How) {

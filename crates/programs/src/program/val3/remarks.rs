@@ -27,6 +27,14 @@ pub(super) const UNFOLLOWED: Remark = Remark::error(
          parameter that is none",
 );
 
+/// Against an array whose elements are moved about.
+pub(super) const REORDERED: Remark = Remark::error(
+    "target-assigned-at-run-time",
+    "the running program inserts, deletes or resizes (insert, delete, resize): which point an \
+         element of this array is then is not followed",
+    "keep the points of moves in an array that stays as it is",
+);
+
 /// A declared point without numbers.
 pub(super) fn not_taught(name: &str) -> Remark {
     Remark::error_about(

@@ -9,12 +9,13 @@ use super::remarks::{
     some_not_taught,
 };
 use crate::geometry::Pose;
+use crate::program::displacing::Displacing;
 use crate::program::script::{
     Builder, Expr, Held, Place, Remark, RoutineId, TableId, ValueId, Variable, VariableId, Written,
     short,
 };
 use crate::program::words::{Words, six};
-use crate::program::{Layout, Number, Shape, Shift, Source, Target, TargetId};
+use crate::program::{Layout, Number, Shape, Source, Target, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -64,8 +65,8 @@ pub(super) struct Variables<'a> {
     any: HashMap<TableId, Expr>,
     /// The work frame that each father is, once it is asked for.
     pub frames: Vec<Option<Expr>>,
-    /// Tools that the files do not have, by the name that is asked for.
-    pub tools: HashMap<String, Expr>,
+    /// Tools that the files do not have, by the name that is asked for and what has it.
+    pub tools: HashMap<(String, String), Expr>,
     /// Configuration data count.
     pub honoured: ValueId,
     /// Index in the script's guards: the path is altered.
@@ -137,6 +138,18 @@ impl<'a> Variables<'a> {
     }
 }
 
+impl Variables<'_> {
+    /// The table of a datum.
+    pub(super) fn table_of(&self, datum: usize) -> TableId {
+        self.tables[datum]
+    }
+
+    /// That of a name of a program's own.
+    pub(super) fn table_of_local(&self, routine: RoutineId, name: &[u8]) -> TableId {
+        self.locals[&(routine, name)].table
+    }
+}
+
 /// The target that a value is; `None` where it is none, or was never taught.
 fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId> {
     let element = &datum.elements[at];
@@ -163,13 +176,18 @@ fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId
 
 impl<'a> Reader<'a> {
     /// What a name is where it is used; `None` where the files do not have it.
-    pub(super) fn meaning(&self, name: &Reference<'a>) -> Option<Known> {
-        let local = (self.here.routine, name.name);
-        let local = self.variables.locals.get(&local);
+    pub(super) fn meaning(&self, name: &Reference) -> Option<Known> {
+        self.meaning_in(name, self.here.routine)
+    }
+
+    /// Likewise in a program.
+    pub(super) fn meaning_in(&self, name: &Reference, routine: RoutineId) -> Option<Known> {
+        let local = self.variables.locals.get(&(routine, name.name));
         if let Some(known) = local.filter(|_| name.alias.is_empty()) {
             return Some(*known);
         }
-        let datum = self.world.datum(self.here.project, name.alias, name.name)?;
+        let project = self.world.programs[routine as usize].project;
+        let datum = self.world.datum(project, name.alias, name.name)?;
         Some(Known {
             kind: self.world.data[datum as usize].kind,
             table: self.variables.tables[datum as usize],
@@ -187,8 +205,18 @@ impl<'a> Reader<'a> {
 
     /// The value of this kind that words name, where nothing changes it.
     pub(super) fn constant(&self, words: Words<'a, '_>, kind: Kind) -> Option<&Element<'a>> {
-        let name = Reference::whole(words)?;
-        let known = self.meaning(&name).filter(|known| known.kind == kind)?;
+        self.constant_in(&Reference::whole(words)?, kind, self.here.routine)
+    }
+
+    /// Likewise in a program.
+    pub(super) fn constant_in(
+        &self,
+        name: &Reference,
+        kind: Kind,
+        routine: RoutineId,
+    ) -> Option<&Element<'a>> {
+        let known = self.meaning_in(name, routine);
+        let known = known.filter(|known| known.kind == kind)?;
         let Of::Project(datum) = known.of else {
             return None;
         };
@@ -412,26 +440,40 @@ impl<'a> Reader<'a> {
         self.position_within(words, 0)
     }
 
+    /// What `appro` starts from, several of them inside each other; each adds its steps.
+    fn approached(
+        &mut self,
+        words: Words<'a, '_>,
+        depth: u32,
+        displacing: &mut Displacing,
+    ) -> Expr {
+        let is_appro = words.text(0) == b"appro" && words.is(1, b'(') && depth < DEEPEST;
+        let arguments = if is_appro { words.rest_list(1) } else { None };
+        let Some([point, by]) = arguments.as_deref() else {
+            return self.position_within(words, depth);
+        };
+        let base = self.approached(*point, depth + 1, displacing);
+        self.steps(*by).in_tool(displacing);
+        base
+    }
+
     fn position_within(&mut self, words: Words<'a, '_>, depth: u32) -> Expr {
         let is_call = words.is_name(0) && words.is(1, b'(') && depth < DEEPEST;
         let arguments = if is_call { words.rest_list(1) } else { None };
         match (words.text(0), arguments.as_deref()) {
             (b"here" | b"herej", Some(_)) => self.builder.script.held(Held::Actual),
-            (b"appro", Some([point, by])) => {
-                let base = self.position_within(*point, depth + 1);
-                let by = self.transformation(*by).map(|in_tool| Shift {
-                    in_frame: Pose::identity(),
-                    in_tool,
-                });
-                self.builder.script.shifted(base, by)
+            (b"appro", Some([_, _])) => {
+                let mut displacing = Displacing::new();
+                let base = self.approached(words, depth, &mut displacing);
+                let script = &mut self.builder.script;
+                let by = script.displacement(displacing.displacement());
+                script.displaced(base, by)
             }
             (b"compose", Some([point, frame, by])) => {
                 let base = self.position_within(*point, depth + 1);
-                let by = self.transformation(*by);
-                match by.and_then(|by| self.compose(base, *frame, by)) {
-                    Some(by) => self.builder.script.displaced(base, by),
-                    None => self.builder.script.shifted(base, None),
-                }
+                let by = self.steps(*by);
+                let by = self.compose(base, *frame, by);
+                self.builder.script.displaced(base, by)
             }
             _ => match Reference::whole(words) {
                 Some(name) => self.named(&name),
@@ -447,17 +489,6 @@ impl<'a> Reader<'a> {
         let Range { start, end } = words.span();
         let target = Target::new(self.place(start), short(end), Layout::of(Shape::Joints));
         Some(Expr::Target(self.builder.script.target(target, numbers)))
-    }
-
-    /// A transformation with numbers: written out, or a `trsf` that nothing changes.
-    fn transformation(&self, words: Words<'a, '_>) -> Option<Pose> {
-        if words.is(0, b'{') {
-            let parts = words.rest_list(0)?;
-            let numbers: Option<Vec<f64>> = parts.iter().map(Words::value).collect();
-            return Some(super::pose_of(numbers?.try_into().ok()?));
-        }
-        let found = self.constant(words, Kind::Trsf)?;
-        Some(pose_of(&found.numbers))
     }
 }
 

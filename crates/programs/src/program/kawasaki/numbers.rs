@@ -1,0 +1,493 @@
+//! What reals and transformations are, by what statements write into them.
+
+use super::keywords::find;
+use super::moves::is_joints;
+use super::reader::Reader;
+use super::sections::{SPELLING, Statement};
+use super::targets::Name;
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::program::TargetId;
+use crate::program::quantity::Quantity;
+use crate::program::script::{Expr, RoutineId, short};
+use crate::program::transformations::{EACH, Entries, Of, Reads, Steps, Written, exactly};
+use crate::program::words::Words;
+use foldhash::HashMap;
+
+/// What is known of reals and transformations.
+#[derive(Debug, Default)]
+pub(super) struct Known<'a> {
+    entries: Entries<'a>,
+    /// The first number of each name, by the program that it belongs to and its stem.
+    names: HashMap<(Option<RoutineId>, Vec<u8>), u32>,
+}
+
+impl Known<'_> {
+    fn number(&mut self, name: (Option<RoutineId>, Vec<u8>)) -> u32 {
+        let next = short(self.names.len());
+        *self.names.entry(name).or_insert(next * EACH)
+    }
+}
+
+/// Functions of what only the running program knows.
+///
+/// # Source
+/// Kawasaki AS Language Reference Manual (90209-1022DED), functions.
+const INPUTS: &[&[u8]] = &[
+    b"sig",
+    b"bits",
+    b"bits32",
+    b"sigpoint",
+    b"timer",
+    b"utimer",
+    b"task",
+    b"switch",
+    b"error",
+    b"ain",
+    b"adc",
+    b"rnd",
+    b"random",
+    b"existreal",
+    b"asc",
+    b"val",
+];
+
+/// Instructions that write no variable.
+const READING: &[&[u8]] = &[
+    b"print",
+    b"type",
+    b"ifpwprint",
+    b"signal",
+    b"pulse",
+    b"dlysig",
+    b"twait",
+    b"swait",
+    b"wait",
+    b"break",
+    b"bits",
+    b"bits32",
+    b"reset",
+    b"pause",
+    b"open",
+    b"openi",
+    b"close",
+    b"closei",
+    b"relax",
+    b"relaxi",
+    b"weight",
+    b"cp",
+    b"send",
+    b"runmask",
+];
+
+impl<'a> Reader<'a> {
+    /// What is known of numbers; that is looked for where a position first asks.
+    fn known(&self) -> &Known<'a> {
+        self.known.get_or_init(|| {
+            let mut known = Known::default();
+            for (name, value) in &self.sections.reals {
+                let number = known.number((None, Name::of_entry(name).stem));
+                known.entries.declare(number, Some(*value));
+            }
+            for entry in &self.sections.entries {
+                let number = known.number((None, Name::of_entry(entry.name).stem));
+                for (at, value) in (0..EACH).zip(&entry.numbers) {
+                    known.entries.declare(number + at, Some(value.value));
+                }
+            }
+            for (routine, program) in (0..).zip(&self.sections.programs) {
+                let bytes = &self.sources[program.place.file as usize].bytes;
+                known.entries.begin(routine);
+                let tell = |line: &Statement<'a, '_>| self.tell(line, routine, &mut known);
+                program.each(bytes, |_| true, tell);
+            }
+            known.entries.finish();
+            known
+        })
+    }
+
+    fn number_of(&self, name: &Name, routine: RoutineId, known: &mut Known) -> u32 {
+        known.number((self.owner_in(name, routine), name.stem.clone()))
+    }
+
+    /// Notes what a statement writes.
+    fn tell(&self, line: &Statement<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+        let part = line.words;
+        let rest = part.behind(1);
+        if find(part, "GOto").is_some() {
+            known.entries.jumps();
+        }
+        match line.keyword {
+            "IF" if part.find(b"THEN").is_some() => known.entries.blocks.open(Some(1)),
+            "CASE" | "SCASE" => known.entries.blocks.open(Some(1)),
+            "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.blocks.branch(),
+            "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.blocks.branch(),
+            "WHile" | "DO" => known.entries.blocks.open(None),
+            "FOR" => self.tell_loop(rest, routine, known),
+            "ENd" | "UNtil" => known.entries.blocks.close(),
+            "POint" => self.tell_point(rest, routine, known),
+            "HEre" => {
+                if let Some((name, _)) = Name::defined(rest) {
+                    let number = self.number_of(&name, routine, known);
+                    known.entries.lose(number);
+                }
+            }
+            _ if find(part, "CAll").is_some() => {
+                let call = part.behind(find(part, "CAll").map_or(0, |at| at + 1));
+                self.tell_call(call, routine, known);
+            }
+            "" | "HSENSE" => self.tell_other(part, routine, known),
+            _ => {}
+        }
+    }
+
+    /// `FOR i = 1 TO 10 STEP 2`
+    fn tell_loop(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+        let to = part.find(b"TO");
+        let name = Name::of(part).filter(|(_, words)| part.is(*words, b'='));
+        let (Some((name, words)), Some(to)) = (name, to) else {
+            return known.entries.blocks.open(None);
+        };
+        let step = part.find(b"STEP");
+        let end = step.unwrap_or(part.len());
+        let text = |range: std::ops::Range<usize>| {
+            let is_there = range.start <= range.end;
+            let words = if is_there {
+                part.part(range)
+            } else {
+                part.part(0..0)
+            };
+            words.whole()
+        };
+        let behind = step.map_or(part.len(), |at| at + 1);
+        let texts = [
+            text(words + 1..to),
+            text(to + 1..end),
+            text(behind..part.len()),
+        ];
+        let counter = self.number_of(&name, routine, known);
+        known.entries.count(counter, texts);
+    }
+
+    /// `POINT p = …`, `POINT/Z p = …`
+    fn tell_point(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+        let is_partial = part.is(0, b'/');
+        let axis = part.text(1);
+        let part = part.behind(if is_partial { 2 } else { 0 });
+        let defined = part.before(b'=');
+        let Some((name, is_sum)) = Name::defined(defined) else {
+            return;
+        };
+        let value = part.behind(defined.len() + 1);
+        let is_whole = name.key.as_ref().is_some_and(Vec::is_empty);
+        let is_followed = !is_sum && !is_joints(value) && !name.is_joints();
+        let text = Some(value.whole()).filter(|_| is_followed);
+        let number = self.number_of(&name, routine, known);
+        if !is_partial {
+            return known.entries.assign_all(number, text, is_whole);
+        }
+        for at in axes(axis) {
+            let part = |text| Written::Part(text, at as usize);
+            let written = text.map_or(Written::Somehow, part);
+            known.entries.assign(number + at, written, is_whole);
+        }
+    }
+
+    /// `name(a,b)`
+    fn tell_call(&self, call: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+        let callees = self.programs_of(call.text(0));
+        for &callee in &callees {
+            known.entries.calls(callee);
+        }
+        if !call.is(1, b'(') {
+            return;
+        }
+        for (at, given) in call.inside(1).0.list().into_iter().enumerate() {
+            let name = Name::of(given).filter(|(_, words)| *words == given.len());
+            let back = name.map(|(name, _)| self.number_of(&name, routine, known));
+            if let Some(back) = back.filter(|_| callees.is_empty()) {
+                known.entries.lose(back);
+            }
+            for &callee in &callees {
+                let own = self.parameters[callee as usize].get(at);
+                let Some(own) = own.cloned() else { continue };
+                let own = known.number((Some(callee), own));
+                // a real is the first number of it
+                let is_pose = self.is_transformation(given, routine);
+                if is_pose {
+                    known.entries.give_all(callee, own, given.whole(), back);
+                } else {
+                    known.entries.give(callee, own, given.whole(), back);
+                }
+            }
+        }
+    }
+
+    /// `h = 200`, and what instructions of other kinds write.
+    fn tell_other(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+        if let Some((name, words)) = Name::of(part).filter(|(_, words)| part.is(*words, b'=')) {
+            let number = self.number_of(&name, routine, known);
+            let is_whole = name.key.as_ref().is_some_and(Vec::is_empty);
+            let value = part.behind(words + 1).whole();
+            let written = Written::Text(value);
+            return known.entries.assign(number, written, is_whole);
+        }
+        let instruction = part.text(0).to_ascii_lowercase();
+        if READING.contains(&&instruction[..]) {
+            return;
+        }
+        let is_decomposing = instruction == b"decompose";
+        for given in part.behind(1).list() {
+            let given = if is_decomposing {
+                given.before(b'=')
+            } else {
+                given
+            };
+            let name = Name::of(given).filter(|(_, words)| *words == given.len());
+            let Some((name, _)) = name else { continue };
+            let number = self.number_of(&name, routine, known);
+            if is_decomposing {
+                known.entries.assign_all(number, None, false);
+            } else {
+                known.entries.lose(number);
+            }
+        }
+    }
+
+    /// Whether words are a transformation, and not a real number.
+    fn is_transformation(&self, part: Words<'a, '_>, routine: RoutineId) -> bool {
+        let (_, first) = part.terms().first().copied().unwrap_or((0, part));
+        let is_built = [
+            &b"TRANS"[..],
+            b"SHIFT",
+            b"FRAME",
+            b"RX",
+            b"RY",
+            b"RZ",
+            b"HERE",
+            b"NULL",
+        ];
+        if is_built.iter().any(|word| first.is_word(0, word)) || first.is(0, b'&') {
+            return true;
+        }
+        let name = Name::of(first);
+        name.is_some_and(|(name, _)| {
+            let written = (routine, name.stem.clone());
+            self.owner_in(&name, routine).is_none() && self.assigned.contains(&name.stem)
+                || self.written.contains(&written)
+                || self.elements_in(&name, routine).is_some()
+        })
+    }
+
+    // ---- values
+
+    /// What words of the present statement come to.
+    pub(super) fn quantity(&self, part: Words<'a, '_>) -> Quantity {
+        // most are numbers
+        if let Some(value) = part.value() {
+            return Quantity::exactly(value);
+        }
+        Reads::quantity(self, part.whole(), self.here.routine, &mut |number| {
+            self.value(number)
+        })
+    }
+
+    /// The numbers of a list, blanks as 0; what is behind the sixth is not followed.
+    pub(super) fn quantities(&self, list: &[Words<'a, '_>]) -> [Quantity; 6] {
+        if list.len() > EACH as usize {
+            return [(); 6].map(|()| Quantity::endless());
+        }
+        let mut found = exactly([0.0; 6]);
+        for (number, part) in found.iter_mut().zip(list) {
+            *number = self.quantity(*part);
+        }
+        found
+    }
+
+    fn value(&self, number: u32) -> Quantity {
+        self.known().entries.value(number, self)
+    }
+
+    /// What is added to a position at the present statement; names whose numbers are taken keep
+    /// them.
+    pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Steps {
+        let found = self.sum(part, self.here.routine, &mut |number| self.value(number));
+        let taken = self.taken.take();
+        if !taken.is_empty() {
+            self.refuse_taken(taken);
+        }
+        found
+    }
+
+    fn refuse_taken(&mut self, taken: Vec<TargetId>) {
+        let source = &self.sources[self.here.file as usize];
+        let (line, _) = source.line_column(self.here.at);
+        for target in taken {
+            let remark = super::remarks::added_up(&source.name, line);
+            self.builder.script.refuse(target, remark);
+        }
+    }
+
+    fn sum(&self, part: Words<'a, '_>, routine: RoutineId, of: &mut Of) -> Steps {
+        let mut all = Steps::default();
+        for (sign, term) in part.terms() {
+            let steps = self.term_steps(term, routine, of);
+            let steps = if sign == b'-' { steps.inverse() } else { steps };
+            all = all.then(steps);
+        }
+        all
+    }
+
+    fn term_steps(&self, part: Words<'a, '_>, routine: RoutineId, of: &mut Of) -> Steps {
+        let list = part.rest_list(1).filter(|_| part.is(1, b'('));
+        let axis = [&b"RX"[..], b"RY", b"RZ"]
+            .iter()
+            .position(|word| part.is_word(0, word));
+        match (&list, axis) {
+            (Some(list), Some(axis)) if list.len() == 1 => {
+                return Steps::about(axis, Reads::quantity(self, list[0].whole(), routine, of));
+            }
+            (Some(list), None) if part.is_word(0, b"TRANS") && list.len() <= EACH as usize => {
+                let mut numbers = exactly([0.0; 6]);
+                for (number, text) in numbers.iter_mut().zip(list) {
+                    *number = Reads::quantity(self, text.whole(), routine, of);
+                }
+                return steps_of(numbers);
+            }
+            _ => {}
+        }
+        if part.is_word(0, b"NULL") && part.len() == 1 {
+            return Steps::default();
+        }
+        if part.is(0, b'(') && part.closing(0) + 1 == part.len() {
+            return self.sum(part.inside(0).0, routine, of);
+        }
+        match Name::of(part).filter(|(_, words)| *words == part.len()) {
+            Some((name, _)) if !name.is_joints() => {
+                let at = |at| self.part_of(&name, at, routine, of);
+                let numbers: Vec<Quantity> = (0..EACH).map(at).collect();
+                numbers
+                    .try_into()
+                    .map_or_else(|_| Steps::endless(), steps_of)
+            }
+            _ if part.find(b"HERE").is_some() => Steps::unknown(),
+            _ => Steps::endless(),
+        }
+    }
+
+    /// One of the numbers of a transformation with a name.
+    fn part_of(&self, name: &Name, at: u32, routine: RoutineId, of: &mut Of) -> Quantity {
+        let elements = self.elements_in(name, routine);
+        let declared = |variable: &u32| {
+            let script = &self.builder.script;
+            match script.variables[*variable as usize].declared {
+                Expr::Target(target) => Some(target),
+                _ => None,
+            }
+        };
+        let mut taken = self.taken.borrow_mut();
+        let mut take = |target: TargetId| {
+            if !taken.contains(&target) {
+                taken.push(target);
+            }
+        };
+        if !self.assigned.contains(&name.stem)
+            && let (Some(elements), Some(key)) = (elements, &name.key)
+            && let Some(target) = elements.variables.get(key).and_then(declared)
+        {
+            take(target);
+            let numbers = self.builder.script.numbers_of(target);
+            return Quantity::exactly(numbers[at as usize].value);
+        }
+        let all = elements.into_iter().flat_map(|all| all.variables.values());
+        all.filter_map(declared).for_each(take);
+        drop(taken);
+        let owner = self.owner_in(name, routine);
+        match self.known().names.get(&(owner, name.stem.clone())) {
+            Some(number) => of(number + at),
+            None => Quantity::unknown(),
+        }
+    }
+}
+
+impl<'a> Reads<'a> for Reader<'a> {
+    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Quantity {
+        let is_in_name = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | 128..);
+        let end = operand.iter().take_while(|b| is_in_name(b)).count();
+        let (name, behind) = operand.split_at(end);
+        let stem = name.to_ascii_lowercase();
+        match behind.trim_ascii_start() {
+            [] if stem == b"pi" => Quantity::exactly(std::f64::consts::PI),
+            [] | [b'[', .., b']'] => {
+                let name = Name { stem, key: None };
+                let owner = self.owner_in(&name, routine);
+                match self.known().names.get(&(owner, name.stem)) {
+                    Some(number) => of(*number),
+                    None => Quantity::unknown(),
+                }
+            }
+            _ if INPUTS.contains(&&stem[..]) => Quantity::unknown(),
+            _ => Quantity::endless(),
+        }
+    }
+
+    fn part(&self, text: &'a [u8], at: usize, routine: u32, of: &mut Of) -> Quantity {
+        let mut found = Vec::new();
+        SPELLING.add(text, 0..text.len(), &mut found);
+        let part = Words {
+            bytes: text,
+            all: &found,
+        };
+        if let Some(list) = part
+            .rest_list(1)
+            .filter(|_| part.is_word(0, b"TRANS") && part.is(1, b'('))
+        {
+            return match list.get(at) {
+                Some(number) => Reads::quantity(self, number.whole(), routine, of),
+                None => Quantity::exactly(0.0),
+            };
+        }
+        if part.len() == 1 && part.is_word(0, b"NULL") {
+            return Quantity::exactly(0.0);
+        }
+        if part.is_word(0, b"HERE") && part.len() == 1 {
+            return Quantity::unknown();
+        }
+        if let Some((name, words)) = Name::of(part)
+            && words == part.len()
+            && !name.is_joints()
+        {
+            return self.part_of(&name, short(at), routine, of);
+        }
+        let exact = self.sum(part, routine, of).exact();
+        exact.map_or_else(Quantity::endless, |pose| {
+            Quantity::exactly(numbers_of(&pose)[at])
+        })
+    }
+}
+
+/// The numbers that `POINT/X` and the like write.
+fn axes(name: &[u8]) -> std::ops::Range<u32> {
+    match name.to_ascii_uppercase().as_slice() {
+        b"X" => 0..1,
+        b"Y" => 1..2,
+        b"Z" => 2..3,
+        b"OAT" => 3..6,
+        _ => 0..EACH,
+    }
+}
+
+/// `x y z O A T`: along, and then about z, the new y, the new z.
+fn steps_of([x, y, z, o, a, t]: [Quantity; 6]) -> Steps {
+    let none = || Quantity::exactly(0.0);
+    Steps::one([x, y, z, none(), none(), o])
+        .then(Steps::about(1, a))
+        .then(Steps::about(2, t))
+}
+
+/// The numbers of a pose.
+fn numbers_of(pose: &Pose) -> [f64; 6] {
+    let [x, y, z] = pose.translation.map(mm_from_m);
+    let [o, a, t] = pose.rotation.rzryrz().map(|angle| angle / DEG);
+    [x, y, z, o, a, t]
+}

@@ -1,0 +1,160 @@
+//! Displacements by what statements write into reals and transformations.
+
+use super::*;
+use crate::program::{Shift, Stride};
+
+/// What the last move of lines is displaced by, with these programs behind them.
+fn by(code: &str, others: &str) -> Displacement {
+    let text = format!(
+        ".PROGRAM main()\nTOOL grip\nBASE NULL\n{code}\n.END\n{others}{POINTS}.REALS\nup = \
+         300\n.END\n"
+    );
+    let program = read_files(&[&text]).expect("programs");
+    program.moves.last().expect("a move").displacement.clone()
+}
+
+fn in_tool(numbers: [f64; 3]) -> Displacement {
+    let [x, y, z] = numbers;
+    Displacement::By(Box::new(Shift {
+        in_tool: Pose::from_translation(x, y, z),
+        ..Shift::none()
+    }))
+}
+
+fn along(numbers: [f64; 3]) -> Displacement {
+    Displacement::By(Box::new(Shift::along(numbers)))
+}
+
+#[test]
+fn what_the_text_writes_displaces_by_that() {
+    for code in [
+        "POINT .off = TRANS(0,0,200)\nLMOVE p1+.off",
+        ".h = 100\n.h2 = .h*2\nLMOVE p1+TRANS(0,0,.h2)",
+        "LMOVE p1+TRANS(0,0,up-100)",
+        "POINT .off = TRANS(0,0,-200)\nLMOVE p1-.off",
+        "POINT .a = TRANS(0,0,150)\nPOINT .b = .a+TRANS(,,50)\nLMOVE p1+.b",
+        "LMOVE p1+TRANS(0,0,200)",
+        "LMOVE p1\nTDRAW 0,0,up-100",
+        ".h = -200\nLAPPRO p1,.h",
+        ".h = -200\nLMOVE p1\nLDEPART .h",
+        "POINT/Z .off = TRANS(0,0,200)\nPOINT/X .off = TRANS(0,0,200)\nPOINT/Y .off = \
+         TRANS(1,0,2)\nPOINT/OAT .off = NULL\nLMOVE p1+.off",
+    ] {
+        assert_eq!(by(code, ""), in_tool([0.0, 0.0, 0.2]), "{code}");
+    }
+    for code in [
+        ".h = 20\nLMOVE SHIFT(p1 BY 0,0,.h)",
+        ".h = 20\nLMOVE p1\nDRAW 0,0,.h",
+    ] {
+        assert_eq!(by(code, ""), along([0.0, 0.0, 0.02]), "{code}");
+    }
+    let other = ".PROGRAM go(.t,.h)\nLMOVE p1+.t+TRANS(0,0,.h)\n.END\n";
+    let given = by("CALL go(off,30)", other);
+    let Displacement::By(given) = given else {
+        panic!("{given:?}");
+    };
+    assert!((given.in_tool.translation[2] + 0.02).abs() < 1e-12);
+}
+
+#[test]
+fn what_may_be_several_is_judged_as_each() {
+    let step = |z: f64, most| Stride::By {
+        shift: Shift::along([0.0, 0.0, z]),
+        most: Some(most),
+    };
+    for code in [
+        "FOR .i = 0 TO 4\nLMOVE SHIFT(p1 BY 0,0,.i*40)\nEND",
+        ".n = 0\nFOR .i = 1 TO 4\n.n = .n+1\nLMOVE SHIFT(p1 BY 0,0,.n*40)\nEND",
+    ] {
+        let Displacement::Within(found) = by(code, "") else {
+            panic!("{code}: {:?}", by(code, ""));
+        };
+        let Stride::By { shift, most } = &found[found.len() - 1] else {
+            panic!("{found:?}");
+        };
+        let reach = shift.in_frame.translation[2] * f64::from(most.expect("counted"));
+        // the counter of the first is 5 behind its loop
+        assert!(
+            (0.16 - 1e-9..0.2 + 1e-9).contains(&reach),
+            "{code}: {found:?}"
+        );
+    }
+    let either = "IF x > 1 THEN\n.h = 10\nELSE\n.h = 50\nEND\nLMOVE SHIFT(p1 BY 0,0,.h)";
+    let Displacement::Within(found) = by(either, "") else {
+        panic!("{:?}", by(either, ""));
+    };
+    assert_eq!(found[..], [step(0.01, 1), step(0.04, 1)]);
+}
+
+#[test]
+fn only_what_no_text_tells_is_taken_for_a_sensor() {
+    for (code, wanted) in [
+        ("LMOVE p1+cam", Displacement::Unknown),
+        ("HERE .h\nLMOVE p1+.h", Displacement::Unknown),
+        ("LMOVE p1+TRANS(0,0,BITS(1,8))", Displacement::Unknown),
+        ("LMOVE p1\nLDEPART x", Displacement::Unknown),
+        (
+            "TCP_RECV .ret,1,.x\nLMOVE p1+TRANS(.x)",
+            Displacement::Unknown,
+        ),
+        (
+            ".h = ABS(up)\nLMOVE p1+TRANS(0,0,.h)",
+            Displacement::Unbounded,
+        ),
+        ("LMOVE p1+FRAME(a,b,c,d)", Displacement::Unbounded),
+        ("LMOVE p1+TRANS(0,0,DZ(p[1]))", Displacement::Unbounded),
+        (
+            "DO\n.h = .h+SQRT(.h)\nLAPPRO p1,.h\nUNTIL x",
+            Displacement::Unbounded,
+        ),
+    ] {
+        assert_eq!(by(code, ""), wanted, "{code}");
+    }
+    let own = read("TOOL NULL\nBASE NULL\nPOINT q = p1\nPOINT/Z q = q+TRANS(0,0,50)\nLMOVE q");
+    assert_eq!(own.moves[0].displacement, Displacement::Unbounded);
+}
+
+#[test]
+fn numbers_that_a_move_goes_to_and_that_are_added_stay() {
+    for code in [
+        "LMOVE p1\nLMOVE p[1]+p1",
+        "POINT .o = p1\nLMOVE p1\nLMOVE p[1]+.o",
+        "LMOVE p1\nPOINT f = FRAME(p1,p[1],p[2],p1)",
+        "LMOVE p1\nDECOMPOSE x[0]=p1",
+        "LMOVE p1\nPOINT q = p1\nDECOMPOSE x[0] = q",
+    ] {
+        let program = read(&format!("TOOL NULL\nBASE NULL\n{code}"));
+        let found = program.findings.iter();
+        let mut found = found.filter(|found| found.id == "target-used-as-frame");
+        let line = 4 + code.matches('\n').count();
+        let named = found
+            .next()
+            .expect("refused")
+            .message
+            .contains(&format!("line {line}"));
+        assert!(named, "{code}: {:?}", program.findings);
+    }
+    let other = ".PROGRAM take(.p)\nDECOMPOSE .x[0] = .p\n.END\n";
+    let text = format!(
+        ".PROGRAM a()\nTOOL NULL\nBASE NULL\nLMOVE p1\nCALL take(p1)\n.END\n{other}{POINTS}"
+    );
+    let program = read_files(&[&text]).expect("programs");
+    assert!(ids(&program).contains(&"target-used-as-frame"));
+    // points that only make a frame are no targets
+    let program = read("TOOL NULL\nBASE NULL\nLMOVE p1\nPOINT f = FRAME(p[1],p[2],p[1],p[2])");
+    assert_eq!(ids(&program), [""; 0]);
+}
+
+#[test]
+fn an_arc_on_an_arc_is_refused_however_the_program_comes_to_it() {
+    let refused = |code: &str| {
+        let program = read(&format!("TOOL NULL\nBASE NULL\nLMOVE p1\n{code}"));
+        ids(&program).contains(&"arc-chain")
+    };
+    assert!(refused("FOR .i = 1 TO 2\nC1MOVE p[.i]\nEND\nC2MOVE p1"));
+    assert!(refused("10 C1MOVE p[1]\nIF x GOTO 10\nC2MOVE p1"));
+    assert!(!refused("FOR .i = 1 TO 2\nC1MOVE p[1]\nC2MOVE p[2]\nEND"));
+    assert!(!refused(
+        "C1MOVE p[1]\nSPEED 10\nC2MOVE p[2]\nC1MOVE p[1]\nC2MOVE p1"
+    ));
+}

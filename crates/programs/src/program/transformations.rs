@@ -1,0 +1,355 @@
+//! Numbers and transformations of languages that write a transformation as six numbers (VAL 3, AS):
+//! what the text writes into them, and what they add to a position.
+
+use super::displacing::Displacing;
+use super::notation::pose_of_turning_angles;
+use super::numbers::{Blocks, Numbers, Site, counted, rounds};
+use super::quantity::{Quantity, evaluate};
+use crate::geometry::units::{DEG, MM};
+use crate::geometry::{Pose, Rotation};
+use foldhash::HashSet;
+
+/// Numbers of a transformation: positions in mm, angles in degrees. What is one number has the
+/// first of six.
+pub(super) const EACH: u32 = 6;
+
+/// A transformation: steps one after another, each along x, y, z and then about x, the new y, the
+/// new z of where it is then.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Steps(Vec<[Quantity; 6]>);
+
+impl Steps {
+    pub(super) fn one(step: [Quantity; 6]) -> Self {
+        Self(vec![step])
+    }
+
+    /// About one of the axes.
+    pub(super) fn about(axis: usize, degrees: Quantity) -> Self {
+        let mut step = exactly([0.0; 6]);
+        step[3 + axis] = degrees;
+        Self::one(step)
+    }
+
+    /// What only the running program knows.
+    pub(super) fn unknown() -> Self {
+        Self::one([(); 6].map(|()| Quantity::unknown()))
+    }
+
+    /// What the text works out in a way that is not followed.
+    pub(super) fn endless() -> Self {
+        Self::one([(); 6].map(|()| Quantity::endless()))
+    }
+
+    pub(super) fn then(mut self, next: Self) -> Self {
+        self.0.extend(next.0);
+        self
+    }
+
+    /// Whether only the running program knows all of it.
+    pub(super) fn is_unknown(&self) -> bool {
+        let is = |number: &Quantity| *number == Quantity::unknown();
+        self.0.len() == 1 && self.0[0].iter().all(is)
+    }
+
+    /// The steps back.
+    pub(super) fn inverse(self) -> Self {
+        let steps = self.0.into_iter().rev();
+        let back = steps.flat_map(|[x, y, z, rx, ry, rz]| {
+            let turns = [(2, rz), (1, ry), (0, rx)];
+            let turns = turns.map(|(axis, by)| Self::about(axis, by.times(-1.0)));
+            let mut along = exactly([0.0; 6]);
+            for (back, by) in along.iter_mut().zip([x, y, z]) {
+                *back = by.times(-1.0);
+            }
+            turns.into_iter().chain([Self::one(along)])
+        });
+        back.fold(Self::default(), Self::then)
+    }
+
+    /// The transformation where the text tells all of it.
+    pub(super) fn exact(&self) -> Option<Pose> {
+        let mut all = Pose::identity();
+        for step in &self.0 {
+            let mut numbers = [0.0; 6];
+            for (number, of) in numbers.iter_mut().zip(step) {
+                *number = of.exact()?;
+            }
+            all = all * pose_of_turning_angles(numbers);
+        }
+        Some(all)
+    }
+
+    /// Adds these steps in the tool.
+    pub(super) fn in_tool(self, by: &mut Displacing) {
+        for step in self.0 {
+            let mut units = [MM, MM, MM, DEG, DEG, DEG].into_iter();
+            by.in_tool(&step.map(|number| number.in_unit(units.next().unwrap_or(1.0))));
+        }
+    }
+
+    /// Adds what these steps do in a frame of whose axes `turned` makes those of the work frame;
+    /// whether it is followed.
+    pub(super) fn in_frame(self, turned: &Rotation, by: &mut Displacing) -> bool {
+        self.0.into_iter().all(|[x, y, z, angles @ ..]| {
+            let is_turn = angles.iter().any(|angle| angle.exact() != Some(0.0));
+            along(&[x, y, z], turned, by);
+            !is_turn
+        })
+    }
+}
+
+/// Adds a way, mm, along axes of which `turned` makes those of the work frame.
+pub(super) fn along(way: &[Quantity; 3], turned: &Rotation, by: &mut Displacing) {
+    let sum = |row: [f64; 3]| {
+        let parts = way.iter().zip(row);
+        let parts = parts.map(|(part, factor)| part.clone().in_unit(factor * MM));
+        parts.fold(Quantity::exactly(0.0), Quantity::plus)
+    };
+    by.along_frame(&turned.0.map(sum));
+}
+
+pub(super) fn exactly(numbers: [f64; 6]) -> [Quantity; 6] {
+    numbers.map(Quantity::exactly)
+}
+
+/// What numbers are, by what the text writes into them.
+pub(super) type Of<'o> = dyn FnMut(u32) -> Quantity + 'o;
+
+/// How a language reads the texts that are written into numbers.
+pub(super) trait Reads<'a> {
+    /// The value of an operand in an expression of a routine: a name with its index, a function
+    /// with its brackets.
+    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Quantity;
+
+    /// One of the six numbers of the transformation that a text of a routine is.
+    fn part(&self, text: &'a [u8], at: usize, routine: u32, of: &mut Of) -> Quantity;
+
+    /// The value of an expression; nothing is 0.
+    fn quantity(&self, text: &[u8], routine: u32, of: &mut Of) -> Quantity {
+        if text.trim_ascii().is_empty() {
+            return Quantity::exactly(0.0);
+        }
+        let value = evaluate(text, &mut |operand| self.operand(operand, routine, of));
+        value.unwrap_or_else(Quantity::endless)
+    }
+}
+
+/// What is written into a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Written<'a> {
+    Exactly(f64),
+    Text(&'a [u8]),
+    /// One of the numbers of the transformation that a text is.
+    Part(&'a [u8], usize),
+    /// What a loop counts: from, to, and the step.
+    Counted([&'a [u8]; 3]),
+    /// What another number is.
+    Number(u32),
+    /// In a way that is not followed.
+    Somehow,
+}
+
+/// What all texts write into numbers.
+#[derive(Debug, Default)]
+pub(super) struct Entries<'a> {
+    /// With the routine whose text it is.
+    numbers: Numbers<(Written<'a>, u32)>,
+    pub blocks: Blocks,
+    routine: u32,
+    /// Counters and the blocks of their loops.
+    counters: Vec<(u32, (u32, u32))>,
+    /// Numbers that not only loops and calls write.
+    assigned: HashSet<u32>,
+    /// Numbers that routines are handed: the routine's own, and the caller's.
+    handed: Vec<(u32, u32)>,
+    /// Numbers that begin with 0, if anything is ever written into them.
+    blank: Vec<(u32, Option<Site>)>,
+}
+
+impl<'a> Entries<'a> {
+    pub(super) fn begin(&mut self, routine: u32) {
+        self.routine = routine;
+        self.blocks.begin(routine);
+    }
+
+    /// What a number is before anything runs.
+    pub(super) fn declare(&mut self, number: u32, value: Option<f64>) {
+        match value {
+            Some(value) => {
+                let written = (Written::Exactly(value), self.routine);
+                self.numbers.write(number, written, None);
+            }
+            None => self.blank.push((number, None)),
+        }
+    }
+
+    /// A number of a routine's own begins with 0.
+    pub(super) fn declare_own(&mut self, number: u32, routine: u32) {
+        self.blank.push((number, Some(Site::at_start(routine))));
+    }
+
+    /// A number is written, or (not `whole`) one of several that have its name.
+    pub(super) fn assign(&mut self, number: u32, written: Written<'a>, is_whole: bool) {
+        self.assigned.insert(number);
+        let site = is_whole.then(|| self.blocks.site());
+        self.numbers.write(number, (written, self.routine), site);
+    }
+
+    /// Likewise a transformation.
+    pub(super) fn assign_all(&mut self, first: u32, text: Option<&'a [u8]>, is_whole: bool) {
+        for at in 0..EACH {
+            let part = |text| Written::Part(text, at as usize);
+            let written = text.map_or(Written::Somehow, part);
+            self.assign(first + at, written, is_whole);
+        }
+    }
+
+    /// Something writes a number, or a transformation, that only the running program knows.
+    pub(super) fn lose(&mut self, first: u32) {
+        for number in first..first + EACH {
+            self.assigned.insert(number);
+            self.numbers.lose(number);
+        }
+    }
+
+    /// The program jumps.
+    pub(super) fn jumps(&mut self) {
+        self.numbers.jumps(self.routine);
+    }
+
+    pub(super) fn calls(&mut self, callee: u32) {
+        self.numbers.calls(self.routine, callee);
+    }
+
+    /// A routine is given a number, which is `own` to it, and what is `back` of the caller.
+    pub(super) fn give(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
+        self.handed.extend(back.map(|back| (own, back)));
+        let site = Site::at_start(callee);
+        let written = (Written::Text(given), self.routine);
+        self.numbers.write(own, written, Some(site));
+    }
+
+    /// Likewise a transformation.
+    pub(super) fn give_all(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
+        for at in 0..EACH {
+            let written = (Written::Part(given, at as usize), self.routine);
+            let site = Site::at_start(callee);
+            self.numbers.write(own + at, written, Some(site));
+            self.handed.extend(back.map(|back| (own + at, back + at)));
+        }
+    }
+
+    /// A loop begins that counts.
+    pub(super) fn count(&mut self, counter: u32, of: [&'a [u8]; 3]) {
+        let written = (Written::Counted(of), self.routine);
+        let site = self.blocks.site();
+        self.numbers.write(counter, written, Some(site));
+        let plain = |text: &[u8]| evaluate(text, &mut |_| Quantity::unknown())?.exact();
+        let [from, to, step] = of.map(plain);
+        let step = if of[2].is_empty() { Some(1.0) } else { step };
+        let most = from.zip(to).zip(step);
+        let most = most.and_then(|((from, to), step)| rounds(from, to, step));
+        self.blocks.open(most);
+        self.counters.push((counter, self.blocks.last()));
+    }
+
+    /// All texts are entries: what routines write into what they are handed comes back, and loops whose
+    /// counter something else writes run any number of times.
+    pub(super) fn finish(&mut self) {
+        let mut open = std::mem::take(&mut self.handed);
+        loop {
+            let (written, others): (Vec<_>, Vec<_>) = open
+                .into_iter()
+                .partition(|(own, _)| self.assigned.contains(own));
+            if written.is_empty() {
+                break;
+            }
+            for (own, back) in written {
+                self.assign(back, Written::Number(own), false);
+            }
+            open = others;
+        }
+        for (counter, block) in &self.counters {
+            if self.assigned.contains(counter) {
+                self.numbers.unbounded(*block);
+            }
+        }
+        for (number, site) in std::mem::take(&mut self.blank) {
+            // where nothing writes them nothing is meant by that
+            if self.numbers.is_written(number) {
+                let zero = (Written::Exactly(0.0), self.routine);
+                self.numbers.write(number, zero, site);
+            }
+        }
+    }
+
+    /// What a number may be.
+    pub(super) fn value(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
+        let written = |(written, routine): &(Written<'a>, u32), of: &mut Of| match *written {
+            Written::Exactly(value) => Quantity::exactly(value),
+            Written::Text(text) => reads.quantity(text, *routine, of),
+            Written::Part(text, at) => reads.part(text, at, *routine, of),
+            Written::Number(number) => of(number),
+            Written::Somehow => Quantity::endless(),
+            Written::Counted(texts) => {
+                let [from, to, step] = texts.map(|text| reads.quantity(text, *routine, of));
+                let step = if texts[2].is_empty() {
+                    Quantity::exactly(1.0)
+                } else {
+                    step
+                };
+                // behind the loop the counter is beyond its last value
+                let beyond = step.exact().unwrap_or(1.0);
+                let all = counted(&from, &to, Some(step));
+                all.plus(Quantity::counted(0.0, beyond, Some(1)))
+            }
+        };
+        self.numbers.value(number, &written)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Displacement, Stride};
+
+    const STEP: [f64; 6] = [10.0, -20.0, 30.0, 40.0, 50.0, -60.0];
+
+    #[test]
+    fn steps_lead_back() {
+        let there = Steps::one(exactly(STEP)).then(Steps::about(1, Quantity::exactly(33.0)));
+        let pose = there.exact().expect("the text tells it");
+        assert_eq!(pose_of_turning_angles(STEP).translation, pose.translation);
+        let back = there.clone().inverse().exact().expect("likewise");
+        let gap = (pose * back).separation(&Pose::identity());
+        assert!(gap.distance_m < 1e-12 && gap.angle_rad < 1e-7, "{gap:?}");
+        let mut by = Displacing::new();
+        there.in_tool(&mut by);
+        let Displacement::By(by) = by.displacement() else {
+            panic!("the text tells it");
+        };
+        assert!(by.in_tool.separation(&pose).distance_m < 1e-12);
+    }
+
+    #[test]
+    fn a_way_in_another_frame_is_turned_into_the_work_frame() {
+        let quarter = Rotation::about_z(std::f64::consts::FRAC_PI_2);
+        let mut step = exactly([10.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        step[1] = Quantity::counted(0.0, 5.0, Some(3));
+        let mut by = Displacing::new();
+        assert!(Steps::one(step).in_frame(&quarter, &mut by));
+        let Displacement::Within(strides) = by.displacement() else {
+            panic!("either");
+        };
+        let along = |stride: &Stride| match stride {
+            Stride::By { shift, most } => (shift.in_frame.translation, *most),
+            Stride::Turned(_) => panic!("it turns nothing"),
+        };
+        let (first, _) = along(&strides[0]);
+        assert!(first[0].abs() < 1e-12 && (first[1] - 0.01).abs() < 1e-12);
+        let (step, most) = along(&strides[1]);
+        assert_eq!(most, Some(3));
+        assert!((step[0] + 0.005).abs() < 1e-12, "{step:?}");
+        assert!(!Steps::one(exactly(STEP)).in_frame(&quarter, &mut Displacing::new()));
+    }
+}

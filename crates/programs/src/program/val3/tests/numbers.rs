@@ -1,0 +1,212 @@
+//! Displacements by what statements write into numbers and transformations.
+
+use super::*;
+use crate::geometry::Pose;
+
+fn points() -> String {
+    data("trA", "trsf", &["key=\"0\" z=\"-50\""])
+        + &data("tOff", "trsf", &["key=\"0\""])
+        + &data("nUp", "num", &["key=\"0\" value=\"200\""])
+        + &data("nH", "num", &["key=\"0\""])
+        + &data("nI", "num", &["key=\"0\""])
+        + &data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""])
+        + &data(
+            "pX",
+            "pointRx",
+            &["key=\"0\" x=\"1\" fatherId=\"lib:f[0]\""],
+        )
+        + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[0]\""])
+}
+
+/// What the last move of code is displaced by.
+fn by(code: &str) -> Displacement {
+    let program = project(&points(), code);
+    program.moves.last().expect("a move").displacement.clone()
+}
+
+fn in_tool(numbers: [f64; 3]) -> Displacement {
+    let [x, y, z] = numbers;
+    let in_tool = Pose::from_translation(x, y, z);
+    Displacement::By(Box::new(Shift {
+        in_tool,
+        ..Shift::none()
+    }))
+}
+
+#[test]
+fn what_the_text_writes_displaces_by_that() {
+    for code in [
+        "movel(appro(pA,{0,0,nUp,0,0,0}),tA,m)",
+        "movel(appro(pA,{0,0,nUp*2-200,0,0,0}),tA,m)",
+        "movel(appro(pA,trA*!trA*{0,0,200,0,0,0}),tA,m)",
+        "movel(appro(appro(pA,trA),{0,0,250,0,0,0}),tA,m)",
+    ] {
+        assert_eq!(by(code), in_tool([0.0, 0.0, 0.2]), "{code}");
+    }
+    let turned = by("movel(appro(pA,{0,0,0,0,180,0}*trA),tA,m)");
+    let Displacement::By(turned) = turned else {
+        panic!("{turned:?}");
+    };
+    assert!((turned.in_tool.translation[2] - 0.05).abs() < 1e-12);
+    let raised = by("pB=pA\npB.trsf.z=pB.trsf.z+nUp\nmovel(pB,tA,m)");
+    assert_eq!(
+        raised,
+        Displacement::By(Box::new(Shift::along([0.0, 0.0, 0.2])))
+    );
+    let of_other = by("pB=pA\npB.trsf.z=pA.trsf.z+nUp\nmovel(pB,tA,m)");
+    assert_eq!(of_other, raised);
+}
+
+#[test]
+fn what_a_program_writes_into_a_transformation_counts() {
+    // it begins as what the data say, and is that or the other
+    for code in [
+        "tOff.z=200",
+        "tOff={0,0,200,0,0,0}",
+        "tOff={0,0,nUp,0,0,0}",
+        "tOff=trA*{0,0,250,0,0,0}",
+    ] {
+        let Displacement::Within(found) = by(&format!("{code}\nmovel(appro(pA,tOff),tA,m)")) else {
+            panic!("{code}");
+        };
+        let [
+            Stride::By {
+                shift,
+                most: Some(1),
+            },
+        ] = &found[..]
+        else {
+            panic!("{code}: {found:?}");
+        };
+        let z = shift.in_tool.translation[2];
+        assert!((z - 0.2).abs() < 1e-12, "{code}: {z}");
+    }
+    let counted = by("for nI=0 to 3\nmovel(appro(pA,{0,0,-nI*10,0,0,0}),tA,m)\nendFor");
+    assert!(matches!(counted, Displacement::Within(_)), "{counted:?}");
+    let composed = by("for nI=0 to 3\nmovel(compose(pA,world,{nI*10,0,0,0,0,0}),tA,m)\nendFor");
+    assert!(matches!(composed, Displacement::Within(_)), "{composed:?}");
+}
+
+#[test]
+fn only_what_no_text_tells_is_taken_for_a_sensor() {
+    for (code, wanted) in [
+        ("movel(appro(pA,trCam),tA,m)", Displacement::Unknown),
+        (
+            "movel(appro(pA,{0,0,aioGet(ai),0,0,0}),tA,m)",
+            Displacement::Unknown,
+        ),
+        ("movel(compose(pA,fA,trCam),tA,m)", Displacement::Unknown),
+        (
+            "movel(appro(pA,{0,0,abs(nUp),0,0,0}),tA,m)",
+            Displacement::Unbounded,
+        ),
+        ("movel(appro(pA,pB.trsf),tA,m)", Displacement::Unbounded),
+        (
+            "movel(compose(pA,fA*trA,trA),tA,m)",
+            Displacement::Unbounded,
+        ),
+        ("movel(compose(pX,fA,trA),tA,m)", Displacement::Unbounded),
+        (
+            "tOff=pB.trsf*!pA.trsf\nmovel(appro(pA,tOff),tA,m)",
+            Displacement::Unbounded,
+        ),
+        (
+            "pB=pA\npB.trsf.z=pB.trsf.z*2\nmovel(pB,tA,m)",
+            Displacement::Unbounded,
+        ),
+    ] {
+        assert_eq!(by(code), wanted, "{code}");
+    }
+}
+
+#[test]
+fn numbers_are_those_that_calls_give_and_programs_bring_back() {
+    let parameter = |by: &str, kind: &str| {
+        format!(
+            "<Parameters><Parameter name=\"x\" type=\"{kind}\" use=\"{by}\" \
+             xsi:type=\"element\" /></Parameters>"
+        )
+    };
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let by = |start: &str, parameter: String, sub: &str| {
+        let files = [
+            ("m/m.dtx", dtx(&all)),
+            ("m/start.pgx", pgx("start", "", start)),
+            ("m/sub.pgx", pgx("sub", &parameter, sub)),
+        ];
+        let program = read_files(&files).expect("a project");
+        program.moves.last().expect("a move").displacement.clone()
+    };
+    let go = "movel(appro(pA,{0,0,x,0,0,0}),tA,m)";
+    let given = by("call sub(nUp)", parameter("value", "num"), go);
+    assert_eq!(given, in_tool([0.0, 0.0, 0.2]));
+    let given = by(
+        "call sub(trA)",
+        parameter("value", "trsf"),
+        "movel(appro(pA,x),tA,m)",
+    );
+    assert_eq!(given, in_tool([0.0, 0.0, -0.05]));
+    // what comes back may be what was given
+    let back = by(
+        "call sub(nH)\nmovel(appro(pA,{0,0,nH,0,0,0}),tA,m)",
+        parameter("reference", "num"),
+        "x=300",
+    );
+    assert_eq!(back, Displacement::Unbounded);
+}
+
+#[test]
+fn arrays_that_are_moved_about_are_refused() {
+    let points = data(
+        "pC",
+        "pointRx",
+        &[
+            "key=\"0\" x=\"1\" fatherId=\"fA[0]\"",
+            "key=\"1\" x=\"2\" fatherId=\"fA[0]\"",
+        ],
+    );
+    for code in ["insert(pC,0)", "delete(pC,0)", "resize(pC,1,5)"] {
+        let program = project(&points, &format!("movel(pC[1],tA,m)\n{code}"));
+        let found = program.findings.iter();
+        let mut found = found.filter(|found| found.severity == Severity::Error);
+        let first = found.next().expect("refused");
+        assert_eq!(first.id, "target-assigned-at-run-time", "{code}");
+    }
+    let program = project(&points, "movel(pC[1],tA,m)\nappend(pC)");
+    assert!(ids(&program).iter().all(|id| *id == "target-unused-here"));
+}
+
+#[test]
+fn frames_of_two_projects_under_one_alias_have_the_name_of_the_project() {
+    let pjx = |name: &str, library: &str| {
+        format!(
+            "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
+             millimeterUnit=\"true\" /><Programs><Program file=\"{name}.pgx\" /></Programs>\
+             <Database><Data file=\"{name}.dtx\" /></Database><Libraries><Library alias=\"a\" \
+             path=\"{library}\" /></Libraries></Project>"
+        )
+    };
+    let names = |second: &str| {
+        let mut files = Vec::new();
+        for (name, library) in [("One", "../A/A.pjx"), ("Two", second)] {
+            let points = dtx(&data(
+                "pA",
+                "pointRx",
+                &["key=\"0\" x=\"1\" fatherId=\"a:f[0]\""],
+            ));
+            files.push((format!("c/{name}/{name}.pjx"), pjx(name, library)));
+            files.push((format!("c/{name}/{name}.dtx"), points));
+            let code = pgx("start", "", "movej(pA,flange,m)");
+            files.push((format!("c/{name}/{name}.pgx"), code));
+        }
+        let files: Vec<(&str, String)> = files.iter().map(|(n, t)| (&**n, t.clone())).collect();
+        let program = read_files(&files).expect("projects");
+        let frames = program
+            .moves
+            .iter()
+            .map(|m| program.frames[m.frame].name.clone());
+        frames.collect::<Vec<_>>()
+    };
+    assert_eq!(names("../B/B.pjx"), ["One/a:f", "Two/a:f"]);
+    assert_eq!(names("../A/A.pjx"), ["a:f", "a:f"]);
+}
