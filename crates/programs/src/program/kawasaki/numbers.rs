@@ -9,7 +9,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::TargetId;
 use crate::program::quantity::Quantity;
-use crate::program::script::{Expr, RoutineId};
+use crate::program::script::{Expr, RoutineId, short};
 use crate::program::told::{EACH, Of, Reads, Steps, Told, Written, exactly};
 use crate::program::words::Words;
 use foldhash::HashMap;
@@ -24,7 +24,7 @@ pub(super) struct Known<'a> {
 
 impl Known<'_> {
     fn number(&mut self, name: (Option<RoutineId>, Vec<u8>)) -> u32 {
-        let next = u32::try_from(self.names.len()).expect("files are smaller than 4 GiB");
+        let next = short(self.names.len());
         *self.names.entry(name).or_insert(next * EACH)
     }
 }
@@ -447,14 +447,17 @@ impl<'a> Reads<'a> for Reader<'a> {
                 None => Quantity::exactly(0.0),
             };
         }
+        if part.len() == 1 && part.is_word(0, b"NULL") {
+            return Quantity::exactly(0.0);
+        }
+        if part.is_word(0, b"HERE") && part.len() == 1 {
+            return Quantity::unknown();
+        }
         if let Some((name, words)) = Name::of(part)
             && words == part.len()
             && !name.is_joints()
         {
-            return self.part_of(&name, u32::try_from(at).unwrap_or(0), routine, of);
-        }
-        if part.is_word(0, b"HERE") && part.len() == 1 {
-            return Quantity::unknown();
+            return self.part_of(&name, short(at), routine, of);
         }
         let exact = self.sum(part, routine, of).exact();
         exact.map_or_else(Quantity::endless, |pose| {

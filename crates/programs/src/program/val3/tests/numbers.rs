@@ -38,8 +38,8 @@ fn what_the_text_writes_displaces_by_that() {
     for code in [
         "movel(appro(pA,{0,0,nUp,0,0,0}),tA,m)",
         "movel(appro(pA,{0,0,nUp*2-200,0,0,0}),tA,m)",
-        "movel(appro(pA,trA*trA*trA*!trA*{0,0,300,0,0,0}),tA,m)",
-        "movel(appro(appro(pA,trA),{0,0,250,0,0,0}),tA,m)",
+        "movel(appro(pA,trA*!trA*{0,0,200,0,0,0}),tA,m)",
+        "movel(appro(appro(pA,trA),{0,0,0,0,0,0}*!trA*{0,0,200,0,0,0}),tA,m)",
     ] {
         assert_eq!(by(code), in_tool([0.0, 0.0, 0.2]), "{code}");
     }
