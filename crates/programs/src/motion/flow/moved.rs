@@ -199,7 +199,9 @@ impl Flow<'_> {
     }
 
     fn with_step(&mut self, mut steps: Vec<Added>, added: Added, is_exact: bool) -> DisplacementId {
-        let is_again = |step: &Added| step.site == added.site && added.site != OF_MOVE;
+        // one place may displace by several things, one after another
+        let is_again =
+            |step: &Added| step.site == added.site && step.by == added.by && added.site != OF_MOVE;
         let known = steps.iter().position(is_again);
         if is_exact && known.is_none() && steps.len() < MOST_EXACT {
             steps.push(added);

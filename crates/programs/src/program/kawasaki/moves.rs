@@ -1,13 +1,11 @@
 //! Moves: what goes where with what.
 
 use super::reader::Reader;
-use super::remarks::{ARC_CHAIN, OTHER_MOVE, RELATIVE, SEARCH};
+use super::remarks::{OTHER_MOVE, RELATIVE, SEARCH};
 use super::sections::Statement;
 use super::targets::Position;
 use crate::program::quantity::Quantity;
-use crate::program::script::{
-    Expr, Held, How, Instruction, Modal, Remark, Span, Variable, Written, short,
-};
+use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
 use crate::program::transformations::{Steps, exactly};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
@@ -121,7 +119,7 @@ impl<'a> Reader<'a> {
             Verb::To(motion, is_free) => {
                 if is_joints(first) {
                     // joints say the configuration themselves
-                    self.switch(Held::Flag(false));
+                    self.switch(true);
                 }
                 let found = self.position(first);
                 self.go(part, Some(first), &found, motion, is_free, None);
@@ -138,14 +136,7 @@ impl<'a> Reader<'a> {
                     modal.guards = self.chains;
                 }
                 self.go(part, Some(first), &found, motion, false, Some(modal));
-                let script = &mut self.builder.script;
-                let value = if is_end {
-                    Held::Flag(false)
-                } else {
-                    Held::Remark(script.remark(ARC_CHAIN))
-                };
-                let value = script.held(value);
-                self.write(Written::One(self.chained), How::Whole(value));
+                self.end_part(is_end);
             }
             Verb::Near(motion) => {
                 let found = self.position(first).in_tool(self.back(second));
@@ -189,7 +180,7 @@ impl<'a> Reader<'a> {
             Verb::Step(motion) => {
                 let at = step_target(part).expect("it was found");
                 // its joints say the configuration themselves
-                self.switch(Held::Flag(false));
+                self.switch(true);
                 let target = part.behind(at);
                 let is_tool =
                     |name: &&[u8]| name.len() > 4 && name[..4].eq_ignore_ascii_case(b"TOOL");

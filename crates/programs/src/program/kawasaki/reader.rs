@@ -6,7 +6,7 @@ use super::keywords::find;
 use super::moves::{Verb, is_joints};
 use super::numbers::Known;
 use super::plates::Plates;
-use super::remarks::{COMPUTED, SAVED, SWITCHED};
+use super::remarks::{ARC_CHAIN, COMPUTED, SAVED, SWITCHED};
 use super::sections::{Entry, Program, Sections, Statement};
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
@@ -80,8 +80,12 @@ pub(super) struct Reader<'a> {
     switched: VariableId,
     pub switches: u32,
     /// Likewise behind the first part of an arc, for another one.
-    pub chained: VariableId,
+    chained: VariableId,
     pub chains: u32,
+    /// Nothing speaks against a move, its side of the arm, an arc behind the one before.
+    off: Expr,
+    other_side: Expr,
+    chain: Expr,
     /// Configuration data count.
     pub honoured: ValueId,
     pub here: Here,
@@ -99,13 +103,16 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     let switched = state(&mut builder, "configuration", off);
     let chained = state(&mut builder, "arc", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
+    // each is one value: a move tells few of them apart
+    let [as_saved, other_side, chain] = [SAVED, SWITCHED, ARC_CHAIN].map(|remark| {
+        let remark = builder.script.remark(remark);
+        builder.script.held(Held::Remark(remark))
+    });
     let saved = starts.map(|pose| {
-        let remark = builder.script.remark(SAVED);
-        let reason = builder.script.held(Held::Remark(remark));
         state(
             &mut builder,
             "save",
-            if pose.is_some() { reason } else { off },
+            if pose.is_some() { as_saved } else { off },
         )
     });
     let mut reader = Reader {
@@ -119,6 +126,9 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         builder,
         switched,
         chained,
+        off,
+        other_side,
+        chain,
         honoured,
         names: HashMap::default(),
         assigned: HashSet::default(),
@@ -358,10 +368,7 @@ impl<'a> Reader<'a> {
                     self.call(part.behind(at + 1), true);
                 }
             }
-            "LEfty" | "RIghty" | "ABove" | "BElow" | "UWrist" | "DWrist" => {
-                let remark = self.builder.script.remark(SWITCHED);
-                self.switch(Held::Remark(remark));
-            }
+            "LEfty" | "RIghty" | "ABove" | "BElow" | "UWrist" | "DWrist" => self.switch(false),
             _ => {}
         }
     }
@@ -369,18 +376,23 @@ impl<'a> Reader<'a> {
     /// `TOOL …`, `BASE …`
     fn set_frame(&mut self, frame: VariableId, saved: VariableId, words: Words<'a, '_>) -> Expr {
         let value = self.frame(words);
-        let off = self.builder.script.held(Held::Flag(false));
         self.write(Written::One(frame), How::Whole(value));
-        self.write(Written::One(saved), How::Whole(off));
+        self.write(Written::One(saved), How::Whole(self.off));
         // of where the robot stands the text tells no target with the new one
         self.here.last = None;
         value
     }
 
     /// The arm's configuration is switched, or known again.
-    pub(super) fn switch(&mut self, value: Held) {
-        let value = self.builder.script.held(value);
+    pub(super) fn switch(&mut self, is_known: bool) {
+        let value = if is_known { self.off } else { self.other_side };
         self.write(Written::One(self.switched), How::Whole(value));
+    }
+
+    /// A part of an arc ends, or its first.
+    pub(super) fn end_part(&mut self, is_end: bool) {
+        let value = if is_end { self.off } else { self.chain };
+        self.write(Written::One(self.chained), How::Whole(value));
     }
 
     pub(super) fn write(&mut self, variable: Written, how: How) {

@@ -148,7 +148,10 @@ fn numbers_that_a_move_goes_to_and_that_are_added_stay() {
 #[test]
 fn an_arc_on_an_arc_is_refused_however_the_program_comes_to_it() {
     let refused = |code: &str| {
-        let program = read(&format!("TOOL NULL\nBASE NULL\nLMOVE p1\n{code}"));
+        // states that are written several times stay apart
+        let program = read(&format!(
+            "TOOL NULL\nBASE NULL\nJMOVE #home\nTOOL grip\nBASE grip\nJMOVE #home\nLMOVE p1\n{code}"
+        ));
         ids(&program).contains(&"arc-chain")
     };
     assert!(refused("FOR .i = 1 TO 2\nC1MOVE p[.i]\nEND\nC2MOVE p1"));
