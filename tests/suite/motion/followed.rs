@@ -108,16 +108,15 @@ fn rapid_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_no
     ] {
         refused(&of_rapid(data, &go(by)), by);
     }
+    // where the robot is may be far from the target
+    let now = format!("now:=CRobT(\\Tool:=tool0);\n{}", go("0,0,now.trans.z"));
+    refused(&of_rapid("VAR robtarget now;", &now), &now);
     for (data, body) in [
         ("", go("0,0,nCamera")),
         ("", go("0,0,AInput(ai1)")),
         (
             "VAR num h;",
             format!("TPReadNum h,\"mm\";\n{}", go("0,0,h")),
-        ),
-        (
-            "VAR robtarget now;",
-            format!("now:=CRobT(\\Tool:=tool0);\n{}", go("0,0,now.trans.z")),
         ),
         ("VAR num h;", format!("measure h;\n{}", go("0,0,h"))),
     ] {
@@ -235,5 +234,7 @@ fn urscript_offsets_lists_and_functions_are_worked_out() {
         "",
         &format!("off=get_actual_tool_flange_pose()\n{}", go("off")),
     );
-    sensed(&now, "of the robot");
+    refused(&now, "where the robot is");
+    let read = format!("h=read_input_float_register(24)\n{}", go("p[0,0,h,0,0,0]"));
+    sensed(&of_urscript("", &read), "of a sensor");
 }

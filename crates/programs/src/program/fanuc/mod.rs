@@ -27,8 +27,8 @@
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
 //! A move with `Offset` or `Tool_Offset` goes to a point that takes the correction of its own along,
-//! displaced by the numbers of a register: [`numbers`] says what the programs write into these,
-//! [`offsets`] what that displaces. Where only the running robot knows them, and with `VOFFSET`, that
+//! displaced by the numbers of a register: `numbers` says what the programs write into these,
+//! `offsets` what that displaces. Where only the running robot knows them, and with `VOFFSET`, that
 //! is reported as `displacement-unknown`; where the text tells them in a way that is not followed,
 //! nothing bounds it. Where the robot stands behind a move that `Skip` or `Search[…]` ended is
 //! unknown.

@@ -529,6 +529,14 @@ impl Reader {
         if text.eq_ignore_ascii_case(b"$NULLFRAME") {
             return Some(Quantity::exactly(0.0));
         }
+        // where the robot is may be anywhere
+        let place = text.get(..5).unwrap_or_default();
+        if [&b"$POS_"[..], b"$AXIS"]
+            .iter()
+            .any(|of| place.eq_ignore_ascii_case(of))
+        {
+            return Some(Quantity::endless());
+        }
         if text.starts_with(b"$") || self.names.datum(name, context).is_none() {
             return Some(Quantity::unknown());
         }

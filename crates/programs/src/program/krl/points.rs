@@ -245,7 +245,9 @@ impl Reader {
                 let has_value = |datum| !self.names.values(datum, Index::Variable).is_empty();
                 datum.is_some_and(|datum| has_value(datum) || self.names.touched.contains(&name))
             }
-            Operand::Here(_) | Operand::Actual | Operand::System => false,
+            // where the robot is may be anywhere
+            Operand::Here(_) | Operand::Actual => true,
+            Operand::System => false,
         }
     }
 

@@ -34,7 +34,6 @@ mod places;
 mod reader;
 mod records;
 mod resolved;
-mod sensed;
 mod shared;
 mod sniff;
 mod syntax;

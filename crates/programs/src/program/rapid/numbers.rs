@@ -4,15 +4,14 @@ use super::builtins::{self, Known};
 use super::places::{PlaceWrite, axis_of};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
-    Argument, Called, Callee, Component, Counting, Function, Index, StatementKind, Storage, Stored,
-    Type, Verb, indices,
+    Argument, Called, Callee, Component, Counting, Expression, Function, Index, StatementKind,
+    Storage, Stored, Type, Verb, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::number;
 use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, parts, word};
 use crate::program::quantity::{Arithmetic, Quantity, is_letter};
 use crate::program::script::Place;
-use foldhash::HashMap;
 use std::cell::RefCell;
 
 /// Data that tasks share have the number of their group, above this.
@@ -71,7 +70,6 @@ impl Resolved<'_> {
             routine: None,
         };
         let mut file = 0;
-        let mut sensed = HashMap::default();
         let mut places = Vec::new();
         for statement in &self.parsed.statements {
             match statement.kind {
@@ -89,7 +87,6 @@ impl Resolved<'_> {
                     component: Component::Whole,
                     ..
                 } => {
-                    self.note_sensed(name, statement.kind, context, &mut sensed);
                     let data = self.numbers_named(name, context);
                     if data.is_empty() {
                         let (at, mut site) = ((file, statement.offset), || blocks.site());
@@ -108,7 +105,6 @@ impl Resolved<'_> {
                     }
                 }
                 StatementKind::Assign { name, index, .. } => {
-                    self.note_sensed(name, statement.kind, context, &mut sensed);
                     let (at, mut site) = ((file, statement.offset), || blocks.site());
                     self.note_place(name, index, at, context, &mut site, &mut places);
                 }
@@ -125,7 +121,7 @@ impl Resolved<'_> {
                             context,
                             file,
                             &mut numbers,
-                            (&mut sensed, &mut places),
+                            &mut places,
                         );
                     }
                 }
@@ -158,14 +154,15 @@ impl Resolved<'_> {
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            let data = (&mut sensed, &mut places);
+                            let data = &mut places;
                             self.give(callee, given, context, file, &mut numbers, data);
                         }
                         _ => {}
                     }
                 }
-                StatementKind::Return(_) => {
-                    if let Some(routine) = context.routine {
+                StatementKind::Return(value) => {
+                    let has_value = value != Expression::Nothing;
+                    if let Some(routine) = context.routine.filter(|_| has_value) {
                         let written = Written::Text {
                             file,
                             bytes: self.given_back(file, statement.offset),
@@ -199,7 +196,6 @@ impl Resolved<'_> {
         }
         self.coordinates = self.coordinates(&places, &mut numbers);
         self.numbers = numbers;
-        self.sensed = sensed;
     }
 
     /// Notes what numbers are declared with; those without a value are left.
@@ -352,7 +348,7 @@ impl Resolved<'_> {
         context: Context,
         file: u32,
         numbers: &mut Numbers<Written>,
-        (sensed, places): (&mut HashMap<u32, bool>, &mut Vec<PlaceWrite>),
+        places: &mut Vec<PlaceWrite>,
     ) {
         let callees = self.callees(callee, arguments, context, file);
         if callees.foreign {
@@ -369,7 +365,6 @@ impl Resolved<'_> {
                 if let Some((name, _)) = written
                     && let Meaning::One(datum) = self.meaning(name, context)
                 {
-                    sensed.insert(datum, false);
                     self.note_given_place(datum, None, context, None, places);
                 }
                 let value = (file, self.value_bytes(file, argument));
@@ -505,7 +500,13 @@ impl Resolved<'_> {
         let Some(name) = self.parsed.symbols.find(name) else {
             // a function of the language is no name of the text
             let is_known = sign == b'(' && builtins::is_worked_out(&spelling);
-            return (!is_known).then(Quantity::unknown);
+            let is_actual = sign == b'(' && builtins::function(&spelling) == Known::Actual;
+            return match (is_known, is_actual) {
+                (true, _) => None,
+                // where the robot is may be anywhere
+                (_, true) => Some(Quantity::endless()),
+                _ => Some(Quantity::unknown()),
+            };
         };
         if sign == b'(' && spelling == "dim" {
             let (size, file) = self.dimension(operand, context)?;
@@ -515,7 +516,11 @@ impl Resolved<'_> {
         if sign == b'(' {
             return match self.function_of(name, context) {
                 Some(routine) => Some(of(RESULT | routine)),
-                None if self.is_routine(name, context) => Some(Quantity::endless()),
+                None if self.is_routine(name, context)
+                    || self.known_function(name, context) == Known::Actual =>
+                {
+                    Some(Quantity::endless())
+                }
                 None => (!builtins::is_worked_out(&spelling)).then(Quantity::unknown),
             };
         }
@@ -526,9 +531,6 @@ impl Resolved<'_> {
         };
         let kept = [&b".trans.x"[..], b".trans.y", b".trans.z"];
         let axis = kept.iter().position(|axis| rest.eq_ignore_ascii_case(axis));
-        if self.is_sensed(data) {
-            return Some(Quantity::unknown());
-        }
         let coordinate = axis_of(rest).and_then(|axis| self.coordinates.get(&(data, axis)));
         if let Some(number) = coordinate {
             return Some(of(*number));

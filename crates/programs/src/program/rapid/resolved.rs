@@ -40,8 +40,6 @@ pub(super) struct Resolved<'a> {
     pub(super) numbers: Numbers<Written>,
     /// What the coordinates of `pos` data are called in the numbers.
     pub(super) coordinates: Coordinates,
-    /// Whether data have nothing but what the running robot tells, of those that are assigned.
-    pub(super) sensed: HashMap<u32, bool>,
     /// The group of each datum that tasks share, and whether its declarations are alike.
     shared: HashMap<u32, (usize, bool)>,
 }
@@ -116,7 +114,6 @@ impl<'a> Resolved<'a> {
             derived: HashSet::new(),
             numbers: Numbers::default(),
             coordinates: Coordinates::default(),
-            sensed: HashMap::default(),
             shared,
         };
         resolved.find_written();

@@ -36,6 +36,8 @@ const COMPUTING: [&[u8]; 7] = [
     b"transpose",
     b"wrench_",
 ];
+/// Beginnings of the names of functions that say where the robot is: that may be anywhere.
+const PLACES: [&[u8]; 3] = [b"get_actual_t", b"get_actual_joint_pos", b"get_target_t"];
 /// Functions whose value is worked out of what they are given.
 const WORKED_OUT: [&[u8]; 18] = [
     b"abs", b"acos", b"asin", b"atan", b"atan2", b"ceil", b"cos", b"d2r", b"floor", b"length",
@@ -239,7 +241,6 @@ impl Variables<'_, '_> {
     /// Whether only the running robot, or a file that is not here, tells a value.
     pub(super) fn is_of_robot(&self, value: ExprId, function: FunctionId) -> bool {
         match self.follow(value, function) {
-            (Expr::Actual, _) => true,
             (Expr::Name(name, _), function) => match self.meaning(name, function) {
                 None => true,
                 Some(variable) => {
@@ -247,7 +248,7 @@ impl Variables<'_, '_> {
                     sources.peek().is_some()
                         && sources.all(|of| match self.follow(of.value, of.function) {
                             (Expr::Call(call), _) => self.is_sensing(call),
-                            (value, _) => value == Expr::Actual,
+                            _ => false,
                         })
                 }
             },
@@ -260,7 +261,8 @@ impl Variables<'_, '_> {
     fn is_sensing(&self, call: u32) -> bool {
         let of = &self.parsed.calls[call as usize];
         let name = self.parsed.bytes(of.name);
-        let is_computing = COMPUTING.iter().any(|begin| name.starts_with(begin));
+        let all = COMPUTING.iter().chain(&PLACES);
+        let is_computing = all.into_iter().any(|begin| name.starts_with(begin));
         self.callees(of).is_empty() && !is_computing
     }
 
@@ -303,7 +305,12 @@ impl Variables<'_, '_> {
             let (name, rest) = operand.split_at(length);
             match rest.trim_ascii_start() {
                 [b'(', ..] if WORKED_OUT.contains(&name) => None,
-                [b'(', ..] if COMPUTING.iter().any(|begin| name.starts_with(begin)) => {
+                [b'(', ..]
+                    if COMPUTING
+                        .iter()
+                        .chain(&PLACES)
+                        .any(|begin| name.starts_with(begin)) =>
+                {
                     Some(Quantity::endless())
                 }
                 [b'(', ..] => {
