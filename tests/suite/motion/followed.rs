@@ -98,6 +98,21 @@ fn rapid_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_no
         "{:?}",
         grown.findings
     );
+    for (data, body) in [
+        ("VAR pos o;", "Incr o.z;"),
+        (
+            "VAR pos o;\nPROC set(INOUT pos a)\na.z:=-200;\nENDPROC\n",
+            "set o;",
+        ),
+        (
+            "VAR pos o;\nPROC set(INOUT num a)\na:=-200;\nENDPROC\n",
+            "set o.z;",
+        ),
+        ("VAR num h;", "SetAllDataVal \"num\",h;"),
+    ] {
+        let done = of_rapid(data, &format!("{body}\n{}", go("0,0,o.z+h")));
+        assert!(!errors(&done).is_empty(), "{body}: {:?}", done.findings);
+    }
     for (data, by) in [
         ("VAR num h:=200;", "0,0,-Pow(h,1)"),
         ("VAR pos o:=[0,0,-200];", "0,0,-Distance([0,0,0],o)"),
@@ -119,6 +134,15 @@ fn rapid_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_no
             format!("TPReadNum h,\"mm\";\n{}", go("0,0,h")),
         ),
         ("VAR num h;", format!("measure h;\n{}", go("0,0,h"))),
+        ("VAR pos o;", format!("measure o;\n{}", go("0,0,o.z"))),
+        (
+            "VAR pos o;\nVAR rawbytes rb;",
+            format!("UnpackRawBytes rb,1,o.z\\Float4;\n{}", go("0,0,o.z")),
+        ),
+        (
+            "VAR pos o;\nVAR bool ok;",
+            format!("ok:=StrToVal(\"5\",o.z);\n{}", go("0,0,o.z")),
+        ),
     ] {
         sensed(&of_rapid(data, &body), &body);
     }
@@ -185,12 +209,47 @@ fn krl_numbers_that_are_not_followed_are_refused_and_those_of_the_robot_are_not(
     ] {
         refused(&of_krl(data, body), body);
     }
-    for body in [
-        "q=XP\nq.Y=q.Y-$ANIN[1]\nLIN q\n",
-        "q=XP\nq.Y=q.Y-CAM_Y\nLIN q\n",
+    let zero = "off={X 0,Y 0,Z 0,A 0,B 0,C 0}\n";
+    let lower = "q=XP\nq.Y=q.Y-off.Y\nLIN q\n";
+    for (data, body) in [
+        ("", "q=XP\nq.Y=q.Y-$ANIN[1]\nLIN q\n".to_owned()),
+        ("", "q=XP\nq.Y=q.Y-CAM_Y\nLIN q\n".to_owned()),
+        // a frame that a routine of another file fills in, or a component of it
+        ("DECL FRAME off\n", "CAM(off)\nLIN XP:off\n".to_owned()),
+        ("DECL FRAME off\n", format!("{zero}CAM(off)\nLIN XP:off\n")),
+        ("DECL FRAME off\n", format!("{zero}CAM(off.Y)\n{lower}")),
+        (
+            "DECL FRAME off\n",
+            format!("{zero}ANIN ON off.Y=1*$ANIN[1]+0\n{lower}"),
+        ),
     ] {
-        sensed(&of_krl("", body), body);
+        sensed(&of_krl(data, &body), &body);
     }
+    // what is declared elsewhere has what is written here, or more
+    for body in [
+        "OFF={X 0,Y 0,Z 200,A 0,B 0,C 0}\nLIN XP:OFF\n",
+        "OFF.Y=200\nq=XP\nq.Y=q.Y-OFF.Y\nLIN q\n",
+    ] {
+        let done = of_krl("", body);
+        assert_eq!(
+            errors(&done),
+            ["displacement-unknown"],
+            "{body}: {:?}",
+            done.findings
+        );
+    }
+    // what a declaration leaves out is not taken for the rest
+    let all = format!("{zero}LIN XP:off\n");
+    refused(
+        &of_krl("DECL FRAME off={Z 200}\n", &all),
+        "a part of a frame",
+    );
+    let long = format!(
+        "sub(200{})\nEND\nDEF sub(d:IN)\nDECL REAL d\n",
+        "+0".repeat(150)
+    );
+    let long = format!("{long}DECL E6POS r\nr=XP\nr.Y=r.Y-d\nLIN r\n");
+    refused(&of_krl("", &long), "a long argument");
 }
 
 #[test]

@@ -94,20 +94,20 @@ pub(super) fn check(
             gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
         };
         // how far from the target its correction is worth that much
-        let holds = |most_m: &dyn Fn(&mut dyn Iterator<Item = Shift>) -> f64| {
+        let holds = || {
             let holds = |by: &f64| most_m(&mut strides::along_each_axis(*by)) <= limit_m;
             match DISTANCES_M.iter().take_while(|by| holds(by)).last() {
                 Some(by) => format!("within the limit up to {:.0} mm from it", mm_from_m(*by)),
-                None => "beyond the limit 1 mm from it".into(),
+                None => "within the limit for less than 1 mm from it".into(),
             }
         };
         let unbounded = || {
             let message = format!(
                 "a copy of {name} is displaced in a way that the text does not bound, or that is \
-                 not followed (again and again, by many steps, by what is computed of other \
-                 numbers): how far from {name} it comes is not known; its correction is right {} \
+                 not followed (again and again, by many steps, by where the robot is, by what is \
+                 computed of other numbers): how far from {name} it comes is not known; its correction is right {} \
                  (the limit is {limit_mm:.3} mm)",
-                holds(&most_m)
+                holds()
             );
             ("displacement-unknown", Severity::Error, message)
         };
@@ -120,7 +120,7 @@ pub(super) fn check(
                      {:.0} mm from it that is {:.3} mm off (the limit is {limit_mm:.3} mm), and {}",
                     mm_from_m(SOMEHOW_M),
                     mm_from_m(most),
-                    holds(&most_m),
+                    holds(),
                 );
                 ("displacement-unknown", severity_of(most), message)
             }

@@ -105,6 +105,13 @@ impl Quantity {
             .filter(|first| first.is_finite())
     }
 
+    /// Whether only the running program knows it, and the text tells no part of it but 0.
+    pub(super) fn is_sensed(&self) -> bool {
+        let of_text = self.first != 0.0 || self.own != 0.0 || !self.steps.is_empty();
+        let is_plain = |unknown: Unknown| !unknown.is_of_text && !unknown.is_endless;
+        !of_text && self.unknown.is_some_and(is_plain)
+    }
+
     pub(super) fn is_endless(&self) -> bool {
         self.unknown.is_some_and(|unknown| unknown.is_endless)
     }

@@ -189,6 +189,8 @@ impl Known {
             (b"P", Some(index)) => whole(index).map_or_else(Quantity::endless, |number| {
                 self.of_point((at.1, number), at.0)
             }),
+            // where the robot is may be anywhere
+            (b"LPOS" | b"JPOS", None) => Quantity::endless(),
             (_, None) if memchr::memchr(b'[', rest).is_none() => Quantity::unknown(),
             // what stands in the brackets of a function
             _ => {

@@ -127,9 +127,10 @@ impl<'a> Reader<'a> {
             "ENd" | "UNtil" => known.entries.blocks.close(),
             "POint" => self.tell_point(rest, routine, known),
             "HEre" => {
+                // where the robot is may be anywhere
                 if let Some((name, _)) = Name::defined(rest) {
                     let number = self.number_of(&name, routine, known);
-                    known.entries.lose(number);
+                    known.entries.assign_all(number, None, false);
                 }
             }
             _ if find(part, "CAll").is_some() => {
@@ -370,7 +371,6 @@ impl<'a> Reader<'a> {
                     .try_into()
                     .map_or_else(|_| Steps::endless(), steps_of)
             }
-            _ if part.find(b"HERE").is_some() => Steps::unknown(),
             _ => Steps::endless(),
         }
     }
@@ -450,8 +450,8 @@ impl<'a> Reads<'a> for Reader<'a> {
         if part.len() == 1 && part.is_word(0, b"NULL") {
             return Quantity::exactly(0.0);
         }
-        if part.is_word(0, b"HERE") && part.len() == 1 {
-            return Quantity::unknown();
+        if part.is_word(0, b"HERE") {
+            return Quantity::endless();
         }
         if let Some((name, words)) = Name::of(part)
             && words == part.len()

@@ -24,11 +24,19 @@ pub(super) struct FrameWrite {
     within: Context,
     /// The component, of one; all of them else.
     part: Option<u8>,
-    /// Empty where it is not followed.
-    value: Box<[u8]>,
-    at: Place,
-    context: Context,
+    value: Value,
     site: Option<Site>,
+}
+
+/// A value of a frame or of a component.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    /// In a context, which begins there.
+    Text(Box<[u8]>, Place, Context),
+    /// It is not followed.
+    Unfollowed,
+    /// Only the running program knows it.
+    Lost,
 }
 
 /// The number of a component by its letter.
@@ -51,7 +59,7 @@ impl Known {
     pub(super) fn frame_given(
         &mut self,
         (name, within): (Symbol, Context),
-        (value, at, context): (Box<[u8]>, Place, Context),
+        value: Value,
         site: Site,
     ) {
         self.frames.push(FrameWrite {
@@ -59,21 +67,22 @@ impl Known {
             within,
             part: None,
             value,
-            at,
-            context,
             site: Some(site),
         });
     }
 
-    /// A frame is written in a way that is not followed.
-    pub(super) fn frame_lost(&mut self, name: Symbol, context: Context) {
+    /// A frame, or a component of it, is written in a way that the text does not tell.
+    pub(super) fn frame_lost(
+        &mut self,
+        (name, within): (Symbol, Context),
+        part: Option<u8>,
+        value: Value,
+    ) {
         self.frames.push(FrameWrite {
             name,
-            within: context,
-            part: None,
-            value: Box::default(),
-            at: Place::NOWHERE,
-            context,
+            within,
+            part,
+            value,
             site: None,
         });
     }
@@ -159,9 +168,7 @@ impl Reader {
             name,
             within: context,
             part,
-            value: value.into(),
-            at: Place::new(self.file, short(start)),
-            context,
+            value: Value::Text(value.into(), Place::new(self.file, short(start)), context),
             site,
         });
     }
@@ -204,37 +211,48 @@ impl Reader {
         let of = self.names.data[datum as usize];
         let number = self.names.number(of.name, of.context);
         for (_, _, value) in self.names.values(datum, Index::Variable).to_vec() {
-            let Stored::Target(target) = value else {
-                continue;
-            };
             let script = &self.builder.script;
-            if script.targets[target].layout.shape != Shape::Pose {
-                continue;
-            }
-            let numbers: Vec<f64> = script.numbers_of(target).iter().map(|n| n.value).collect();
-            for (part, value) in (0..6).zip(numbers) {
+            let all = match value {
+                Stored::Target(target) if script.targets[target].layout.shape == Shape::Pose => {
+                    let numbers = script.numbers_of(target).first_chunk::<6>();
+                    numbers.map(|all| all.each_ref().map(|number| number.value))
+                }
+                _ => None,
+            };
+            for part in 0..6 {
                 let known = &mut self.names.known;
                 let component = known.component(number, part);
-                let value = Written::Exactly(value);
-                known.numbers.write(component, value, None);
+                match all {
+                    Some(all) => {
+                        let value = Written::Exactly(all[usize::from(part)]);
+                        known.numbers.write(component, value, None);
+                    }
+                    // with components left out, or expressions
+                    None => known.numbers.give_up(component),
+                }
             }
         }
     }
 
     fn component_written(&mut self, write: &FrameWrite, open: &mut Vec<Symbol>) {
-        let FrameWrite {
-            name,
-            within,
-            part,
-            at,
-            context,
-            ..
-        } = *write;
-        let number = self.names.number(name, within);
-        let text = &write.value;
-        if let Some(part) = part {
+        let number = self.names.number(write.name, write.within);
+        let known = &mut self.names.known;
+        let (text, at, context) = match &write.value {
+            Value::Text(text, at, context) => (text, *at, *context),
+            other => {
+                let parts = write.part.map_or(0..6, |part| part..part + 1);
+                for part in parts {
+                    let component = known.component(number, part);
+                    match other {
+                        Value::Lost => known.numbers.lose(component),
+                        _ => known.numbers.give_up(component),
+                    }
+                }
+                return;
+            }
+        };
+        if let Some(part) = write.part {
             let value = Written::Value(text.clone(), at, context);
-            let known = &mut self.names.known;
             let component = known.component(number, part);
             known.numbers.write(component, value, write.site.clone());
             return;
@@ -278,10 +296,17 @@ impl Reader {
     /// The six components of a frame; `None` where nothing is written into one of them.
     pub(super) fn components(&self, name: Symbol) -> Option<[Quantity; 6]> {
         let number = self.names.number(name, self.context());
+        let is_declared = self.names.datum(name, self.context()).is_some();
         let mut all = [0.0; 6].map(Quantity::exactly);
         for (part, of) in (0..6).zip(&mut all) {
             let component = self.names.known.components.get(&(number, part))?;
-            *of = self.number_value_of(*component);
+            let value = self.number_value_of(*component);
+            *of = if is_declared {
+                value
+            } else {
+                // files that are not here may write it
+                Quantity::any(&[value, Quantity::unknown()])
+            };
         }
         Some(all)
     }

@@ -27,6 +27,7 @@ mod components;
 mod data;
 mod drive;
 mod frames;
+mod given;
 mod insert;
 mod moves;
 mod names;

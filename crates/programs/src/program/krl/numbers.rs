@@ -2,20 +2,20 @@
 //!
 //! Variables of one name are taken for one, but for those that routines declare.
 
-use super::components::{FrameWrite, part_of};
+use super::components::{FrameWrite, Value, part_of};
+use super::given::Given;
 use super::names::{DataKind, Names};
 use super::reader::Reader;
 use super::statements::action;
 use super::tokens::{Cursor, Kind, Token};
 use crate::program::names::{Context, Symbol};
-use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, rounds, word};
+use crate::program::numbers::{Blocks, Numbers, Operand, counted, evaluated, rounds, word};
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::script::{Place, short};
 use foldhash::{HashMap, HashSet};
-use std::cell::RefCell;
 
 /// Variables that routines declare have their number above this.
-const OF_ROUTINE: u32 = 1 << 31;
+pub(super) const OF_ROUTINE: u32 = 1 << 31;
 /// What functions give has the number of the routine, above this.
 const RESULT: u32 = 1 << 30;
 /// Components of frames have their number above this.
@@ -44,19 +44,6 @@ pub(super) enum Written {
     Counted(usize),
 }
 
-/// An argument of a call.
-#[derive(Debug)]
-struct Given {
-    routine: Symbol,
-    at: usize,
-    value: Written,
-    /// The variable that it is, or an element of which.
-    variable: Option<Symbol>,
-}
-
-/// Longer arguments are no numbers.
-const LONGEST: usize = 200;
-
 /// What is known of numbers.
 #[derive(Debug, Default)]
 pub(super) struct Known {
@@ -66,11 +53,11 @@ pub(super) struct Known {
     /// Those that are not closed yet.
     open: Vec<usize>,
     /// What calls give, and the routines that they name.
-    given: Vec<Given>,
+    pub given: Vec<Given>,
     pub called: HashSet<(Symbol, Context)>,
     /// What interrupts call.
-    interrupting: Vec<(Symbol, Context)>,
-    declared: HashSet<u32>,
+    pub interrupting: Vec<(Symbol, Context)>,
+    pub declared: HashSet<u32>,
     /// Frames that are asked for components, or displace positions.
     pub displacing: Vec<Symbol>,
     /// What is written into frames.
@@ -138,61 +125,6 @@ impl Names {
             .filter(is_own)
             .map_or(name.0, |datum| OF_ROUTINE | datum)
     }
-
-    /// Parameters have what calls give them, once all routines are known.
-    pub(super) fn give_numbers(&mut self) {
-        for (routine, context) in std::mem::take(&mut self.known.called) {
-            let callee = self.routine(routine, context);
-            if let (Some(callee), Some(caller)) = (callee, context.routine) {
-                self.known.numbers.calls(caller, callee);
-            }
-        }
-        for (routine, context) in std::mem::take(&mut self.known.interrupting) {
-            if let Some(callee) = self.routine(routine, context) {
-                self.known.numbers.runs_at_any_time(callee);
-            }
-        }
-        for given in std::mem::take(&mut self.known.given) {
-            let Given { routine, at, .. } = given;
-            let Written::Value(text, place, context) = given.value else {
-                continue;
-            };
-            let variable = given.variable.map(|name| self.number(name, context));
-            let Some(callee) = self.routine(routine, context) else {
-                // a routine that is not in the files may write it
-                let is_known = is_worked_out(self.symbols.spelling(routine).as_bytes());
-                if let Some(number) = variable.filter(|_| !is_known) {
-                    self.known.numbers.lose(number);
-                }
-                continue;
-            };
-            let parameter = self.heads[callee as usize].parameters.get(at);
-            let Some(&(datum, is_written_back)) = parameter else {
-                continue;
-            };
-            let of = &self.data[datum as usize];
-            let (name, within) = (of.name, of.context);
-            let datum = self.datum(name, within).unwrap_or(datum);
-            let number = OF_ROUTINE | datum;
-            let site = Site::at_start(callee);
-            if self.data[datum as usize].kind.is_place() {
-                let value = (text, place, context);
-                self.known.frame_given((name, within), value, site);
-                if is_written_back && let Some(variable) = given.variable {
-                    self.known.frame_lost(variable, context);
-                }
-                continue;
-            }
-            match variable.filter(|_| is_written_back) {
-                Some(variable) => self.known.numbers.unite(variable, number),
-                None if self.known.declared.contains(&number) => {
-                    let value = Written::Value(text, place, context);
-                    self.known.numbers.write(number, value, Some(site));
-                }
-                None => {}
-            }
-        }
-    }
 }
 
 impl Reader {
@@ -202,12 +134,14 @@ impl Reader {
         self.names.known.assign(number);
     }
 
-    /// Only the running program knows a variable.
-    pub(super) fn lose_number(&mut self, name: Symbol) {
-        let number = self.names.number(name, self.context());
+    /// Only the running program knows a variable, or a component of it.
+    fn lose_number(&mut self, name: Symbol, part: Option<u8>) {
+        let context = self.context();
+        let number = self.names.number(name, context);
         let known = &mut self.names.known;
         known.assign(number);
         known.numbers.lose(number);
+        known.frame_lost((name, context), part, Value::Lost);
     }
 
     /// Names behind a type, with values or without.
@@ -260,31 +194,6 @@ impl Reader {
         let site = site.map(|()| known.blocks.site());
         let value = Written::Value(text.into(), at, context);
         known.numbers.write(number, value, site);
-    }
-
-    /// What a call gives a routine as one of its arguments, up to the sign behind it.
-    pub(super) fn number_given(
-        &mut self,
-        (routine, at): (Symbol, usize),
-        start: usize,
-        cursor: &Cursor,
-    ) {
-        let text = cursor.bytes[start..cursor.at.max(start + 1) - 1].trim_ascii();
-        if !text.is_empty() && text.len() <= LONGEST && !text.starts_with(b"#") {
-            let place = Place::new(self.file, short(start));
-            let value = Written::Value(text.into(), place, self.context());
-            let length = text.iter().take_while(|b| is_letter(**b)).count();
-            let rest = text[length..].trim_ascii();
-            let is_place = rest.is_empty() || rest.starts_with(b"[") && rest.ends_with(b"]");
-            let is_name = length > 0 && !text[0].is_ascii_digit() && is_place;
-            let variable = is_name.then(|| self.names.symbols.intern(&text[..length]));
-            self.names.known.given.push(Given {
-                routine,
-                at,
-                value,
-                variable,
-            });
-        }
     }
 
     /// What a statement writes into numbers, before any is read.
@@ -342,7 +251,10 @@ impl Reader {
                 cursor.next();
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
-                self.lose_number(name);
+                let part = cursor.brackets().is_ok() && cursor.take(b'.');
+                let part = part.then(|| cursor.next());
+                let part = part.and_then(|part| part_of(cursor.text(part)));
+                self.lose_number(name, part);
             }
             b"INTERRUPT" | b"TRIGGER" => {
                 if let Some((name, rest)) = action(cursor) {
@@ -476,30 +388,44 @@ impl Reader {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let of = RefCell::new(of);
-        let mut named = |operand: &[u8]| {
-            let known = &self.names.known;
-            let Some(name) = self.names.symbols.find(operand) else {
-                return Quantity::unknown();
-            };
-            let of = &mut *of.borrow_mut();
-            let number = self.names.number(name, context);
-            if let Some(counting) = known.counting(number, at) {
-                return self.counted(counting, of);
+        evaluated(Arithmetic::Typed, text, &mut |operand| match operand {
+            Operand::Name(name) => Some(self.value_of_name(name, (at, context), of)),
+            Operand::Other(operand) => {
+                own(operand).or_else(|| self.given_or_part(operand, context, of))
             }
-            // of the controller, or of files that are not here
-            let elsewhere = Quantity::unknown();
-            if known.declared.contains(&number) {
-                of(number)
-            } else if known.numbers.is_written(number) {
-                Quantity::any(&[of(number), elsewhere])
-            } else {
-                elsewhere
-            }
-        };
-        evaluated(Arithmetic::Typed, text, &mut named, &mut |operand| {
-            own(operand).or_else(|| self.given_or_part(operand, context, &mut *of.borrow_mut()))
         })
+    }
+
+    /// The value of a name.
+    fn value_of_name(
+        &self,
+        name: &[u8],
+        (at, context): (Place, Context),
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Quantity {
+        let known = &self.names.known;
+        let Some(name) = self.names.symbols.find(name) else {
+            return Quantity::unknown();
+        };
+        let number = self.names.number(name, context);
+        if let Some(counting) = known.counting(number, at) {
+            return self.counted(counting, of);
+        }
+        if known.declared.contains(&number) {
+            of(number)
+        } else {
+            self.declared_elsewhere(number, of)
+        }
+    }
+
+    /// The value of a number of the controller, or of files that are not here.
+    fn declared_elsewhere(&self, number: u32, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+        let elsewhere = Quantity::unknown();
+        if self.names.known.numbers.is_written(number) {
+            Quantity::any(&[of(number), elsewhere])
+        } else {
+            elsewhere
+        }
     }
 
     /// The value of an operand that is no name alone: what a function gives, or a component; `None`
@@ -537,25 +463,29 @@ impl Reader {
         {
             return Some(Quantity::endless());
         }
-        if text.starts_with(b"$") || self.names.datum(name, context).is_none() {
-            return Some(Quantity::unknown());
-        }
+        let is_declared = self.names.datum(name, context).is_some();
         let number = self.names.number(name, context);
         let component = part_of(part)
             .and_then(|part| self.names.known.components.get(&(number, part)).copied());
         Some(match component {
-            Some(component) => of(component),
-            None => Quantity::endless(),
+            Some(component) if is_declared => of(component),
+            Some(component) => self.declared_elsewhere(component, of),
+            None if is_declared => Quantity::endless(),
+            None => Quantity::unknown(),
         })
     }
 }
 
 /// Whether the value of a function is worked out of what it is given.
-fn is_worked_out(name: &[u8]) -> bool {
+pub(super) fn is_worked_out(name: &[u8]) -> bool {
     WORKED_OUT.iter().any(|of| name.eq_ignore_ascii_case(of))
 }
 
 /// Functions whose value is.
+///
+/// # Source
+/// KUKA System Software, Operating and Programming Instructions for System Integrators ("Standard
+/// functions").
 const WORKED_OUT: [&[u8]; 8] = [
     b"ABS", b"SQRT", b"SIN", b"COS", b"TAN", b"ACOS", b"ATAN2", b"ROUND",
 ];

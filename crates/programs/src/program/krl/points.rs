@@ -243,7 +243,7 @@ impl Reader {
             Operand::Named(name, _) => {
                 let datum = self.names.datum(name, self.context());
                 let has_value = |datum| !self.names.values(datum, Index::Variable).is_empty();
-                datum.is_some_and(|datum| has_value(datum) || self.names.touched.contains(&name))
+                datum.is_some_and(has_value) || self.names.touched.contains(&name)
             }
             // where the robot is may be anywhere
             Operand::Here(_) | Operand::Actual => true,
@@ -279,8 +279,19 @@ impl Reader {
             _ => return None,
         };
         let [x, y, z, rotation @ ..] = amounts;
-        let along = [x, y, z].map(|by| by.in_unit(MM));
-        let [a, b, c] = rotation.map(|angle| angle.exact());
+        let mut along = [x, y, z].map(|by| by.in_unit(MM));
+        if rotation.iter().any(Quantity::is_sensed) {
+            // a sensor that turns is judged as one that displaces
+            along[0] = along[0].clone().plus(Quantity::unknown());
+        }
+        let exact = |angle: Quantity| {
+            if angle.is_sensed() {
+                Some(0.0)
+            } else {
+                angle.exact()
+            }
+        };
+        let [a, b, c] = rotation.map(exact);
         let turned = pose_of([0.0, 0.0, 0.0, a?, b?, c?]);
         let mut by = Displacing::new();
         if at == 0 {

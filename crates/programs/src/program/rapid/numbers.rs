@@ -1,18 +1,16 @@
 //! What numbers may be: constants, what FOR counts, and data with all that is written into them.
 
 use super::builtins::{self, Known};
-use super::places::{PlaceWrite, axis_of};
+use super::places::{PlaceWrite, Value, axis_of};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{
     Argument, Called, Callee, Component, Counting, Expression, Function, Index, StatementKind,
-    Storage, Stored, Type, Verb, indices,
+    Storage, Type, Verb, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
-use crate::program::number;
-use crate::program::numbers::{Blocks, Numbers, Site, counted, evaluated, parts, word};
+use crate::program::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, word};
 use crate::program::quantity::{Arithmetic, Quantity, is_letter};
 use crate::program::script::Place;
-use std::cell::RefCell;
 
 /// Data that tasks share have the number of their group, above this.
 const SHARED: u32 = 1 << 31;
@@ -49,19 +47,26 @@ pub(super) enum Written {
     Zero,
 }
 
+/// All that is written into numbers and coordinates.
+#[derive(Default)]
+struct Noted {
+    numbers: Numbers<Written>,
+    places: Vec<PlaceWrite>,
+}
+
 impl Resolved<'_> {
     /// What a number is called in [`Self::numbers`].
-    fn number(&self, datum: u32) -> u32 {
+    pub(super) fn number(&self, datum: u32) -> u32 {
         self.group_of(datum).map_or(datum, |group| SHARED | group)
     }
 
     /// Notes all that is written into numbers.
     pub(super) fn find_numbers(&mut self) {
-        let mut numbers = Numbers::default();
-        let blank = self.declared(&mut numbers);
+        let mut noted = Noted::default();
+        let blank = self.declared(&mut noted.numbers);
         for (at, routine) in (0..).zip(&self.parsed.routines) {
             if routine.is_trap {
-                numbers.runs_at_any_time(at);
+                noted.numbers.runs_at_any_time(at);
             }
         }
         let mut blocks = Blocks::default();
@@ -70,7 +75,6 @@ impl Resolved<'_> {
             routine: None,
         };
         let mut file = 0;
-        let mut places = Vec::new();
         for statement in &self.parsed.statements {
             match statement.kind {
                 StatementKind::Text {
@@ -90,7 +94,7 @@ impl Resolved<'_> {
                     let data = self.numbers_named(name, context);
                     if data.is_empty() {
                         let (at, mut site) = ((file, statement.offset), || blocks.site());
-                        self.note_place(name, index, at, context, &mut site, &mut places);
+                        self.note_place(name, index, at, context, &mut site, &mut noted.places);
                     } else {
                         let bytes = self.assigned_bytes(file, statement.offset);
                         let written = Written::Text {
@@ -100,29 +104,22 @@ impl Resolved<'_> {
                         };
                         let site = (index == Index::Whole).then(|| blocks.site());
                         for datum in data {
-                            numbers.write(datum, written, site.clone());
+                            noted.numbers.write(datum, written, site.clone());
                         }
                     }
                 }
                 StatementKind::Assign { name, index, .. } => {
                     let (at, mut site) = ((file, statement.offset), || blocks.site());
-                    self.note_place(name, index, at, context, &mut site, &mut places);
+                    self.note_place(name, index, at, context, &mut site, &mut noted.places);
                 }
                 StatementKind::Function(function) => {
                     let of = self.parsed.functions[function as usize];
                     let callee = Callee::Named(of.name);
                     let is_built_in = !self.is_routine(of.name, context);
                     if is_built_in {
-                        self.function(&of, context, &mut numbers);
+                        self.function(&of, context, &mut noted);
                     } else {
-                        self.give(
-                            callee,
-                            (true, of.arguments),
-                            context,
-                            file,
-                            &mut numbers,
-                            &mut places,
-                        );
+                        self.give(callee, (true, of.arguments), context, file, &mut noted);
                     }
                 }
                 StatementKind::Call(Called {
@@ -140,22 +137,22 @@ impl Resolved<'_> {
                         (Some(name), Verb::Writes(_)) => {
                             let site = blocks.site();
                             let at = (arguments, context, file);
-                            self.built_in(name, at, &site, &mut numbers);
+                            self.built_in(name, at, &site, &mut noted);
                         }
                         (Some(_), Verb::WritesTool) => {
-                            self.lose_all(false, arguments, context, &mut numbers);
+                            self.lose_all(false, arguments, context, &mut noted);
                         }
                         (Some(_), Verb::WritesNamed) => {
                             for (at, datum) in (0..).zip(&self.parsed.data) {
                                 if datum.storage != Storage::Constant {
-                                    numbers.give_up(self.number(at));
+                                    noted.numbers.give_up(self.number(at));
+                                    self.note_whole_place(at, Value::Unfollowed, &mut noted.places);
                                 }
                             }
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            let data = &mut places;
-                            self.give(callee, given, context, file, &mut numbers, data);
+                            self.give(callee, given, context, file, &mut noted);
                         }
                         _ => {}
                     }
@@ -168,7 +165,7 @@ impl Resolved<'_> {
                             bytes: self.given_back(file, statement.offset),
                             context,
                         };
-                        numbers.write(RESULT | routine, written, None);
+                        noted.numbers.write(RESULT | routine, written, None);
                     }
                 }
                 StatementKind::If(_) | StatementKind::Test => blocks.open(Some(1)),
@@ -176,16 +173,18 @@ impl Resolved<'_> {
                 StatementKind::Loop { most, .. } => blocks.open(most),
                 StatementKind::EndChoice | StatementKind::EndLoop { .. } => blocks.close(),
                 StatementKind::Goto(_) | StatementKind::Handler | StatementKind::Retry => {
-                    numbers.jumps(context.routine.unwrap_or(u32::MAX));
+                    noted.numbers.jumps(context.routine.unwrap_or(u32::MAX));
                 }
                 _ => {}
             }
         }
         for &(name, context) in &self.parsed.results {
-            for number in self.numbers_named(name, context) {
-                numbers.lose(number);
-            }
+            self.lose(name, context, &mut noted);
         }
+        let Noted {
+            mut numbers,
+            places,
+        } = noted;
         // data without a value begin with 0; where nothing writes them nothing is meant by that
         for (number, site) in blank {
             if numbers.is_written(number) {
@@ -233,14 +232,18 @@ impl Resolved<'_> {
         blank
     }
 
-    /// The numbers that a name may mean.
-    fn numbers_named(&self, name: Symbol, context: Context) -> Vec<u32> {
-        let data = match self.meaning(name, context) {
+    /// The data that a name may mean.
+    pub(super) fn data_named(&self, name: Symbol, context: Context) -> Vec<u32> {
+        match self.meaning(name, context) {
             Meaning::One(datum) => vec![datum],
             Meaning::Several(list) => self.several(list).to_vec(),
             Meaning::Nothing => Vec::new(),
-        };
-        let data = data.into_iter();
+        }
+    }
+
+    /// The numbers that a name may mean.
+    fn numbers_named(&self, name: Symbol, context: Context) -> Vec<u32> {
+        let data = self.data_named(name, context).into_iter();
         let numbers = data.filter(|datum| self.datum(*datum).kind == Type::Num);
         numbers.map(|datum| self.number(datum)).collect()
     }
@@ -281,7 +284,7 @@ impl Resolved<'_> {
         name: Symbol,
         (arguments, context, file): ((u32, u32), Context, u32),
         site: &Site,
-        numbers: &mut Numbers<Written>,
+        noted: &mut Noted,
     ) {
         let given = &self.parsed.arguments[indices(arguments)];
         let by = match self.spelling(name).to_ascii_lowercase().as_str() {
@@ -302,23 +305,26 @@ impl Resolved<'_> {
             _ => given.first(),
         };
         let Some((by, of)) = by.zip(of) else {
-            return self.lose_all(false, arguments, context, numbers);
+            return self.lose_all(false, arguments, context, noted);
         };
         if let Some((name, index)) = self.place_of(&of.expression) {
             let sets_anew = matches!(by, Written::Zero);
             let site = (!sets_anew || index == Index::Whole).then_some(site);
             for number in self.numbers_named(name, context) {
-                numbers.write(number, by, site.cloned());
+                noted.numbers.write(number, by, site.cloned());
+            }
+            for datum in self.data_named(name, context) {
+                self.note_whole_place(datum, Value::Unfollowed, &mut noted.places);
             }
         }
     }
 
     /// A function of the language, or of no file, may write what it is given.
-    fn function(&self, of: &Function, context: Context, numbers: &mut Numbers<Written>) {
+    fn function(&self, of: &Function, context: Context, noted: &mut Noted) {
         match self.known(of, context) {
             Known::Harmless | Known::Actual => {}
             Known::Writes(_) | Known::Other => {
-                self.lose_all(true, of.arguments, context, numbers);
+                self.lose_all(true, of.arguments, context, noted);
             }
         }
     }
@@ -329,14 +335,22 @@ impl Resolved<'_> {
         of_function: bool,
         arguments: (u32, u32),
         context: Context,
-        numbers: &mut Numbers<Written>,
+        noted: &mut Noted,
     ) {
         for argument in &self.list(of_function)[indices(arguments)] {
             if let Some((name, _)) = self.place_of(&argument.expression) {
-                for number in self.numbers_named(name, context) {
-                    numbers.lose(number);
-                }
+                self.lose(name, context, noted);
             }
+        }
+    }
+
+    /// What only the running program knows is written into data.
+    fn lose(&self, name: Symbol, context: Context, noted: &mut Noted) {
+        for number in self.numbers_named(name, context) {
+            noted.numbers.lose(number);
+        }
+        for datum in self.data_named(name, context) {
+            self.note_whole_place(datum, Value::Lost, &mut noted.places);
         }
     }
 
@@ -347,33 +361,41 @@ impl Resolved<'_> {
         (of_function, arguments): (bool, (u32, u32)),
         context: Context,
         file: u32,
-        numbers: &mut Numbers<Written>,
-        places: &mut Vec<PlaceWrite>,
+        noted: &mut Noted,
     ) {
         let callees = self.callees(callee, arguments, context, file);
         if callees.foreign {
-            self.lose_all(of_function, arguments, context, numbers);
+            self.lose_all(of_function, arguments, context, noted);
         }
         let given = &self.list(of_function)[indices(arguments)];
+        let Noted { numbers, places } = noted;
         for &routine in &callees.routines {
             numbers.calls(context.routine.unwrap_or(u32::MAX), routine);
             for (datum, argument) in self.parameters(routine, given) {
                 let Some(argument) = argument else { continue };
+                let bytes = self.value_bytes(file, argument);
+                let site = Site::at_start(routine);
+                let value = Value::Text(file, bytes, context, Some(site.clone()));
+                self.note_whole_place(datum, value, places);
                 let is_number = self.datum(datum).kind == Type::Num;
                 let place = self.place_of(&argument.expression);
-                let written = place.filter(|_| self.is_written_back(datum));
-                if let Some((name, _)) = written
-                    && let Meaning::One(datum) = self.meaning(name, context)
-                {
-                    self.note_given_place(datum, None, context, None, places);
+                let Some((name, _)) = place.filter(|_| self.is_written_back(datum)) else {
+                    if is_number {
+                        let written = Written::Text {
+                            file,
+                            bytes,
+                            context,
+                        };
+                        numbers.write(self.number(datum), written, Some(site));
+                    }
+                    continue;
+                };
+                for back in self.data_named(name, context) {
+                    self.note_whole_place(back, Value::Unfollowed, places);
                 }
-                let value = (file, self.value_bytes(file, argument));
-                let site = Site::at_start(routine);
-                self.note_given_place(datum, Some(value), context, Some(site), places);
-                let written = written.map(|(name, _)| self.numbers_named(name, context));
-                match written.as_deref() {
-                    Some([number]) if is_number => numbers.unite(*number, self.number(datum)),
-                    Some(several) => {
+                match *self.numbers_named(name, context) {
+                    [number] if is_number => numbers.unite(number, self.number(datum)),
+                    ref several => {
                         for number in several {
                             numbers.give_up(*number);
                         }
@@ -381,16 +403,6 @@ impl Resolved<'_> {
                             numbers.give_up(self.number(datum));
                         }
                     }
-                    None if is_number => {
-                        let written = Written::Text {
-                            file,
-                            bytes: self.value_bytes(file, argument),
-                            context,
-                        };
-                        let site = Some(Site::at_start(routine));
-                        numbers.write(self.number(datum), written, site);
-                    }
-                    None => {}
                 }
             }
         }
@@ -460,29 +472,36 @@ impl Resolved<'_> {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let of = RefCell::new(of);
-        let mut named = |operand: &[u8]| {
-            let Some(name) = self.parsed.symbols.find(operand) else {
-                return Quantity::unknown();
-            };
-            let of = &mut *of.borrow_mut();
-            if let Some(counting) = self.parsed.counting(name, at) {
-                return self.counted(counting, of);
-            }
-            match *self.numbers_named(name, context) {
-                [number] => of(number),
-                // a signal, or what other files declare
-                [] if self.meaning(name, context) == Meaning::Nothing => Quantity::unknown(),
-                [] => Quantity::endless(),
-                ref several => {
-                    let all: Vec<_> = several.iter().map(|number| of(*number)).collect();
-                    Quantity::any(&all)
-                }
-            }
-        };
-        evaluated(Arithmetic::Real, text, &mut named, &mut |operand| {
-            own(operand).or_else(|| self.operand(operand, context, &mut *of.borrow_mut()))
+        evaluated(Arithmetic::Real, text, &mut |operand| match operand {
+            Operand::Name(name) => Some(self.named(name, at, context, of)),
+            Operand::Other(operand) => own(operand).or_else(|| self.operand(operand, context, of)),
         })
+    }
+
+    /// The value of a name.
+    fn named(
+        &self,
+        name: &[u8],
+        at: Place,
+        context: Context,
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Quantity {
+        let Some(name) = self.parsed.symbols.find(name) else {
+            return Quantity::unknown();
+        };
+        if let Some(counting) = self.parsed.counting(name, at) {
+            return self.counted(counting, of);
+        }
+        match *self.numbers_named(name, context) {
+            [number] => of(number),
+            // a signal, or what other files declare
+            [] if self.meaning(name, context) == Meaning::Nothing => Quantity::unknown(),
+            [] => Quantity::endless(),
+            ref several => {
+                let all: Vec<_> = several.iter().map(|number| of(*number)).collect();
+                Quantity::any(&all)
+            }
+        }
     }
 
     /// The value of an operand that is no name alone: what a function gives, or a component; `None`
@@ -529,39 +548,18 @@ impl Resolved<'_> {
             Meaning::One(datum) if rest.contains(&b'.') => datum,
             _ => return None,
         };
-        let kept = [&b".trans.x"[..], b".trans.y", b".trans.z"];
-        let axis = kept.iter().position(|axis| rest.eq_ignore_ascii_case(axis));
-        let coordinate = axis_of(rest).and_then(|axis| self.coordinates.get(&(data, axis)));
-        if let Some(number) = coordinate {
+        let coordinate = axis_of(rest).map(|axis| (self.number(data), axis));
+        if let Some(number) = coordinate.and_then(|key| self.coordinates.get(&key)) {
             return Some(of(*number));
         }
-        if self.is_written(Entity::Declared(data)) {
+        // another task may write what is shared
+        if self.is_written(Entity::Declared(data)) || self.group_of(data).is_some() {
             return Some(Quantity::endless());
         }
+        let kept = [&b".trans.x"[..], b".trans.y", b".trans.z"];
+        let axis = kept.iter().position(|axis| rest.eq_ignore_ascii_case(axis));
         let number = axis.and_then(|axis| self.coordinate(data, axis));
         Some(number.map_or_else(Quantity::endless, Quantity::exactly))
-    }
-
-    /// What a target is declared with along an axis, mm.
-    fn coordinate(&self, datum: u32, axis: usize) -> Option<f64> {
-        let of = self.datum(datum);
-        let Stored::Elements {
-            sizes: [0, 0, 0], ..
-        } = of.value
-        else {
-            return None;
-        };
-        let text = self.sources[of.place.file as usize]
-            .bytes
-            .get(of.place.offset as usize..)?;
-        let text = &text[..memchr::memchr(b';', text)?];
-        let value = &text[memchr::memmem::find(text, b":=")? + 2..];
-        let inside = value.trim_ascii().strip_prefix(b"[")?;
-        let place = parts(inside)
-            .next()
-            .filter(|_| of.kind == Type::Robtarget)?;
-        let place = place.trim_ascii().strip_prefix(b"[")?.strip_suffix(b"]")?;
-        number::parse(parts(place).nth(axis)?.trim_ascii())
     }
 
     /// What a FOR loop counts with.

@@ -1,9 +1,11 @@
-//! What the coordinates of `pos` data may be.
+//! What the coordinates of `pos` data may be, and of targets that nothing writes; how many elements
+//! arrays have.
 
 use super::numbers::{COMPONENT, Written};
 use super::resolved::Resolved;
-use super::syntax::{Index, Storage, Type, indices};
+use super::syntax::{Index, Storage, Stored, Type, indices};
 use crate::program::names::{Context, Meaning, Symbol};
+use crate::program::number;
 use crate::program::numbers::{Numbers, Site, parts};
 use crate::program::quantity::is_letter;
 use crate::program::script::short;
@@ -18,14 +20,21 @@ pub(super) struct PlaceWrite {
     datum: u32,
     /// One of them, or all.
     axis: Option<usize>,
-    file: u32,
-    /// The value; nothing where it is not followed.
-    bytes: Option<(u32, u32)>,
-    context: Context,
-    site: Option<Site>,
+    value: Value,
 }
 
-/// What the coordinates of data are called in the numbers.
+/// What a value is.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    /// That of these bytes of a file.
+    Text(u32, (u32, u32), Context, Option<Site>),
+    /// It is not followed.
+    Unfollowed,
+    /// Only the running program knows it.
+    Lost,
+}
+
+/// What the coordinates of data are called in the numbers, by what data are called there.
 pub(super) type Coordinates = HashMap<(u32, usize), u32>;
 
 /// The coordinate that a component names.
@@ -45,45 +54,31 @@ impl Resolved<'_> {
         site: &mut dyn FnMut() -> Site,
         writes: &mut Vec<PlaceWrite>,
     ) {
-        let data = match self.meaning(name, context) {
-            Meaning::One(datum) => vec![datum],
-            Meaning::Several(list) => self.several(list).to_vec(),
-            Meaning::Nothing => return,
-        };
         let bytes = self.assigned_bytes(file, offset);
         let text = &self.sources[file as usize].bytes[offset as usize..bytes.0 as usize];
         let own = text.strip_suffix(b":=").unwrap_or(text).trim_ascii_end();
         let axis = own.len().checked_sub(2).and_then(|at| axis_of(&own[at..]));
         let is_known = axis.is_some() || !own.contains(&b'.');
-        for datum in data.into_iter().filter(|datum| self.is_place(*datum)) {
-            writes.push(PlaceWrite {
-                datum,
-                axis,
-                file,
-                bytes: is_known.then_some(bytes),
-                context,
-                site: (index == Index::Whole).then(&mut *site),
-            });
+        for datum in self.data_named(name, context) {
+            if self.is_place(datum) {
+                let site = (index == Index::Whole).then(&mut *site);
+                let value = if is_known {
+                    Value::Text(file, bytes, context, site)
+                } else {
+                    Value::Unfollowed
+                };
+                writes.push(PlaceWrite { datum, axis, value });
+            }
         }
     }
 
-    /// A routine writes data that it is given, or has what is given.
-    pub(super) fn note_given_place(
-        &self,
-        datum: u32,
-        value: Option<(u32, (u32, u32))>,
-        context: Context,
-        site: Option<Site>,
-        writes: &mut Vec<PlaceWrite>,
-    ) {
+    /// All coordinates of data are written, if they have any.
+    pub(super) fn note_whole_place(&self, datum: u32, value: Value, writes: &mut Vec<PlaceWrite>) {
         if self.is_place(datum) {
             writes.push(PlaceWrite {
                 datum,
                 axis: None,
-                file: value.map_or(0, |(file, _)| file),
-                bytes: value.map(|(_, bytes)| bytes),
-                context,
-                site,
+                value,
             });
         }
     }
@@ -110,6 +105,28 @@ impl Resolved<'_> {
             !word.is_empty() && !keywords.iter().any(|of| word.eq_ignore_ascii_case(of))
         });
         first.is_some_and(is_pos)
+    }
+
+    /// What a target is declared with along an axis, mm.
+    pub(super) fn coordinate(&self, datum: u32, axis: usize) -> Option<f64> {
+        let of = self.datum(datum);
+        let Stored::Elements {
+            sizes: [0, 0, 0], ..
+        } = of.value
+        else {
+            return None;
+        };
+        let text = self.sources[of.place.file as usize]
+            .bytes
+            .get(of.place.offset as usize..)?;
+        let text = &text[..memchr::memchr(b';', text)?];
+        let value = &text[memchr::memmem::find(text, b":=")? + 2..];
+        let inside = value.trim_ascii().strip_prefix(b"[")?;
+        let place = parts(inside)
+            .next()
+            .filter(|_| of.kind == Type::Robtarget)?;
+        let place = place.trim_ascii().strip_prefix(b"[")?.strip_suffix(b"]")?;
+        number::parse(parts(place).nth(axis)?.trim_ascii())
     }
 
     /// The text of how many elements an array has: `Dim(a,1)` of `CONST num a{40}`.
@@ -144,7 +161,7 @@ impl Resolved<'_> {
         let mut all = Coordinates::default();
         let mut number = |datum: u32, axis: usize| {
             let next = COMPONENT | short(all.len());
-            *all.entry((datum, axis)).or_insert(next)
+            *all.entry((self.number(datum), axis)).or_insert(next)
         };
         for at in (0..short(self.parsed.data.len())).filter(|at| self.is_place(*at)) {
             let of = self.datum(at);
@@ -187,20 +204,20 @@ impl Resolved<'_> {
                     continue;
                 }
                 let number = number(write.datum, axis);
-                match (write.bytes, write.axis) {
-                    (None, _) => numbers.give_up(number),
-                    (Some(bytes), Some(_)) => {
+                match write.value.clone() {
+                    Value::Unfollowed => numbers.give_up(number),
+                    Value::Lost => numbers.lose(number),
+                    Value::Text(file, bytes, context, site) if write.axis.is_some() => {
                         let written = Written::Text {
-                            file: write.file,
+                            file,
                             bytes,
-                            context: write.context,
+                            context,
                         };
-                        numbers.write(number, written, write.site.clone());
+                        numbers.write(number, written, site);
                     }
-                    (Some(bytes), None) => {
-                        let value = (write.file, bytes);
-                        let site = write.site.clone();
-                        self.coordinate_written(number, axis, value, write.context, site, numbers);
+                    Value::Text(file, bytes, context, site) => {
+                        let value = (file, bytes);
+                        self.coordinate_written(number, axis, value, context, site, numbers);
                     }
                 }
             }

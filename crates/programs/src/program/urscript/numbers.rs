@@ -5,10 +5,9 @@ use super::variables::Variables;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
 use crate::program::displacing::Displacing;
-use crate::program::numbers::{Blocks, Numbers, Site, evaluated, parts};
+use crate::program::numbers::{Blocks, Numbers, Operand, Site, evaluated, parts};
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::{Displacement, number};
-use std::cell::RefCell;
 
 /// Numbers in a pose.
 const OF_POSE: usize = 6;
@@ -39,6 +38,9 @@ const COMPUTING: [&[u8]; 7] = [
 /// Beginnings of the names of functions that say where the robot is: that may be anywhere.
 const PLACES: [&[u8]; 3] = [b"get_actual_t", b"get_actual_joint_pos", b"get_target_t"];
 /// Functions whose value is worked out of what they are given.
+///
+/// # Source
+/// Universal Robots, "The `URScript` Programming Language", module urmath.
 const WORKED_OUT: [&[u8]; 18] = [
     b"abs", b"acos", b"asin", b"atan", b"atan2", b"ceil", b"cos", b"d2r", b"floor", b"length",
     b"log", b"norm", b"pow", b"r2d", b"round", b"sin", b"sqrt", b"tan",
@@ -260,10 +262,7 @@ impl Variables<'_, '_> {
     /// Whether a call asks the robot, or what is not in the files.
     fn is_sensing(&self, call: u32) -> bool {
         let of = &self.parsed.calls[call as usize];
-        let name = self.parsed.bytes(of.name);
-        let all = COMPUTING.iter().chain(&PLACES);
-        let is_computing = all.into_iter().any(|begin| name.starts_with(begin));
-        self.callees(of).is_empty() && !is_computing
+        self.callees(of).is_empty() && !makes_position(self.parsed.bytes(of.name))
     }
 
     fn quantity(&self, text: &[u8], function: FunctionId) -> Quantity {
@@ -286,57 +285,59 @@ impl Variables<'_, '_> {
         of: &mut dyn FnMut(u32) -> Quantity,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let of = RefCell::new(of);
-        let mut named = |operand: &[u8]| {
-            let name = self.parsed.known_symbol(operand);
-            let variable = name.and_then(|name| self.meaning(name, function));
-            variable.map_or_else(Quantity::unknown, &mut *of.borrow_mut())
-        };
-        evaluated(Arithmetic::Real, text, &mut named, &mut |operand| {
-            if let Some(own) = own(operand) {
-                return Some(own);
+        evaluated(Arithmetic::Real, text, &mut |operand| match operand {
+            Operand::Name(name) => {
+                let name = self.parsed.known_symbol(name);
+                let variable = name.and_then(|name| self.meaning(name, function));
+                Some(variable.map_or_else(Quantity::unknown, &mut *of))
             }
-            if let Some(degrees) = operand.strip_prefix(b"d2r(") {
-                let degrees = degrees.strip_suffix(b")")?;
-                let exactly = evaluate(degrees, &mut |_| Quantity::unknown())?.exact()?;
-                return Some(Quantity::exactly(exactly * DEG));
-            }
-            let length = operand.iter().take_while(|b| is_letter(**b)).count();
-            let (name, rest) = operand.split_at(length);
-            match rest.trim_ascii_start() {
-                [b'(', ..] if WORKED_OUT.contains(&name) => None,
-                [b'(', ..]
-                    if COMPUTING
-                        .iter()
-                        .chain(&PLACES)
-                        .any(|begin| name.starts_with(begin)) =>
-                {
-                    Some(Quantity::endless())
-                }
-                [b'(', ..] => {
-                    let name = self.parsed.known_symbol(name);
-                    let own = name.map_or(&[][..], |name| self.functions_of(name));
-                    let all = own.iter().map(|at| (*of.borrow_mut())(RESULT | at));
-                    let all: Vec<_> = all.collect();
-                    // of the robot, or of files that are not here
-                    Some(Quantity::any(&all))
-                }
-                // any number of a pose
-                [b'[', inside @ .., b']']
-                    if name == b"p" && memchr::memchr(b',', inside).is_some() =>
-                {
-                    if memchr::memchr(b'[', inside).is_some() {
-                        return Some(Quantity::endless());
-                    }
-                    let all = parts(inside).map(|part| {
-                        self.evaluated(part, function, &mut *of.borrow_mut(), &mut |_| None)
-                    });
-                    Some(Quantity::any(&all.collect::<Vec<_>>()))
-                }
-                _ => None,
-            }
+            Operand::Other(operand) => own(operand).or_else(|| self.operand(operand, function, of)),
         })
     }
+
+    /// The value of an operand that is no name alone; `None` where it is worked out of the numbers
+    /// in it.
+    fn operand(
+        &self,
+        operand: &[u8],
+        function: FunctionId,
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Option<Quantity> {
+        if let Some(degrees) = operand.strip_prefix(b"d2r(") {
+            let degrees = degrees.strip_suffix(b")")?;
+            let exactly = evaluate(degrees, &mut |_| Quantity::unknown())?.exact()?;
+            return Some(Quantity::exactly(exactly * DEG));
+        }
+        let length = operand.iter().take_while(|b| is_letter(**b)).count();
+        let (name, rest) = operand.split_at(length);
+        match rest.trim_ascii_start() {
+            [b'(', ..] if WORKED_OUT.contains(&name) => None,
+            [b'(', ..] if makes_position(name) => Some(Quantity::endless()),
+            [b'(', ..] => {
+                let name = self.parsed.known_symbol(name);
+                let own = name.map_or(&[][..], |name| self.functions_of(name));
+                let all: Vec<_> = own.iter().map(|at| of(RESULT | at)).collect();
+                // of the robot, or of files that are not here
+                Some(Quantity::any(&all))
+            }
+            // any number of a pose
+            [b'[', inside @ .., b']'] if name == b"p" && memchr::memchr(b',', inside).is_some() => {
+                if memchr::memchr(b'[', inside).is_some() {
+                    return Some(Quantity::endless());
+                }
+                let all =
+                    parts(inside).map(|part| self.evaluated(part, function, of, &mut |_| None));
+                Some(Quantity::any(&all.collect::<Vec<_>>()))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether the value of a function is a position: one made of others, or where the robot is.
+fn makes_position(name: &[u8]) -> bool {
+    let mut all = COMPUTING.iter().chain(&PLACES);
+    all.any(|begin| name.starts_with(begin))
 }
 
 /// What is added along the axes of the base.

@@ -19,8 +19,6 @@ const INPUTS: &[&[u8]] = &[
     b"aioGet",
     b"dioGet",
     b"sioGet",
-    b"here",
-    b"herej",
     b"get",
     b"clock",
     b"getJointForce",
@@ -219,15 +217,9 @@ impl<'a> Reader<'a> {
             }
             return Steps::one(numbers);
         }
-        let is_name = |at: &usize| words.is_name(*at);
-        let named = (0..words.len()).filter(is_name).map(|at| words.text(at));
         let is_strange =
             Reference::whole(words).is_some_and(|name| self.meaning_in(&name, routine).is_none());
-        if is_strange
-            || named
-                .into_iter()
-                .any(|name| matches!(name, b"here" | b"herej"))
-        {
+        if is_strange {
             return Steps::unknown();
         }
         Steps::endless()

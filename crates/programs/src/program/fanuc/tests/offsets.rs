@@ -113,7 +113,6 @@ fn loops_count_and_jumps_do_not() {
 fn what_the_robot_alone_knows_is_unknown_and_what_is_not_followed_has_no_bound() {
     for lines in [
         GO.to_owned(),
-        format!("PR[7]=LPOS ;\n{GO}"),
         format!("PR[7]=VR[1].OFFSET ;\n{GO}"),
         format!("{ZERO}PR[7,2]=GI[1] ;\n{GO}"),
         format!("{ZERO}PR[7,2]=ABS[GI[1]] ;\n{GO}"),
@@ -126,6 +125,8 @@ fn what_the_robot_alone_knows_is_unknown_and_what_is_not_followed_has_no_bound()
     }
     for lines in [
         format!("{ZERO}PR[7,5]=1 ;\n{GO}"),
+        // where the robot is may be anywhere
+        format!("PR[7]=LPOS ;\n{GO}"),
         format!("PR[7]=P[1] ;\n{GO}"),
         format!("{ZERO}R[1]=5 ;\nPR[7,2]=SIN[R[1]] ;\n{GO}"),
         format!("PR[7]=JPOS ;\nPR[7]=PR[7]-PR[7] ;\nPR[7,1]=5 ;\n{GO}"),

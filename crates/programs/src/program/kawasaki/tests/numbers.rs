@@ -90,7 +90,7 @@ fn what_may_be_several_is_judged_as_each() {
 fn only_what_no_text_tells_is_taken_for_a_sensor() {
     for (code, wanted) in [
         ("LMOVE p1+cam", Displacement::Unknown),
-        ("HERE .h\nLMOVE p1+.h", Displacement::Unknown),
+        ("HERE .h\nLMOVE p1+.h", Displacement::Unbounded),
         ("LMOVE p1+TRANS(0,0,BITS(1,8))", Displacement::Unknown),
         ("LMOVE p1\nLDEPART x", Displacement::Unknown),
         (
