@@ -387,6 +387,41 @@ fn a_board_of_another_size_is_found() {
 }
 
 #[test]
+fn positions_in_another_unit_are_refused_with_its_name() {
+    let folder = scratch();
+    let at = folder.path();
+    let robot = super::poses("tests/data/register/robot.csv");
+    let board = super::poses("tests/data/register/board.csv");
+    let words = [
+        "handeye",
+        "robot.csv",
+        "board.csv",
+        "--setup",
+        "eye-in-hand",
+    ];
+    let of = |poses: &[Pose], factor: f64| -> Vec<Pose> {
+        let poses = poses.iter().map(|pose| Pose {
+            translation: pose.translation.map(|v| v * factor),
+            ..*pose
+        });
+        poses.collect()
+    };
+    for (unit_mm, name) in [(1e3, "metres"), (10.0, "centimetres"), (25.4, "inches")] {
+        for (who, factors) in [
+            ("ROBOT", [1.0 / unit_mm, 1.0]),
+            ("BOARD", [1.0, 1.0 / unit_mm]),
+        ] {
+            write(at, "robot.csv", &boards(&of(&robot, factors[0])));
+            write(at, "board.csv", &boards(&of(&board, factors[1])));
+            let (status, _, reported) = registered(at, &words);
+            assert_eq!(status, 2, "{who}, {name}: {reported}");
+            let advice = format!("with {who}'s positions times {unit_mm} ({name}) it fits");
+            assert!(reported.contains(&advice), "{advice}: {reported}");
+        }
+    }
+}
+
+#[test]
 fn options_that_would_count_for_nothing_are_refused() {
     let folder = scratch();
     let at = folder.path();

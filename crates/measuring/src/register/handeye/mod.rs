@@ -313,28 +313,6 @@ impl HandEye {
 
     /// In which unit the positions may be, by what fits.
     fn unit_advice(&self, left_m: f64) -> String {
-        let cases = [
-            (
-                1e3,
-                1.0,
-                "with ROBOT's positions times 1000 (metres) it fits",
-            ),
-            (
-                1.0,
-                1e3,
-                "with BOARD's positions times 1000 (metres) it fits",
-            ),
-            (
-                25.4,
-                1.0,
-                "with ROBOT's positions times 25.4 (inches) it fits",
-            ),
-            (
-                1.0,
-                25.4,
-                "with BOARD's positions times 25.4 (inches) it fits",
-            ),
-        ];
         let fits = |robot: f64, board: f64| {
             let (a, b) = (scaled(&self.a, robot), scaled(&self.b, board));
             let motions = motions(&a, &b);
@@ -348,12 +326,19 @@ impl HandEye {
                 .refine()
                 .is_ok_and(|r| r.distance_m < OTHER_UNIT * left_m)
         };
-        let case = cases
-            .into_iter()
-            .find(|(robot, board, _)| fits(*robot, *board));
-        case.map_or(TOGETHER, |(_, _, advice)| advice).to_owned()
+        for (factor, unit) in UNITS {
+            for (name, robot, board) in [("ROBOT", factor, 1.0), ("BOARD", 1.0, factor)] {
+                if fits(robot, board) {
+                    return format!("with {name}'s positions times {factor} ({unit}) it fits");
+                }
+            }
+        }
+        TOGETHER.to_owned()
     }
 }
+
+/// What positions in other units are multiplied by to be millimetres.
+const UNITS: [(f64, &str); 3] = [(1e3, "metres"), (10.0, "centimetres"), (25.4, "inches")];
 
 /// Advice where nothing else fits.
 const TOGETHER: &str = "do the rows of ROBOT and BOARD belong together?";
