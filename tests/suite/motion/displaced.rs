@@ -67,6 +67,30 @@ fn a_loop_that_lowers_a_copy_is_judged_at_the_lowest_place_that_it_may_come_to()
 }
 
 #[test]
+fn of_several_displacements_that_come_to_a_move_the_worst_is_reported_once() {
+    let at_z = |z: u32| {
+        let body = format!("MoveL Offs(p,0,0,-{z}),v100,fine,tool0;");
+        let found = done(&[PLAIN], &[("t.mod", &program(&body))]);
+        miss_mm(message(&found, "displaced-target"))
+    };
+    // the point is displaced in three ways; the move to it stands once
+    let copies = [20, 300, 100].map(|z| format!("q:=Offs(p,0,0,-{z});\ngo;\n"));
+    let go = "PROC go()\nMoveL q,v100,fine,tool0;\nENDPROC";
+    let data = format!("CONST robtarget p := [[430,0,400],{P};\nVAR robtarget q;\n{go}");
+    let body = format!("{START}{}", copies.concat());
+    let found = done(&[PLAIN], &[("t.mod", &rapid(&data, &body))]);
+    let said = found.findings.iter().filter(|f| f.id == "displaced-target");
+    let said: Vec<&str> = said.map(|f| f.message.as_str()).collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(
+        said[0].ends_with("2 other displacements lead here"),
+        "{said:?}"
+    );
+    assert_eq!(miss_mm(said[0]), at_z(300));
+    assert!(at_z(300) > at_z(100), "the farthest is the worst");
+}
+
+#[test]
 fn what_only_the_running_program_knows_may_be_added_once_and_not_again_and_again() {
     let add = "q.trans.z:=q.trans.z+n;\nMoveL q,v100,fine,tool0;";
     let once = program(&format!("WHILE n>0 DO\nq:=p;\n{add}\nENDWHILE"));

@@ -44,7 +44,8 @@ pub(super) fn limit_m(job: &Job) -> f64 {
 }
 
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that
-/// points are derived from.
+/// points are derived from. Of the displacements with which one statement is come to the worst is
+/// reported.
 pub(super) fn check(
     job: &Job,
     arrivals: &BTreeMap<usize, Vec<Arrival>>,
@@ -53,8 +54,8 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) {
     let ground = &job.ground;
-    let limit_m = limit_m(job);
     let mut judged = Judged::default();
+    let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
@@ -67,146 +68,249 @@ pub(super) fn check(
         let (Some(approach), Some(fake)) = (approach, fakes.get(&target)) else {
             continue;
         };
-        let uses = uses(job, arrivals, at, approach);
-        let name = ground.name_of(target);
-        let hint = "give the point a target of its own if it must be exact; --max-derived-error \
-            raises the limit";
-        let limit_mm = mm_from_m(limit_m);
-        let severity_of = |miss_m: f64| {
-            if miss_m > limit_m {
-                Severity::Error
-            } else {
-                Severity::Warning
-            }
+        let base = Base {
+            job,
+            reach_m: reach_m(job, approach),
+            direction: approach.direction,
+            uses: uses(job, arrivals, at, approach),
+            name: ground.name_of(target),
+            fake: *fake,
+            limit_m: limit_m(job),
         };
-        // the largest miss at these places from the target; from which side joints come there
-        // nobody knows, and that is a finding of its own
-        let most_m = |shifts: &mut dyn Iterator<Item = Shift>| -> f64 {
-            let uses = uses.iter().map(|of| Approach {
-                direction: approach.direction,
-                ..*of
-            });
-            let uses: Vec<Approach> = uses.collect();
-            let gaps = shifts.flat_map(|shift| {
-                let gaps = uses.iter().map(move |of| landing(job, of, fake, &shift));
-                gaps.collect::<Vec<_>>()
-            });
-            gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
+        let Some(verdict) = base.judge(&motion.displacement, &mut judged) else {
+            continue;
         };
-        // how far from the target its correction is worth that much
-        let holds = || {
-            let holds = |by: &f64| most_m(&mut strides::along_each_axis(*by)) <= limit_m;
-            match DISTANCES_M.iter().take_while(|by| holds(by)).last() {
-                Some(by) => format!("within the limit up to {:.0} mm from it", mm_from_m(*by)),
-                None => "within the limit for less than 1 mm from it".into(),
-            }
-        };
-        let unbounded = || {
-            let message = format!(
-                "a copy of {name} is displaced in a way that the text does not bound, or that is \
-                 not followed (again and again, by many steps, by where the robot is, by what is \
-                 computed of other numbers): how far from {name} it comes is not known; its correction is right {} \
-                 (the limit is {limit_mm:.3} mm)",
-                holds()
-            );
-            ("displacement-unknown", Severity::Error, message)
-        };
-        let (id, severity, message) = match &motion.displacement {
-            Displacement::None => continue,
-            Displacement::Unknown => {
-                let most = most_m(&mut strides::along_each_axis(SOMEHOW_M));
-                let message = format!(
-                    "a point derived from {name} at run time takes its correction along: up to \
-                     {:.0} mm from it that is {:.3} mm off (the limit is {limit_mm:.3} mm), and {}",
-                    mm_from_m(SOMEHOW_M),
-                    mm_from_m(most),
-                    holds(),
-                );
-                ("displacement-unknown", severity_of(most), message)
-            }
+        let statement = (motion.file, motion.offset, verdict.id, target);
+        let (_, verdicts) = of_statements
+            .entry(statement)
+            .or_insert((motion, Vec::new()));
+        if !verdicts.contains(&verdict) {
+            verdicts.push(verdict);
+        }
+    }
+    let hint = "give the point a target of its own if it must be exact; --max-derived-error \
+        raises the limit";
+    findings.extend(
+        of_statements
+            .into_values()
+            .filter_map(|(motion, verdicts)| {
+                let others = match verdicts.len() {
+                    0 | 1 => String::new(),
+                    2 => "; one other displacement leads here".into(),
+                    count => format!("; {} other displacements lead here", count - 1),
+                };
+                let severity = |a: &Verdict, b: &Verdict| a.severity.cmp(&b.severity);
+                let worst =
+                    |a: &Verdict, b: &Verdict| severity(a, b).then(a.off_m.total_cmp(&b.off_m));
+                let worst = verdicts.into_iter().max_by(worst)?;
+                let message = format!("{}{others}", worst.message);
+                Some(ground.at_move(worst.id, worst.severity, motion, message, hint))
+            }),
+    );
+}
+
+/// What is found of a displacement.
+#[derive(PartialEq)]
+struct Verdict {
+    id: &'static str,
+    severity: Severity,
+    /// How far off the point lands at most, metres; infinite where nothing bounds it.
+    off_m: f64,
+    message: String,
+}
+
+/// A target and what takes its correction along.
+struct Base<'a> {
+    job: &'a Job<'a>,
+    /// From which side joints come to it.
+    direction: [i8; 6],
+    /// How the robot comes to what is derived from it.
+    uses: Vec<Approach>,
+    name: String,
+    /// Its fake target.
+    fake: Pose,
+    reach_m: f64,
+    limit_m: f64,
+}
+
+impl Base<'_> {
+    /// What is to be said of a displacement; nothing where there is none.
+    fn judge(&self, displacement: &Displacement, judged: &mut Judged) -> Option<Verdict> {
+        Some(match displacement {
+            Displacement::None => return None,
+            Displacement::Unknown => self.unknown(),
             Displacement::Within(steps) => {
-                let reach_m = reach_m(job, approach);
-                let most = judged.most_m(&motion.displacement, &uses, || {
-                    let places = strides::places(steps, reach_m, false)?;
-                    Some(most_m(&mut places.into_iter()))
+                let most = judged.most_m(displacement, &self.uses, || {
+                    let places = strides::places(steps, self.reach_m, false)?;
+                    Some(self.most_m(&mut places.into_iter()))
                 });
-                if let Some(most) = most {
-                    let message = format!(
-                        "a point derived from {name} takes its correction along {}: within reach \
-                         that is up to {:.3} mm off (the limit is {limit_mm:.3} mm)",
-                        strides::in_words(steps),
-                        mm_from_m(most),
-                    );
-                    ("displacement-unknown", severity_of(most), message)
-                } else {
-                    unbounded()
-                }
+                most.map_or_else(
+                    || self.unbounded(),
+                    |most| {
+                        self.bounded(
+                            most,
+                            &format!(
+                                "a point derived from {} takes its correction along, displaced {}: \
+                                 within reach",
+                                self.name,
+                                strides::in_words(steps),
+                            ),
+                        )
+                    },
+                )
             }
             Displacement::AtLeast(steps) => {
-                let reach_m = reach_m(job, approach);
-                let most = judged.most_m(&motion.displacement, &uses, || {
-                    let known = strides::places(steps, reach_m, true)?.into_iter();
-                    Some(most_m(
-                        &mut known.chain(strides::along_each_axis(SOMEHOW_M)),
-                    ))
+                let most = judged.most_m(displacement, &self.uses, || {
+                    let known = strides::places(steps, self.reach_m, true)?.into_iter();
+                    Some(self.most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M))))
                 });
-                if let Some(most) = most {
-                    let message = format!(
-                        "a point derived from {name} at run time takes its correction along: the \
-                         numbers of the text alone, with 1 for each factor that only the running \
-                         program knows, lead it {}, and on that way within reach it is up to {:.3} \
-                         mm off (the limit is {limit_mm:.3} mm)",
-                        strides::in_words(steps),
-                        mm_from_m(most),
-                    );
-                    ("displacement-unknown", severity_of(most), message)
-                } else {
-                    unbounded()
-                }
+                most.map_or_else(
+                    || self.unbounded(),
+                    |most| {
+                        self.bounded(
+                            most,
+                            &format!(
+                                "a point derived from {} at run time takes its correction along: \
+                                 the numbers of the text alone, with 1 for each factor that only \
+                                 the running program knows, displace it {}, and from there to the \
+                                 target, within reach,",
+                                self.name,
+                                strides::in_words(steps),
+                            ),
+                        )
+                    },
+                )
             }
-            Displacement::Unbounded => unbounded(),
-            Displacement::Overwritten => {
-                // of numbers that are all written over nothing is left, of others some
-                let lost = uses.iter().flat_map(|of| {
-                    let given = [of.numbers_in_frame(job), *fake];
-                    given.map(|given| landing(job, of, &given, &Shift::none()))
-                });
-                let lost_m = lost.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max);
-                let message = format!(
-                    "the running program writes numbers over some of a copy of {name}: these lose \
-                     a correction of {:.3} mm (the limit is {limit_mm:.3} mm)",
-                    mm_from_m(lost_m),
-                );
-                ("target-overwritten", severity_of(lost_m), message)
-            }
-            Displacement::By(shift) => {
-                let landings = uses.iter().map(|of| landing(job, of, fake, shift));
-                let farthest = landings.reduce(|a, b| {
-                    let (a, b) = (a?, b?);
-                    Some(if b.distance_m > a.distance_m { b } else { a })
-                });
-                let (severity, message) = match farthest.flatten() {
-                    None => (
-                        Severity::Warning,
-                        format!("a point derived from {name} is out of reach"),
-                    ),
-                    Some(gap) => (
-                        if gap.distance_m > limit_m {
-                            Severity::Warning
-                        } else {
-                            Severity::Note
-                        },
-                        format!(
-                            "a point derived from {name} takes its correction along and lands \
-                             {:.3} mm off its own wanted pose",
-                            mm_from_m(gap.distance_m)
-                        ),
-                    ),
-                };
-                ("displaced-target", severity, message)
-            }
-        };
-        findings.push(ground.at_move(id, severity, motion, message, hint));
+            Displacement::Unbounded => self.unbounded(),
+            Displacement::Overwritten => self.overwritten(),
+            Displacement::By(shift) => self.by(shift),
+        })
+    }
+
+    /// A verdict whose message begins so.
+    fn bounded(&self, off_m: f64, what: &str) -> Verdict {
+        Verdict {
+            id: "displacement-unknown",
+            severity: self.severity_of(off_m),
+            off_m,
+            message: format!(
+                "{what} that is up to {:.3} mm off ({})",
+                mm_from_m(off_m),
+                self.limit()
+            ),
+        }
+    }
+
+    fn unknown(&self) -> Verdict {
+        let off_m = self.most_m(&mut strides::along_each_axis(SOMEHOW_M));
+        let what = format!(
+            "a point derived from {} at run time takes its correction along: up to {:.0} mm from it",
+            self.name,
+            mm_from_m(SOMEHOW_M),
+        );
+        let verdict = self.bounded(off_m, &what);
+        Verdict {
+            message: format!("{}, and {}", verdict.message, self.holds()),
+            ..verdict
+        }
+    }
+
+    fn unbounded(&self) -> Verdict {
+        let name = &self.name;
+        Verdict {
+            id: "displacement-unknown",
+            severity: Severity::Error,
+            off_m: f64::INFINITY,
+            message: format!(
+                "a copy of {name} is displaced in a way that the text does not bound, or that is \
+                 not followed (again and again, by many steps, by where the robot is, by what is \
+                 computed of other numbers): how far from {name} it comes is not known; its \
+                 correction is right {} ({})",
+                self.holds(),
+                self.limit()
+            ),
+        }
+    }
+
+    fn overwritten(&self) -> Verdict {
+        // of numbers that are all written over nothing is left, of others some
+        let lost = self.uses.iter().flat_map(|of| {
+            let given = [of.numbers_in_frame(self.job), self.fake];
+            given.map(|given| landing(self.job, of, &given, &Shift::none()))
+        });
+        let off_m = lost.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max);
+        Verdict {
+            id: "target-overwritten",
+            severity: self.severity_of(off_m),
+            off_m,
+            message: format!(
+                "the running program writes numbers over some of a copy of {}: these lose a \
+                 correction of {:.3} mm ({})",
+                self.name,
+                mm_from_m(off_m),
+                self.limit()
+            ),
+        }
+    }
+
+    fn by(&self, shift: &Shift) -> Verdict {
+        let landings = self.uses.iter();
+        let landings =
+            landings.map(|of| Some(landing(self.job, of, &self.fake, shift)?.distance_m));
+        let farthest = landings.reduce(|a, b| Some(a?.max(b?))).flatten();
+        let name = &self.name;
+        Verdict {
+            id: "displaced-target",
+            severity: if farthest.is_some_and(|off_m| off_m <= self.limit_m) {
+                Severity::Note
+            } else {
+                Severity::Warning
+            },
+            off_m: farthest.unwrap_or(f64::INFINITY),
+            message: match farthest {
+                None => format!("a point derived from {name} is out of reach"),
+                Some(off_m) => format!(
+                    "a point derived from {name} takes its correction along and lands {:.3} mm off \
+                     its own wanted pose",
+                    mm_from_m(off_m)
+                ),
+            },
+        }
+    }
+
+    /// The largest miss at these places from the target; from which side joints come there nobody
+    /// knows, and that is a finding of its own.
+    fn most_m(&self, shifts: &mut dyn Iterator<Item = Shift>) -> f64 {
+        let direction = self.direction;
+        let uses = self.uses.iter();
+        let uses: Vec<Approach> = uses.map(|of| Approach { direction, ..*of }).collect();
+        let gaps = shifts.flat_map(|shift| {
+            let gaps = uses.iter();
+            let gaps = gaps.map(move |of| landing(self.job, of, &self.fake, &shift));
+            gaps.collect::<Vec<_>>()
+        });
+        gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
+    }
+
+    /// How far from the target its correction is worth the limit.
+    fn holds(&self) -> String {
+        let holds = |by: &f64| self.most_m(&mut strides::along_each_axis(*by)) <= self.limit_m;
+        match DISTANCES_M.iter().take_while(|by| holds(by)).last() {
+            Some(by) => format!("within the limit up to {:.0} mm from it", mm_from_m(*by)),
+            None => "within the limit for less than 1 mm from it".into(),
+        }
+    }
+
+    fn limit(&self) -> String {
+        format!("the limit is {:.3} mm", mm_from_m(self.limit_m))
+    }
+
+    fn severity_of(&self, off_m: f64) -> Severity {
+        if off_m > self.limit_m {
+            Severity::Error
+        } else {
+            Severity::Warning
+        }
     }
 }
 

@@ -193,7 +193,7 @@ fn lines(strides: &[&Stride], reach_m: f64) -> Vec<Line> {
     all
 }
 
-/// The steps in words, behind *takes its correction along*.
+/// The steps in words, behind *displaced*.
 pub(super) fn in_words(strides: &[Stride]) -> String {
     let each = strides.iter().filter_map(|stride| match stride {
         Stride::By { shift, most } => {
@@ -201,7 +201,7 @@ pub(super) fn in_words(strides: &[Stride]) -> String {
             let all = most.filter(|most| *most > MOST_SAID);
             let times = match most {
                 _ if all.is_some() => "by up to".into(),
-                Some(1) => "once by".into(),
+                Some(1) => "by".into(),
                 Some(most) => format!("up to {most} times by"),
                 None => "any number of times by".into(),
             };
@@ -211,7 +211,12 @@ pub(super) fn in_words(strides: &[Stride]) -> String {
         Stride::Turned(Some(angle)) => Some(format!("turned by {:.1} deg", angle.abs() / DEG)),
         Stride::Turned(None) => Some("turned by what only the running program knows".into()),
     });
-    each.collect::<Vec<_>>().join(" and ")
+    let mut each: Vec<String> = each.collect();
+    let last = each.pop().unwrap_or_default();
+    if each.is_empty() {
+        return last;
+    }
+    format!("{} and {last}, or by some of these", each.join(", "))
 }
 
 /// So many times a shift; nothing where it is none.
@@ -220,17 +225,25 @@ fn shift_in_words(shift: &Shift, times: f64) -> String {
     // no -0.0
     let [x, y, z] = scale(times, by).map(|m| mm_from_m(m) + 0.0);
     let angle = times * (shift.in_frame.rotation.angle() + shift.in_tool.rotation.angle()) / DEG;
-    let decimals = |size: f64| if size < 1.0 { 5 } else { 1 };
     let mut words = Vec::new();
-    let length = norm([x, y, z]);
-    if length > NO_STEP {
-        let n = decimals(length);
+    if norm([x, y, z]) > NO_STEP {
+        let n = decimals([x, y, z]);
         words.push(format!("({x:.n$}, {y:.n$}, {z:.n$}) mm"));
     }
     if angle > NO_STEP {
-        words.push(format!("{angle:.*} deg", decimals(angle)));
+        words.push(format!("{angle:.*} deg", decimals([angle])));
     }
     words.join(" and ")
+}
+
+/// The decimals that numbers of a text have, as far as they show: one to five.
+fn decimals<const N: usize>(numbers: [f64; N]) -> usize {
+    let shows = |decimals: &usize| {
+        let text = |x: f64| format!("{x:.decimals$}").parse();
+        let is_exact = |x: f64| text(x).is_ok_and(|y: f64| (x - y).abs() < 1e-6);
+        numbers.into_iter().all(is_exact)
+    };
+    (1..=5).find(shows).unwrap_or(5)
 }
 
 /// A step made 0 times, once, and so on to as often as it may be: some of these, evenly.
@@ -370,8 +383,9 @@ mod tests {
             by(up(1e-7), None),
             by(up(-0.025), Some(4096)),
         ]);
-        let wanted = "once by (0.0, 0.0, 50.0) mm and up to 3 times by (0.0, 0.0, 20.0) mm and any \
-            number of times by (0.00000, 0.00000, 0.00010) mm and by up to (0.0, 0.0, -102400.0) mm";
+        let wanted = "by (0.0, 0.0, 50.0) mm, up to 3 times by (0.0, 0.0, 20.0) mm, any number of \
+            times by (0.0000, 0.0000, 0.0001) mm and by up to (0.0, 0.0, -102400.0) mm, or by some \
+            of these";
         assert_eq!(words, wanted);
     }
 
