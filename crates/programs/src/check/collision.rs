@@ -22,7 +22,7 @@ use super::query::{Body, Nearest};
 use super::scene::{FixedForm, Other, Scene, Watched};
 use super::sweep::{Frames, Rates};
 use crate::geometry::{Pose, Vector, norm};
-use crate::motion::course::{Leg, Piece};
+use crate::motion::leg::{Leg, Piece};
 use std::collections::BinaryHeap;
 
 /// The bound is within this of the nearest sample, metres.

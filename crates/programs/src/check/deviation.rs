@@ -11,7 +11,7 @@
 use super::larger;
 use crate::geometry::{Jet, Pose, Scalar, Separation, norm, sub};
 use crate::model::{Conditions, Model};
-use crate::motion::course::{Leg, Piece};
+use crate::motion::leg::{Leg, Piece};
 
 /// Halving ends where the bound is within this of the largest sample, metres and radians, …
 const CLOSE_M: f64 = 1e-6;

@@ -2,7 +2,8 @@
 
 use crate::geometry::Jet;
 use crate::inverse::Margins;
-use crate::motion::course::{Course, Leg, Piece};
+use crate::motion::course::Course;
+use crate::motion::leg::{Leg, Piece};
 
 /// The least room of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]

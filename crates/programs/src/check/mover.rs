@@ -5,7 +5,7 @@ use super::sweep::{Frames, Rates, Sweep};
 use crate::geometry::{Jet, Pose, Scalar};
 use crate::model::effects::Deflection;
 use crate::model::{Conditions, Model};
-use crate::motion::course::{Leg, Piece};
+use crate::motion::leg::{Leg, Piece};
 use crate::motion::ride::Ride;
 
 /// One model of the arm that goes along the moves.

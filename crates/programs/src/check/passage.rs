@@ -7,7 +7,8 @@ use crate::geometry::units::MM;
 use crate::inverse::Unsupported;
 use crate::model::Conditions;
 use crate::motion::arms::Equipped;
-use crate::motion::course::{Course, Leg};
+use crate::motion::course::Course;
+use crate::motion::leg::Leg;
 use crate::profile::{Mounted, Profile};
 
 /// Bodies farther apart than this beyond what is required are only known to be, metres.

@@ -14,8 +14,9 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
 use crate::model::Conditions;
-use crate::motion::course::{Course, Leg, ToolCourse};
+use crate::motion::course::{Course, ToolCourse};
 use crate::motion::external;
+use crate::motion::leg::Leg;
 use crate::program::number::{Fraction, Style};
 use crate::program::{
     Between, Displacement, FrameId, Insertion, Motion, Posture, Role, Settings, Value,

@@ -6,7 +6,7 @@ use super::query::{Body, Triangles};
 use crate::finding::Finding;
 use crate::geometry::{Pose, Vector};
 use crate::model::shape::{Form, Shape};
-use crate::motion::course::Leg;
+use crate::motion::leg::Leg;
 use crate::profile::Profile;
 use std::collections::{BTreeMap, BTreeSet};
 

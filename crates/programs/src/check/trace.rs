@@ -4,7 +4,7 @@
 use super::deviation::Wanted;
 use super::{CheckError, Options, Subject, Walk, nominal};
 use crate::geometry::{Pose, Vector};
-use crate::motion::course::Leg;
+use crate::motion::leg::Leg;
 use crate::program::Motion;
 use rayon::prelude::*;
 

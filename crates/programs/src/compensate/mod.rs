@@ -48,6 +48,7 @@ mod context;
 mod displaced;
 mod limit;
 mod outcome;
+mod portions;
 mod refused;
 mod remarks;
 mod rewrite;
@@ -58,34 +59,30 @@ mod strange;
 mod strides;
 mod written;
 
-use approach::{Approach, Solved};
 use limit::Limits;
-use outcome::Tally;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
-use rewrite::{Portion, Split};
+use portions::{Rewritten, rewrite_all};
+use rewrite::Split;
 pub use written::{Check, Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 pub use crate::inverse::Methods;
-use crate::inverse::{Outcome, Unsupported};
+use crate::inverse::Unsupported;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{external, plausibility, setting};
 use crate::profile::Profile;
 pub use crate::program::meaning;
-use crate::program::{Edits, Language, Move, ReadError, Source, sha256};
-use rayon::prelude::*;
+use crate::program::{Language, Move, ReadError, Source, sha256};
 use std::collections::BTreeMap;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
 /// Angles of a positioner that differ by less are the same.
 const SAME_ANGLE_RAD: f64 = 1e-9;
-/// Targets rewritten by one thread at a time.
-const CHUNK: usize = 128;
 
 /// What the user decides.
 #[derive(Clone, Debug, Default)]
@@ -514,118 +511,4 @@ impl Compensation {
         outcome::sort(sources, &mut self.findings);
         self.refused = refused::files(&self.program, sources, &self.findings);
     }
-}
-
-/// What became of all targets.
-struct Rewritten {
-    /// Of each of the program's targets, unless only the summary is asked for.
-    reports: Vec<TargetReport>,
-    /// Of each source.
-    edits: Vec<Edits>,
-    tally: Tally,
-    /// Fake targets that points are derived from.
-    fakes: BTreeMap<usize, Pose>,
-    /// Moves that are to get a target of their own.
-    splits: Vec<Split>,
-    /// Configuration data that change: index in the program's numbers, and the value.
-    meant: Vec<(u32, f64)>,
-}
-
-/// Puts the fake targets into edits, on all processors.
-fn rewrite_all(
-    job: &Job,
-    approaches: &[Approach],
-    outcomes: &[Outcome],
-    findings: &mut Vec<Finding>,
-) -> Rewritten {
-    let fractions = rewrite::fractions(job);
-    let mut groups: Vec<std::ops::Range<usize>> = Vec::with_capacity(approaches.len());
-    let mut from = 0;
-    for at in 1..=approaches.len() {
-        if at == approaches.len() || approaches[at].target != approaches[from].target {
-            groups.push(from..at);
-            from = at;
-        }
-    }
-    if approaches.is_empty() {
-        groups.clear();
-    }
-    let bases = displaced::bases(job);
-    let rewrite = |groups: &[std::ops::Range<usize>]| {
-        let mut portion = Portion::new(&bases, groups.len());
-        let mut group = Vec::with_capacity(1);
-        for range in groups {
-            group.clear();
-            let solved = |at: usize| Solved::of(job, &approaches[at], &outcomes[at]);
-            group.extend(range.clone().map(solved));
-            portion.add(job, &group, &fractions);
-        }
-        portion
-    };
-    let reported = if job.options.summary_only {
-        0
-    } else {
-        job.ground.program.targets.len()
-    };
-    let mut all = Rewritten {
-        reports: vec![TargetReport::new(None); reported],
-        edits: room_for_edits(job),
-        tally: Tally::new(job),
-        fakes: BTreeMap::new(),
-        splits: Vec::new(),
-        meant: Vec::new(),
-    };
-    let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
-    // a few chunks for each thread at a time: what they return is not in memory twice for a long
-    // program
-    let mut some = chunks.chunks(8 * rayon::current_num_threads());
-    let of = |some: &[&[std::ops::Range<usize>]]| -> Vec<Portion> {
-        some.par_iter().map(|groups| rewrite(groups)).collect()
-    };
-    let mut portions = some.next().map(of);
-    while let Some(done) = portions {
-        // the next are written while these are put together
-        let next = some.next();
-        portions = rayon::join(|| next.map(of), || all.add(job, done, findings)).0;
-    }
-    all
-}
-
-impl Rewritten {
-    /// Adds what was done with some of the targets.
-    fn add(&mut self, job: &Job, portions: Vec<Portion>, findings: &mut Vec<Finding>) {
-        for portion in portions {
-            for (target, report) in portion.reports {
-                self.tally.add(job, target, &report);
-                if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
-                    self.fakes.insert(target, fake);
-                }
-                if let Some(place) = self.reports.get_mut(target) {
-                    *place = report;
-                }
-            }
-            for (source, changes) in &portion.edits {
-                self.edits[*source as usize].append(changes);
-            }
-            findings.extend(portion.findings);
-            self.splits.extend(portion.splits);
-            self.meant.extend(portion.meant);
-        }
-    }
-}
-
-/// For each file an empty list with room for new text in place of all numbers of its targets.
-fn room_for_edits(job: &Job) -> Vec<Edits> {
-    let program = job.ground.program;
-    let mut room = vec![(0, 0); job.ground.sources.len()];
-    for target in &program.targets {
-        let (spans, bytes) = &mut room[target.file as usize];
-        for number in program.numbers_of(target) {
-            *spans += 1;
-            *bytes += usize::from(number.length) + 1;
-        }
-    }
-    room.into_iter()
-        .map(|(spans, bytes)| Edits::with_room(spans, bytes))
-        .collect()
 }

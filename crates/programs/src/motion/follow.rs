@@ -2,7 +2,8 @@
 //! which way each joint moves there.
 
 use super::arms::Equipped;
-use super::course::{Course, Leg, STANDSTILL_RAD_M, ToolCourse};
+use super::course::{Course, ToolCourse};
+use super::leg::{Leg, STANDSTILL_RAD_M};
 use super::ride::Ride;
 use super::walk::WalkOptions;
 use crate::geometry::Pose;

@@ -31,6 +31,7 @@ mod flow;
 pub(crate) mod follow;
 pub(crate) mod ground;
 mod holding;
+pub(crate) mod leg;
 mod middle;
 pub(crate) mod placed;
 pub(crate) mod plausibility;

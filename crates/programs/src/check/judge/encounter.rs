@@ -6,7 +6,7 @@ use crate::check::collision::{self, Clearance, Near};
 use crate::check::walk::{Arms, Which};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::motion::course::{Leg, Piece};
+use crate::motion::leg::{Leg, Piece};
 
 /// One of the two arms, and what is reported of it.
 struct Reported {

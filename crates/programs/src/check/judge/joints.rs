@@ -6,7 +6,8 @@ use crate::check::limits::Asked;
 use crate::check::walk::Stop;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
-use crate::motion::course::{Course, Leg};
+use crate::motion::course::Course;
+use crate::motion::leg::Leg;
 
 /// Two joint angles that differ by less are the same, radians.
 const SAME_RAD: f64 = 0.5 * DEG;

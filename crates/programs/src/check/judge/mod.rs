@@ -9,7 +9,7 @@ use super::{MoveReport, Options, Subject, limits, nominal};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Separation, norm, scale, sub};
-use crate::motion::course::{Leg, Piece};
+use crate::motion::leg::{Leg, Piece};
 use crate::motion::plausibility::OUT_OF_BOUNDS;
 use crate::program::Motion;
 use crate::program::script::short;

@@ -22,6 +22,7 @@
 //! refused.
 
 mod aggregate;
+mod assignments;
 mod calls;
 mod components;
 mod data;

@@ -1,18 +1,14 @@
 //! Statements of a routine, one a line.
 
 use super::aggregate::{self, EXTERNAL};
-use super::frames::{State, Table};
+use super::frames::Table;
 use super::moves::{With, motion};
-use super::names::{DataKind, Index, whole};
+use super::names::Index;
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, COMPUTED, external_written};
-use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
-use crate::program::displacing::grown_by_any;
 use crate::program::names::Symbol;
-use crate::program::notation::mentions;
 use crate::program::script::{Expr, Held, How, Written};
-use crate::program::{ExternalUse, Source, SpeedZone, number};
+use crate::program::{ExternalUse, Source, SpeedZone};
 
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
@@ -383,7 +379,7 @@ impl Reader {
     }
 
     /// The bit of a listed axis.
-    fn bit_of(&self, name: &str) -> u16 {
+    pub(super) fn bit_of(&self, name: &str) -> u16 {
         match self.external.meaning(name) {
             ExternalUse::Listed(at) => 1 << at,
             _ => 0,
@@ -451,213 +447,5 @@ impl Reader {
             _ => return false,
         }
         true
-    }
-
-    /// A whole number is written; only those matter that choose a tool or base.
-    pub(super) fn count(&mut self, name: Symbol, at: Index, number: Option<u32>) {
-        if !self.names.choosing.contains(&name) {
-            return;
-        }
-        let Some(datum) = self.names.datum(name, self.context()) else {
-            return;
-        };
-        let value = match number {
-            Some(number) => self.number_value(number),
-            None => self.chosen(),
-        };
-        if at == Index::Whole {
-            let variable = self.variable_of(datum);
-            self.put(self.here, variable, value);
-        }
-    }
-
-    /// An assignment; the cursor stands behind `=`.
-    fn assignment(
-        &mut self,
-        first: Token,
-        word: &[u8],
-        at: Option<(usize, usize)>,
-        part: Option<Token>,
-        mut cursor: Cursor,
-    ) -> Read<()> {
-        if cursor.take(b'=') {
-            return Ok(());
-        }
-        let place = self.here;
-        let mut buffer = [0; 24];
-        let part = part.map(|part| capitals(cursor.text(part), &mut buffer));
-        if let Some(state) = State::named(word) {
-            self.calls_in(cursor);
-            return self.write_state(place, state, part, &mut cursor);
-        }
-        if matches!(word, b"$CIRC_TYPE" | b"$CIRC_MODE") {
-            let value = self.circle(first.start as usize, &mut cursor);
-            self.put(place, self.circles.state, value);
-            return Ok(());
-        }
-        if word == b"LDAT_ACT" {
-            let value = match part {
-                None => self.ldat(&mut cursor),
-                Some(b"ORI_TYP") => self.orientation(&mut cursor),
-                Some(_) => return Ok(()),
-            };
-            self.set(place, State::LdatOrientation, value);
-            return Ok(());
-        }
-        if word == b"FDAT_ACT" {
-            return match part {
-                None => self.activate(place, &mut cursor),
-                Some(part) => {
-                    self.activate_part(place, part, &mut cursor);
-                    Ok(())
-                }
-            };
-        }
-        if let Some(table) = Table::named(word) {
-            return self.write_entry(place, table, at, part, &mut cursor);
-        }
-        if word.first() == Some(&b'$') {
-            self.calls_in(cursor);
-            return Ok(());
-        }
-        let name = self.symbol(&cursor, first);
-        let at = Index::of(at, &cursor);
-        let datum = self.names.datum(name, self.context());
-        let kind = datum.map(|datum| self.names.data[datum as usize].kind);
-        match kind {
-            Some(DataKind::Number) => {
-                let mut ahead = cursor;
-                let token = ahead.next();
-                let value = whole(number::parse(ahead.text(token)));
-                let alone = ahead.peek().kind == Kind::End;
-                self.calls_in(cursor);
-                self.count(name, at, value.filter(|_| alone));
-            }
-            Some(kind) if kind.is_place() => {
-                let owner = Owner::Datum(datum.expect("it has a kind"));
-                self.write_position(owner, at, part, cursor)?;
-            }
-            None if self.looks_like_position(cursor) => {
-                self.write_position(Owner::Nobody(name), at, part, cursor)?;
-            }
-            _ => self.calls_in(cursor),
-        }
-        Ok(())
-    }
-
-    /// Whether a value may be a position, for names that the files do not declare.
-    fn looks_like_position(&self, mut cursor: Cursor) -> bool {
-        if cursor.blanks() == b'{' {
-            return true;
-        }
-        let name = cursor.next();
-        let mut buffer = [0; 24];
-        let word = capitals(cursor.text(name), &mut buffer);
-        word.starts_with(b"$POS_")
-            || word.starts_with(b"$AXIS_")
-            || self.mentions_position(cursor.part(name.start as usize, cursor.end))
-    }
-
-    /// `XP1={...}`, `XP1=XP2:off`, `XP1.Z=...`
-    fn write_position(
-        &mut self,
-        owner: Owner,
-        at: Index,
-        part: Option<&[u8]>,
-        mut cursor: Cursor,
-    ) -> Read<()> {
-        self.last = None;
-        let axis = part.and_then(|part| {
-            let mut listed = EXTERNAL.iter();
-            listed.find(|name| part.eq_ignore_ascii_case(name.as_bytes()) && self.bit_of(name) != 0)
-        });
-        let how = if let Some(axis) = axis {
-            self.calls_in(cursor);
-            How::Whole(self.unknown(external_written(axis)))
-        } else if let Some(part) = part {
-            self.calls_in(cursor);
-            self.part_becomes(part, cursor)
-        } else if cursor.peek().kind == Kind::End {
-            return Ok(());
-        } else {
-            let point = self.point(&mut cursor)?;
-            let is_whole = cursor.peek().kind == Kind::End;
-            let value = match point.target {
-                _ if !is_whole => self.computed(true),
-                Expr::Target(target) if self.builder.script.targets[target].numbers.is_empty() => {
-                    // what is not given stays as it was
-                    let how = How::PartSomehow(self.builder.script.remark(COMPUTED));
-                    self.write_element(owner, at, how);
-                    return Ok(());
-                }
-                _ => self.value_of(&point),
-            };
-            How::Whole(value)
-        };
-        self.write_element(owner, at, how);
-        Ok(())
-    }
-
-    /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or
-    /// that of the position that it is a copy of.
-    fn part_becomes(&mut self, part: &[u8], mut cursor: Cursor) -> How {
-        let remark = self.builder.script.remark(COMPUTED);
-        let letters = |text: &[u8]| -> Vec<u8> {
-            let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
-            letters.map(u8::to_ascii_uppercase).collect()
-        };
-        let own = cursor.bytes[self.here.offset as usize..cursor.at].trim_ascii_end();
-        let own = letters(own.strip_suffix(b"=").unwrap_or(own));
-        let value = &cursor.bytes[cursor.at..cursor.end];
-        let value = value.split(|&b| b == b';').next().unwrap_or(value);
-        let part = letters(part);
-        let is_named = |name: &[u8]| part[..] == *name;
-        let names = [&b"X"[..], b"Y", b"Z", b"C", b"B", b"A"];
-        let at = names.into_iter().position(is_named);
-        if let Some(at) = at
-            && let Some((term, by)) = self.term_and_rest(value, &own, &letters)
-            && let Some(displacement) = grown_by_any(at, by)
-        {
-            if term == own {
-                return self.builder.script.part_by(remark, displacement);
-            }
-            let start = cursor.at;
-            if let Some(other) = self.part_of(&mut cursor, &part)
-                && at < 3
-                && letters(&cursor.bytes[start..cursor.at]) == term
-            {
-                let by = self.builder.script.displacement(displacement);
-                return How::PartOf {
-                    remark,
-                    of: other,
-                    axis: at,
-                    by,
-                };
-            }
-        }
-        let is_own = mentions(&letters(value), &own);
-        How::part(is_own, at.is_some_and(|at| at > 2), remark)
-    }
-
-    /// The position of which a value is this part.
-    fn part_of(&mut self, cursor: &mut Cursor, part: &[u8]) -> Option<Expr> {
-        let name = cursor.next();
-        let at = cursor.brackets().ok()?;
-        let is_name = name.kind == Kind::Name && cursor.take(b'.');
-        let field = cursor.next();
-        let is_part = is_name && cursor.text(field).eq_ignore_ascii_case(part);
-        let symbol = self.symbol(cursor, name);
-        is_part.then(|| self.named(symbol, Index::of(at, cursor)))?
-    }
-
-    pub(super) fn write_element(&mut self, owner: Owner, at: Index, how: How) {
-        if at == Index::Variable && self.refuse_array(owner, ASSIGNED) {
-            return;
-        }
-        let variable = match at {
-            Index::Variable => Written::AnyOf(self.table_of(owner)),
-            _ => Written::One(self.variable(owner, at)),
-        };
-        self.builder.write(self.here, variable, how);
     }
 }

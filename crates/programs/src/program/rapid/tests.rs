@@ -5,6 +5,7 @@ mod calls;
 mod derived;
 mod frames;
 mod grips;
+mod loads;
 mod posts;
 mod robust;
 mod samples;
@@ -577,43 +578,6 @@ fn encoding_keeps_the_sign_of_the_quaternion() {
         &mut numbers,
     );
     assert!((numbers[3] + 0.6).abs() < 1e-12 && (numbers[4] - 0.8).abs() < 1e-12);
-}
-
-#[test]
-fn loads_that_are_not_the_tools_are_noted() {
-    let program = path("GripLoad load0;\nGripLoad part;\nMoveL p1,v5,z5,t\\WObj:=w;");
-    assert_eq!(ids(&program), ["grip-load"]);
-}
-
-#[test]
-fn the_load_of_a_move_is_that_of_its_text() {
-    let declared = "PERS loaddata l:=[3,[0,0,80],[1,0,0,0],0,0,0];\n";
-    for load in ["l", "[3,[0,0,80],[1,0,0,0],0,0,0]"] {
-        let program = path(&format!(
-            "{declared}MoveL p1,v5,z5,t\\TLoad:={load}\\WObj:=w;"
-        ));
-        let load = program.tools[program.moves[0].tool].load.expect("a load");
-        assert!((load.mass_kg - 3.0).abs() < 1e-12 && (load.cog_m[2] - 0.08).abs() < 1e-12);
-        assert_eq!(ids(&program), [""; 0]);
-    }
-    for (before, load) in [
-        ("l.mass:=5;", "l"),
-        ("l:=other;", "l"),
-        ("", "other"),
-        ("", "l{2}"),
-        ("", "[m,[0,0,80],[1,0,0,0],0,0,0]"),
-    ] {
-        let program = path(&format!(
-            "{declared}{before}\nMoveL p1,v5,z5,t\\TLoad:={load};"
-        ));
-        let taken = program.tools[program.moves[0].tool].load.expect("a load");
-        assert!((taken.mass_kg - 1.5).abs() < 1e-12, "that of the tool");
-        assert_eq!(
-            ids(&program),
-            ["load-chosen-at-run-time"],
-            "{before} {load}"
-        );
-    }
 }
 
 #[test]

@@ -30,6 +30,7 @@
 //! variable that is assigned once.
 
 mod calls;
+mod common;
 mod composed;
 mod drive;
 mod expressions;
@@ -55,7 +56,7 @@ use super::{
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use goals::Common;
+use common::Common;
 use reader::Reader;
 use translate::translate;
 

@@ -6,7 +6,8 @@ mod parts;
 
 use self::dead::Dead;
 use self::loads::Present;
-use super::goals::{Common, Facets, Goals};
+use super::common::Common;
+use super::goals::{Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::program::script::{
