@@ -513,9 +513,6 @@ fn kept_configuration(
         return None;
     }
     let configuration = job.ground.language.configuration(target.layout, new);
-    let is_inside = |q: f64, (low, high): (f64, f64)| (low..=high).contains(&q);
-    (0..6).find(|&i| {
-        configuration.joints[i]
-            .is_some_and(|range| is_inside(before[i], range) && !is_inside(q[i], range))
-    })
+    let is_inside = |i: usize, q: &[f64; 6]| configuration.has_joint(i, q[i], 0.0);
+    (0..6).find(|&i| is_inside(i, before) && !is_inside(i, q))
 }

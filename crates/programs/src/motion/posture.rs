@@ -86,7 +86,8 @@ pub(super) fn choose(
     }
     // along a path the next posture is mostly on the branch of the last one; the others are tried
     // where it does not fit
-    if let Some(before) = start {
+    let is_certain = !honoured || !configuration.partly_understood;
+    if let Some(before) = start.as_ref().filter(|_| is_certain) {
         let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
         if let Some(same) = same.filter(|same| same.configured && is_close(&same.q, before)) {
             return Some(same);
@@ -118,8 +119,12 @@ pub(super) fn choose(
     };
     if let Some(posture) = nearest(&|posture| posture.configured).or_else(by_ranges) {
         let is_other = |other: &Posture| other.configured && other.branch != posture.branch;
-        if start.is_none() && postures.iter().any(is_other) {
-            findings.push(assumed(ground, *target, &posture));
+        if let Some(other) = postures.iter().find(|other| is_other(other)) {
+            if start.is_none() {
+                findings.push(assumed(ground, *target, &posture));
+            } else if configuration.partly_understood {
+                findings.push(nearest_assumed(ground, *target, [&posture, other]));
+            }
         }
         return Some(posture);
     }
@@ -254,6 +259,26 @@ fn assumed(ground: &Ground, target: TargetId, posture: &Posture) -> Finding {
     )
 }
 
+/// The file tells which of these postures is meant in a way that is not understood.
+fn nearest_assumed(ground: &Ground, target: TargetId, postures: [&Posture; 2]) -> Finding {
+    let [taken, other] = postures.map(|posture| {
+        let q = posture.q.map(|q| format!("{:.1}", q / DEG));
+        q.join(", ")
+    });
+    let message = format!(
+        "two postures at {} agree with what is understood of its configuration data: joints {taken} \
+         deg, nearest to the target before, are assumed; {other} deg have it too",
+        ground.name_of(target),
+    );
+    ground.at_target(
+        "posture-assumed",
+        Severity::Warning,
+        target,
+        message,
+        "see that the controller stands so, or teach the joints",
+    )
+}
+
 /// Whether a posture follows the one before without a change of branch or a turn in between.
 fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
     (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
@@ -262,14 +287,10 @@ fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
 /// Whether a posture is the one that configuration data ask for.
 pub(super) fn holds(configuration: &Configuration, branch: Branch, q: &[f64; 6]) -> bool {
     let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
-    let inside = |i: usize| {
-        configuration.joints[i]
-            .is_none_or(|(low, high)| (low - BORDER_RAD..=high + BORDER_RAD).contains(&q[i]))
-    };
     agrees(configuration.behind_axis_1, branch.behind_axis_1)
         && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
         && agrees(configuration.joint_5_negative, branch.joint_5_negative)
-        && (0..6).all(inside)
+        && (0..6).all(|i| configuration.has_joint(i, q[i], BORDER_RAD))
 }
 
 /// On how many sides a branch is not where configuration data ask for; and whether joint 5 is one
@@ -316,16 +337,18 @@ fn configured(
             mechanism.joints[i].min_rad - LIMIT_RAD,
             mechanism.joints[i].max_rad + LIMIT_RAD,
         );
-        let asked =
-            configuration.joints[i].map(|(low, high)| (low - BORDER_RAD, high + BORDER_RAD));
         // a border belongs to both sides, but what is inside goes first
-        let inside = configuration.joints[i].and_then(|range| turned_into(q[i], range, limits));
         let turned = |range: (f64, f64)| turned_into(q[i], range, limits);
-        if let Some(angle) = inside.or_else(|| asked.and_then(turned)) {
+        let nearest = |border: f64| {
+            let ranges = ranges_of(configuration, i, border).into_iter();
+            let angles = ranges.flatten().filter_map(turned);
+            angles.min_by(|a, b| (a - q[i]).abs().total_cmp(&(b - q[i]).abs()))
+        };
+        if let Some(angle) = nearest(0.0).or_else(|| nearest(BORDER_RAD)) {
             q[i] = angle;
         } else {
-            in_ranges &= asked.is_none();
-            q[i] = turned_into(q[i], (f64::NEG_INFINITY, f64::INFINITY), limits)?;
+            in_ranges = false;
+            q[i] = turned((f64::NEG_INFINITY, f64::INFINITY))?;
         }
     }
     let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
@@ -339,6 +362,16 @@ fn configured(
         configured,
         in_ranges,
     })
+}
+
+/// The ranges that configuration data name for a joint, wider by a border at each end.
+fn ranges_of(configuration: &Configuration, joint: usize, border: f64) -> [Option<(f64, f64)>; 2] {
+    let (low, high) = configuration.joints[joint].unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let (low, high) = (low - border, high + border);
+    match configuration.beyond[joint].map(|least| least - border) {
+        None => [Some((low, high)), None],
+        Some(least) => [Some((low.max(least), high)), Some((low, high.min(-least)))],
+    }
 }
 
 /// The angle, by as few whole revolutions as can be, that lies in both ranges.

@@ -195,11 +195,27 @@ pub struct Configuration {
     pub joint_5_negative: Option<bool>,
     /// The range `[low, high)` of each of the controller's joint angles, radians.
     pub joints: [Option<(f64, f64)>; 6],
+    /// How far from zero each of the controller's joints stands at least, on either side, radians.
+    pub beyond: [Option<f64>; 6],
+    /// The file tells more of the sides than is understood: where several solutions are left, the
+    /// nearest is not certain.
+    pub partly_understood: bool,
     /// Which of the three sides above, in their order, are those of the posture before where they
     /// are not stated.
     pub kept: [bool; 3],
     /// Many files leave the sides at zero: where no solution has them, the ranges count alone.
     pub ranges_suffice: bool,
+}
+
+impl Configuration {
+    /// Whether one of the controller's joints is where the configuration data ask for, or no more
+    /// than `border` radians from there.
+    #[must_use]
+    pub fn has_joint(&self, joint: usize, angle: f64, border: f64) -> bool {
+        let in_range = |(low, high): (f64, f64)| (low - border..=high + border).contains(&angle);
+        self.joints[joint].is_none_or(in_range)
+            && self.beyond[joint].is_none_or(|least| angle.abs() >= least - border)
+    }
 }
 
 /// What configuration data are computed from.

@@ -97,9 +97,11 @@ pub(super) enum Effect {
     System,
     /// It becomes what the caller gives.
     Argument,
+    /// It becomes the position of a step of the job.
+    Taught,
     /// Some of its numbers become others.
     Part,
-    /// It becomes something that only the running program knows.
+    /// It becomes what is computed of the others.
     Computed,
     /// Nothing.
     None,
@@ -124,7 +126,7 @@ const EFFECTS: &[(&[u8], Effect)] = &[
     (b"MULMAT", Effect::Computed),
     (b"INVMAT", Effect::Computed),
     (b"CONVSFT", Effect::Computed),
-    (b"GETPOS", Effect::Computed),
+    (b"GETPOS", Effect::Taught),
     (b"COMM", Effect::None),
     (b"REFP", Effect::None),
     (b"PRINT", Effect::None),

@@ -203,6 +203,12 @@ impl<'a> Reader<'a> {
         if let Some(cause) = cause_of(kind) {
             reasons.push(self.variables.reason(&mut self.builder, cause));
         }
+        if self.several_robots {
+            reasons.push(
+                self.variables
+                    .reason(&mut self.builder, Cause::SeveralRobots),
+            );
+        }
         let is_free = target.is_some_and(|target| {
             let header = self.positions.header(target);
             let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
@@ -373,15 +379,20 @@ impl<'a> Reader<'a> {
     }
 
     /// The poses that a variable may be, by its declaration or copied into it.
-    fn poses_of(&self, variable: VariableId) -> Vec<TargetId> {
+    pub(super) fn poses_of(&self, variable: VariableId) -> Vec<TargetId> {
         let (mut seen, mut open) = (HashSet::from_iter([variable]), vec![variable]);
         let mut found = Vec::new();
         while let Some(variable) = open.pop() {
             let targets = self.targets_of(Expr::Variable(variable)).into_iter();
             let is_pose = |t: &TargetId| self.positions.targets[*t].layout.shape == Shape::Pose;
             found.extend(targets.filter(is_pose));
-            let copied = self.copies.get(&variable).into_iter().flatten().copied();
-            open.extend(copied.filter(|from| seen.insert(*from)));
+            for copied in self.copies.get(&variable).into_iter().flatten() {
+                match *copied {
+                    Expr::Variable(from) if seen.insert(from) => open.push(from),
+                    Expr::Target(target) if is_pose(&target) => found.push(target),
+                    _ => {}
+                }
+            }
         }
         found
     }

@@ -4,15 +4,16 @@
 //! nothing writes displaces it by its numbers; whatever else the text tells is not followed, and has
 //! no bound.
 
-use super::instruction::{Effect, Operand, is_actual};
+use super::instruction::{Effect, Operand, is_actual, is_move, numbered};
 use super::job::{Coordinates, Positions};
 use super::lines::{Line, Lines, words};
 use super::reader::Reader;
+use super::remarks::Cause;
 use crate::geometry::units::MM;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, UNBOUNDED, VariableId, Written,
 };
-use crate::program::{Displacement, Shift, Source, number};
+use crate::program::{Displacement, Shift, Source, TargetId, number};
 use foldhash::{HashSet, HashSetExt};
 
 /// Instructions that write what the robot or the cell tells.
@@ -25,6 +26,14 @@ pub(super) struct Added {
     added: VariableId,
     /// 1, or −1 where it is subtracted.
     sign: f64,
+}
+
+/// A position of which another is computed, in the lists of the script.
+#[derive(Debug)]
+pub(super) struct Computed {
+    at: u32,
+    variable: VariableId,
+    unknown: Expr,
 }
 
 /// The variables with numbers (`D005`) that the text of all jobs writes.
@@ -84,11 +93,64 @@ impl Reader<'_> {
         }
     }
 
+    /// What an instruction computes of the positions that it names: each of them, displaced by what
+    /// is not followed (`MULMAT P003 P001 P004`, `SET P003 EXPRESS P001 + P002`, a copy with another
+    /// tool).
+    pub(super) fn computed_from(&mut self, line: Line, written: Written) -> Expr {
+        let place = self.place(line.start);
+        let named = words(line.text).skip(2).filter_map(Operand::of);
+        let named: Vec<Operand> = named.collect();
+        let mut bases = Vec::new();
+        for operand in named {
+            let value = self.value(operand, place);
+            if let Expr::Variable(variable) = value {
+                self.note_copy(written, value);
+                bases.push(variable);
+            }
+        }
+        let unknown = self.unknown(Cause::Computed);
+        if bases.is_empty() {
+            return unknown;
+        }
+        let script = &mut self.builder.script;
+        let displaced = bases.iter().map(|variable| {
+            let base = Expr::Variable(*variable);
+            script.displaced(base, UNBOUNDED)
+        });
+        let displaced: Vec<Expr> = displaced.collect();
+        let all = script.any(displaced);
+        if let Expr::Any { first, .. } = all {
+            let listed = (first..).zip(bases);
+            self.computed.extend(listed.map(|(at, variable)| Computed {
+                at,
+                variable,
+                unknown,
+            }));
+        }
+        all
+    }
+
+    /// The position of a step of the job, `STEP#(2)`: of its second move.
+    pub(super) fn taught_at(&self, step: &[u8]) -> Option<TargetId> {
+        let step = numbered(step, b"STEP#")?.checked_sub(1)?;
+        let job = &self.positions.jobs[self.here.job];
+        let bytes = &self.sources[job.file as usize].bytes[..job.instructions.end];
+        let lines = Lines::from(bytes, job.instructions.start).map(|line| line.text);
+        let mut moves = lines.filter(|text| words(text).next().is_some_and(is_move));
+        let operand = words(moves.nth(step as usize)?)
+            .nth(1)
+            .and_then(Operand::of);
+        match operand? {
+            Operand::C(number) => self.target(number),
+            _ => None,
+        }
+    }
+
     /// Whether the text tells what an instruction writes.
     pub(super) fn note_known(&mut self, effect_of: Effect, third: &[u8], written: Written) {
         let is_of_program = matches!(
             effect_of,
-            Effect::Copy | Effect::Argument | Effect::Part | Effect::Computed
+            Effect::Copy | Effect::Argument | Effect::Taught | Effect::Part | Effect::Computed
         );
         if is_of_program && !is_actual(third) {
             match written {
@@ -101,6 +163,13 @@ impl Reader<'_> {
     // ---- when all jobs are read
 
     pub(super) fn finish_parts(&mut self) {
+        for computed in std::mem::take(&mut self.computed) {
+            // what no move goes to is not rewritten
+            let mut poses = self.poses_of(computed.variable).into_iter();
+            if !poses.any(|target| self.named[target]) {
+                self.builder.script.lists[computed.at as usize] = computed.unknown;
+            }
+        }
         for added in std::mem::take(&mut self.added) {
             let by = self.amount(&added);
             let write = &mut self.builder.script.writes[added.write];
@@ -120,7 +189,11 @@ impl Reader<'_> {
         };
         let is_written =
             self.written_parts.contains(&variable) || self.written_any.iter().any(is_entry);
-        let is_written = is_written || self.copies.values().any(|from| from.contains(&variable));
+        let is_written = is_written
+            || self
+                .copies
+                .values()
+                .any(|from| from.contains(&Expr::Variable(variable)));
         let is_changed = self.written.contains(&variable) || self.all_written.iter().any(is_entry);
         match script.variables[variable as usize].declared {
             Expr::Target(target) if !is_written && !is_changed => {

@@ -3,8 +3,9 @@
 //! l flip, m lower arm, n wrist centre behind axis S, o, p, q: whether R, T, S stand at 180° or
 //! beyond. One RCONF line is for all positions below it, so it is read and never rewritten. Of its
 //! data those are used whose meaning is known: n, m where n is front (the elbow above or below the
-//! line from axis L to the wrist), and o, p, q where they are 0: the axis stands within ±180°. (1
-//! is two ranges: beyond +180° or below −180°.)
+//! line from axis L to the wrist), and o, p, q: 0 is within ±180°, 1 beyond +180° or below −180°.
+//! What m says of an arm that reaches to the rear is not known: where both elbows are possible
+//! there, the nearer one is assumed, and reported.
 //!
 //! The flip is stated by controllers of two generations:
 //!
@@ -26,19 +27,19 @@ use super::lines::words;
 use crate::program::Configuration;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Bits of a variant that tell the side of axis S and of the lower arm.
-const SIDE: u8 = 7;
+/// What a variant tells of axis S and the lower arm: one of so many.
+const SIDES: u8 = 5;
 const FRONT: u8 = 1;
 const FRONT_UPPER: u8 = 2;
 const FRONT_LOWER: u8 = 3;
 const REAR: u8 = 4;
-/// Bits for o, p, q being 0, and the joint of each.
-const WITHIN: [(u8, usize); 3] = [(8, 3), (16, 5), (32, 0)];
-/// Bits that tell the wrist.
-const WRIST: u8 = 192;
-const B_POSITIVE: u8 = 64;
-const B_NEGATIVE: u8 = 128;
-const R_FORWARD: u8 = 192;
+/// What it tells of the wrist: one of so many.
+const WRISTS: u8 = 4;
+const B_POSITIVE: u8 = 1;
+const B_NEGATIVE: u8 = 2;
+const R_FORWARD: u8 = 3;
+/// The joints of o, p and q.
+const AXES: [usize; 3] = [3, 5, 0];
 /// Fields that controllers before the DX100 write.
 const FEW_FIELDS: usize = 8;
 
@@ -66,31 +67,28 @@ pub(super) fn variant(text: &[u8]) -> u8 {
         (b"0", false) => R_FORWARD,
         _ => 0,
     };
-    let within = WITHIN.iter().zip(axes);
-    within.fold(side | wrist, |variant, ((bit, _), axis)| {
-        variant | if axis == b"0" { *bit } else { 0 }
-    })
+    let beyond = |axis: &[u8]| match axis {
+        b"0" => Some(0),
+        b"1" => Some(1),
+        _ => None,
+    };
+    let axes = match axes.map(beyond) {
+        [Some(r), Some(t), Some(s)] => 1 + r + 2 * t + 4 * s,
+        _ => 0,
+    };
+    (axes * SIDES + side) * WRISTS + wrist
 }
 
 /// Whether a variant tells which of the two ways of the wrist is meant.
 pub(super) fn tells_wrist(variant: u8) -> bool {
-    variant & WRIST != 0
+    !variant.is_multiple_of(WRISTS)
 }
 
 /// The inverse solutions that a variant allows.
 pub(super) fn configuration(variant: u8) -> Configuration {
-    let mut joints = [None; 6];
-    for (bit, joint) in WITHIN {
-        if variant & bit != 0 {
-            joints[joint] = Some((-PI, PI));
-        }
-    }
-    let side = variant & SIDE;
-    let wrist = variant & WRIST;
-    if wrist == R_FORWARD {
-        joints[3] = Some((-FRAC_PI_2, FRAC_PI_2));
-    }
-    Configuration {
+    let (wrist, rest) = (variant % WRISTS, variant / WRISTS);
+    let (side, axes) = (rest % SIDES, rest / SIDES);
+    let mut found = Configuration {
         behind_axis_1: (side != 0).then_some(side == REAR),
         behind_lower_arm: match side {
             FRONT_UPPER => Some(false),
@@ -102,9 +100,22 @@ pub(super) fn configuration(variant: u8) -> Configuration {
             B_NEGATIVE => Some(true),
             _ => None,
         },
-        joints,
+        partly_understood: side == REAR,
         ..Configuration::default()
+    };
+    if let Some(axes) = axes.checked_sub(1) {
+        for (bit, joint) in AXES.into_iter().enumerate() {
+            if axes >> bit & 1 == 1 {
+                found.beyond[joint] = Some(PI);
+            } else {
+                found.joints[joint] = Some((-PI, PI));
+            }
+        }
     }
+    if wrist == R_FORWARD {
+        found.joints[3] = Some((-FRAC_PI_2, FRAC_PI_2));
+    }
+    found
 }
 
 #[cfg(test)]
@@ -117,13 +128,19 @@ mod tests {
         assert_eq!(found.behind_axis_1, Some(false));
         assert_eq!(found.joint_5_negative, None);
         assert_eq!(found.behind_lower_arm, Some(false));
-        let lower = configuration(variant(b"0,1,0"));
+        assert_eq!(found.beyond, [None; 6]);
+        let lower = configuration(variant(b"0,1,0,0,0,0"));
         assert_eq!(lower.behind_lower_arm, Some(true));
         let within = Some((-PI, PI));
         assert_eq!(found.joints, [within, None, None, within, None, within]);
         let found = configuration(variant(b"1, 1, 1, 1, -1"));
         assert_eq!((found.behind_axis_1, found.joints), (Some(true), [None; 6]));
         assert_eq!(found.behind_lower_arm, None);
+        assert!(found.partly_understood && !lower.partly_understood);
+        let found = configuration(variant(b"1,0,0,1,0,1,0,0"));
+        let beyond = Some(PI);
+        assert_eq!(found.joints, [None, None, None, None, None, within]);
+        assert_eq!(found.beyond, [beyond, None, None, beyond, None, None]);
         assert_eq!(configuration(variant(b"")), Configuration::default());
     }
 

@@ -4,8 +4,8 @@ use super::cnd::Conditions;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
-use super::parts::{Added, known_numbers};
-use super::relative::{Frames, Given, given, is_relative};
+use super::parts::{Added, Computed, known_numbers};
+use super::relative::{Frames, Given, are_of_several_robots, given, is_relative};
 use super::remarks::Cause;
 use super::variables::{Variables, always};
 use crate::program::kit::label_key;
@@ -46,12 +46,14 @@ pub(super) fn script<'a>(
         shifts: false,
         here: Here::default(),
         external_names,
+        several_robots: are_of_several_robots(sources, &positions.jobs),
         written_external: written_external(sources, &positions),
         given_frames: given(sources, &positions),
         known_numbers: known_numbers(sources, &positions),
         written_parts: HashSet::new(),
         written_any: HashSet::new(),
         added: Vec::new(),
+        computed: Vec::new(),
         gets_parts: sources
             .iter()
             .any(|source| memchr::memmem::find(&source.bytes, b"GETE").is_some()),
@@ -98,6 +100,8 @@ pub(super) struct Arc {
 pub(super) struct Reader<'a> {
     pub sources: &'a [Source],
     pub positions: Positions<'a>,
+    /// The jobs are of more than one robot.
+    pub several_robots: bool,
     pub builder: Builder,
     pub variables: Variables,
     /// Targets that a move names.
@@ -106,7 +110,7 @@ pub(super) struct Reader<'a> {
     /// Configuration data count.
     pub honoured: ValueId,
     /// What each variable may be a copy of.
-    pub copies: HashMap<VariableId, Vec<VariableId>>,
+    pub copies: HashMap<VariableId, Vec<Expr>>,
     /// Where something is computed from a P variable.
     pub copied: Vec<(Place, u32)>,
     /// Variables that instructions write.
@@ -134,6 +138,8 @@ pub(super) struct Reader<'a> {
     pub(super) written_any: HashSet<TableId>,
     /// Writes that add one position to another.
     pub(super) added: Vec<Added>,
+    /// Positions of which others are computed.
+    pub(super) computed: Vec<Computed>,
 }
 
 /// The letters of variables with axes of a base or a station, and their number; none where only the
@@ -341,7 +347,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What a position that an instruction names holds.
-    fn value(&mut self, operand: Operand, place: Place) -> Expr {
+    pub(super) fn value(&mut self, operand: Operand, place: Place) -> Expr {
         match self.written_by(operand, place) {
             Some(Written::One(variable)) => Expr::Variable(variable),
             _ => self.unknown(Cause::Computed),
@@ -363,8 +369,10 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn note_copy(&mut self, written: Written, value: Expr) {
-        let Expr::Variable(from) = value else { return };
+    pub(super) fn note_copy(&mut self, written: Written, value: Expr) {
+        if !matches!(value, Expr::Variable(_) | Expr::Target(_)) {
+            return;
+        }
         let all: Vec<VariableId> = match written {
             Written::One(to) => vec![to],
             Written::AnyOf(table) => {
@@ -373,7 +381,7 @@ impl<'a> Reader<'a> {
             }
         };
         for to in all {
-            self.copies.entry(to).or_default().push(from);
+            self.copies.entry(to).or_default().push(value);
         }
     }
 
@@ -408,10 +416,16 @@ impl<'a> Reader<'a> {
                 let (routine, builder) = (self.routine(), &mut self.builder);
                 Expr::Variable(self.variables.parameter(builder, routine, number, place))
             }),
+            Effect::Taught => self.taught_at(third).map(Expr::Target),
             _ => None,
         };
         if let Some(value) = value {
             self.note_copy(written, value);
+            self.write(line, written, How::Whole(value));
+            return;
+        }
+        if matches!(effect, Effect::Copy | Effect::Computed) {
+            let value = self.computed_from(line, written);
             self.write(line, written, How::Whole(value));
             return;
         }

@@ -2,7 +2,7 @@
 //! stations, and those to which a call gives a frame.
 
 use super::instruction::numbered;
-use super::job::{Header, Origin, Positions};
+use super::job::{Header, Job, Origin, Positions};
 use super::lines::{Lines, words};
 use super::variables::always;
 use crate::program::Source;
@@ -85,6 +85,25 @@ impl Frames {
         let others = others.filter(move |(frame, _)| frame.is_none() || *frame != own);
         others.map(|(_, reason)| *reason)
     }
+}
+
+/// Whether jobs move more than one robot: `///GROUP1 RB1` and `///GROUP1 RB2`. Jobs that are given
+/// for what they declare count for nothing.
+pub(super) fn are_of_several_robots(sources: &[Source], jobs: &[Job]) -> bool {
+    let jobs = jobs.iter().map(|job| (&sources[job.file as usize], job));
+    let heads = jobs
+        .filter(|(source, _)| !source.is_context)
+        .flat_map(|(source, job)| {
+            Lines::from(
+                &source.bytes[..job.instructions.end],
+                job.instructions.start,
+            )
+        });
+    let groups = heads.filter_map(|line| line.text.strip_prefix(b"///GROUP1"));
+    let robots = groups.flat_map(|group| group.split(|b| b.is_ascii_whitespace() || *b == b','));
+    let mut robots = robots.filter(|word| word.starts_with(b"RB"));
+    let first = robots.next();
+    robots.any(|robot| Some(robot) != first)
 }
 
 /// Whether the head of a job says that it is relative: `///ATTR SC,RW,RJ`; and whether it is to a

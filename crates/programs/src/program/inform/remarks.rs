@@ -16,6 +16,7 @@ pub(super) enum Cause {
     Incremental,
     Search,
     SecondRobot,
+    SeveralRobots,
     OtherMove,
     ToolCoordinates,
     FrameNotNamed,
@@ -80,6 +81,11 @@ impl Cause {
             Self::SecondRobot => (
                 "second-robot",
                 "the position is one of a second robot",
+                "compensate the jobs of each robot on their own",
+            ),
+            Self::SeveralRobots => (
+                "second-robot",
+                "the jobs are of several robots (///GROUP1), and the profile is of one",
                 "compensate the jobs of each robot on their own",
             ),
             Self::OtherMove => (
