@@ -5,8 +5,11 @@ use super::{Displacement, Posture, Role, Shift, Stride};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Rotation};
 
-/// So near to a border, in degrees, configuration data of either side are right.
+/// So near to a border, in degrees, configuration data of either side are right, unless a whole
+/// rotation lies between them.
 const BORDER_DEG: f64 = 0.01;
+/// So near to a border, in degrees, the file's own rounding tells on which side of it a joint is.
+const ROUNDED_DEG: f64 = 0.0005;
 
 /// x, y, z, three angles, and at most six configuration data.
 pub(super) static WITH_ANGLES: [Role; 12] = roles(3);
@@ -151,21 +154,32 @@ pub(super) fn write_turning_angles(pose: &Pose, n: &mut [f64]) {
 }
 
 /// Whether what configuration data say was `right` of the posture before, and is not of that after.
-/// It hangs on one joint, and near a border of that both sides are right.
+/// It hangs on one joint. Near a border of that both sides are right; but not where the data would
+/// then mean another rotation of the joint, and the robot would go the other way round: that is
+/// left to chance only where the file's rounding has done so before.
 pub(super) fn truly_changes(
     before: &Posture,
     after: &Posture,
     joint: usize,
     right: impl Fn(&Posture) -> bool,
 ) -> bool {
-    let is_right = |posture: &Posture| {
-        [-BORDER_DEG, 0.0, BORDER_DEG].into_iter().any(|by| {
-            let mut near = *posture;
-            near.joints_rad[joint] += by * DEG;
-            right(&near)
-        })
+    let turned = |posture: &Posture, by_deg: f64| {
+        let mut near = *posture;
+        near.joints_rad[joint] += by_deg * DEG;
+        right(&near)
     };
-    is_right(before) && !is_right(after)
+    let within = |posture: &Posture, deg: f64| [-deg, 0.0, deg].map(|by| turned(posture, by));
+    let is_near = |posture: &Posture| within(posture, BORDER_DEG).contains(&true);
+    let is_on_border = |posture: &Posture| {
+        let all = within(posture, ROUNDED_DEG);
+        all.contains(&true) && all.contains(&false)
+    };
+    if !is_near(before) || right(after) {
+        return false;
+    }
+    let means_other = [-360.0, 360.0].into_iter().any(|by| turned(after, by));
+    let stays = is_on_border(before) && is_on_border(after);
+    !is_near(after) || means_other && !stays
 }
 
 /// Changes each of the present configuration data that truly changes to that of the posture after;

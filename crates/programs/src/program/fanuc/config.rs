@@ -141,7 +141,17 @@ mod tests {
         let at = |j5: f64, j6: f64| [10.0, 0.0, 0.0, 20.0, j5, j6];
         let plain = [0.0; 6];
         assert_eq!(change(at(-5.0, 179.9), at(-5.0, 180.1), plain)[5], 1.0);
-        assert_eq!(change(at(-5.0, 179.9), at(-5.0, 180.005), plain)[5], 0.0);
+        // with the turn as it was the robot would come to -179.999
+        assert_eq!(change(at(-5.0, 179.9), at(-5.0, 180.001), plain)[5], 1.0);
+        assert_eq!(
+            change(at(-5.0, -179.99), at(-5.0, -180.009), plain)[5],
+            -1.0
+        );
+        // a target on the border is on either side of it in the file already
+        assert_eq!(
+            change(at(-5.0, 179.9998), at(-5.0, 180.0003), plain)[5],
+            0.0
+        );
         assert_eq!(change(at(-0.1, 0.0), at(0.1, 0.0), plain)[0], 1.0);
         // what was wrong before stays
         assert_eq!(change(at(5.0, 0.0), at(5.1, 0.0), plain), plain);

@@ -62,6 +62,22 @@ impl<'a> Lines<'a> {
         (at < bytes.len()).then_some((at, colon && digits > 0))
     }
 
+    /// Goes behind `--eg:a comment`: over lines that begin with a colon alone, to the one that a
+    /// semicolon ends.
+    fn skip_comment(&mut self, start: usize) {
+        let mut line = start;
+        loop {
+            let end = line_end(self.bytes, line).min(self.end);
+            let text = self.bytes[line..end].trim_ascii_end();
+            self.at = end;
+            let next = self.bytes[end..self.end].trim_ascii_start();
+            if text.ends_with(b";") || !next.starts_with(b":") {
+                return;
+            }
+            line = self.end - next.len();
+        }
+    }
+
     /// Goes on to the `;`. A line with a number of its own, or that starts a move, is another
     /// instruction.
     fn collect(&mut self, start: usize) -> Line {
@@ -105,8 +121,12 @@ impl Iterator for Lines<'_> {
                 return None;
             };
             let rest = &self.bytes[start..self.end];
-            if rest.starts_with(b"!") || rest.starts_with(b"--") {
+            if rest.starts_with(b"!") {
                 self.at = line_end(self.bytes, start).min(self.end);
+                continue;
+            }
+            if rest.starts_with(b"--") {
+                self.skip_comment(start);
                 continue;
             }
             self.at = start;
@@ -153,6 +173,9 @@ mod tests {
         );
         assert_eq!(of("1:X('a;b') ; Y ;"), ["X('a;b') ", "Y "]);
         assert_eq!(of("1: --eg:L P[1] ;\n2: !L P[1] ;").len(), 0);
+        let long = "4:--eg:old tool\r\n  : UTOOL_NUM=2 ; and\r\n  : L P[1] ;\r\n  5:X ;";
+        assert_eq!(of(long), ["X "]);
+        assert_eq!(of("4:--eg:old tool\n5:X ;\n: Y ;"), ["X ", "Y "]);
         assert_eq!(of("2://C P[1]\n : P[2] 9mm/sec FINE ;").len(), 1);
     }
 }

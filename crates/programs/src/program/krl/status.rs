@@ -142,13 +142,17 @@ mod tests {
 
     #[test]
     fn only_bits_that_truly_change_are_changed() {
-        let before = posture([0.05, -90.0, 90.0, -0.05, 30.0, 10.0]);
-        let after = posture([-0.05, -90.1, 90.0, 0.005, 30.0, 10.0]);
+        let before = posture([0.05, -90.0, 90.0, -0.0004, 30.0, 10.0]);
+        let after = posture([-0.05, -90.1, 90.0, 0.0003, 30.0, 10.0]);
         // A1 crosses; A4 stays at the border; the bit of A6 was wrong before; bit 7 is an external
         // axis
         let present = 0b1010_1010;
         assert_eq!(update_turn(&before, &after, present), 0b1010_1011);
         assert_eq!(update_status(&before, &after, 0b1_0010), 0b1_0010);
+        // with its bit as it was A4 would come to -359.995
+        let mut crossed = after;
+        crossed.joints_rad[3] = 0.005 * DEG;
+        assert_eq!(update_turn(&before, &crossed, present), 0b1010_0011);
         let mut flipped = after;
         flipped.joints_rad[4] = -DEG;
         assert_eq!(update_status(&before, &flipped, 0b1_0010), 0b1_0110);
