@@ -136,3 +136,23 @@ fn what_is_computed_of_a_corrected_position_is_refused() {
     let over = of("GETPOS PX003 STEP#(3)\nSETE P003 (3) 160000", go);
     assert_eq!(errors(&over), ["target-overwritten"], "{:?}", over.findings);
 }
+
+#[test]
+fn condition_files_that_differ_are_refused() {
+    let pose = format!("///RCONF 0,0,0,0,0,0{REST}\n///TOOL 3\nC00001={DOWN},10.0000\n");
+    let text = job("T", "RB1", &pose, "MOVL C00001 V=100.0\n");
+    let tool = |z: u32| {
+        format!(
+            "//TOOL 3\n///NAME A\n0.000,0.000,{z}.000,0.0000,0.0000,0.0000\n0.0,0.0,0.0\n0.000\n"
+        )
+    };
+    let with = |second: u32| {
+        let (a, b) = (tool(50), tool(second));
+        done(
+            &[PLAIN],
+            &[("t.jbi", &text), ("a/TOOL.CND", &a), ("b/TOOL.CND", &b)],
+        )
+    };
+    assert_eq!(errors(&with(50)), [""; 0], "{:?}", with(50).findings);
+    assert_eq!(errors(&with(60)), ["frame-name-ambiguous"]);
+}

@@ -7,6 +7,7 @@ use crate::program::script::Remark;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Cause {
     Ambiguous,
+    FrameAmbiguous,
     FrameAssigned,
     FrameCopied,
     Shifted,
@@ -34,6 +35,12 @@ impl Cause {
                 "target-name-ambiguous",
                 "this name stands for different positions",
                 "pass only the jobs that run together, with one value for each P variable",
+            ),
+            Self::FrameAmbiguous => (
+                "frame-name-ambiguous",
+                "condition files (TOOL.CND, UFRAME.CND) have different values for its tool or user \
+                 frame",
+                "pass the condition files of one controller only",
             ),
             Self::FrameAssigned => (
                 "frame-assigned-at-run-time",

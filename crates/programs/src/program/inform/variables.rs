@@ -135,8 +135,11 @@ impl Variables {
                     None,
                     Place::NOWHERE,
                     |builder| {
-                        let known = conditions.tools.get(&number).copied().flatten();
-                        frame(builder, number.to_string(), known)
+                        let known = conditions.tools.get(&number).copied();
+                        match known {
+                            Some(None) => builder.script.unknown(Cause::FrameAmbiguous.remark()),
+                            _ => frame(builder, number.to_string(), known.flatten()),
+                        }
                     },
                 );
                 Expr::Variable(made)
@@ -152,8 +155,14 @@ impl Variables {
                         None,
                         Place::NOWHERE,
                         |builder| {
-                            let known = conditions.frames.get(&number).copied().flatten();
-                            frame(builder, number.to_string(), known.map(|pose| (pose, None)))
+                            let known = conditions.frames.get(&number).copied();
+                            let pose = known.flatten().map(|pose| (pose, None));
+                            match known {
+                                Some(None) => {
+                                    builder.script.unknown(Cause::FrameAmbiguous.remark())
+                                }
+                                _ => frame(builder, number.to_string(), pose),
+                            }
                         },
                     );
                     Expr::Variable(made)
