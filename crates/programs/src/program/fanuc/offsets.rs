@@ -231,6 +231,7 @@ impl Reader<'_> {
         let Some(at) = memchr::memmem::find(text, b"PR[") else {
             return;
         };
+        let at = at - usize::from(text[..at].ends_with(b"L"));
         self.known.settle();
         let mut number = None;
         for word in [&b"UFRAME["[..], b"UTOOL["] {

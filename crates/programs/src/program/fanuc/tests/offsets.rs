@@ -52,6 +52,28 @@ fn what_was_written_last_counts() {
 }
 
 #[test]
+fn registers_of_one_program_count_like_others() {
+    for lines in [
+        "LPR[7]=LPR[7]-LPR[7] ;\nLPR[7,3:z]=100 ;\nPR[7,3]=300 ;\nL P[1] 9mm/sec FINE \
+         Offset,LPR[7] ;",
+        "PR[7]=PR[7]-PR[7] ;\nLR[1]=100 ;\nR[1]=300 ;\nPR[7,3]=LR[1] ;\nL P[1] 9mm/sec FINE \
+         Offset,PR[7] ;",
+        "LPR[7]=LPR[7]-LPR[7] ;\nLPR[7,3]=100 ;\nOFFSET CONDITION LPR[7] ;\nL P[1] 9mm/sec FINE \
+         Offset ;",
+    ] {
+        assert_eq!(of(lines), up(0.1), "{lines}");
+    }
+    // a copy of a point goes where the point goes
+    let lines = "UTOOL_NUM=1 ;\nUFRAME_NUM=2 ;\nLPR[4]=P[1] ;\nLPR[4,3]=LPR[4,3]+100 ;\nL LPR[4] \
+        9mm/sec FINE ;";
+    let program = read(lines, &usual("1"));
+    assert_eq!(program.findings, []);
+    assert_eq!(program.moves.len(), 1);
+    assert!(program.target_of(&program.moves[0]).is_some());
+    assert_eq!(program.moves[0].displacement, up(0.1));
+}
+
+#[test]
 fn elsewhere_a_register_is_any_of_what_is_written() {
     let lines = format!("{ZERO}PR[7,3]=100 ;\nCALL X ;\n{GO}");
     assert_eq!(of(&lines), up(0.1));
