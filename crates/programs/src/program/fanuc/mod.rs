@@ -57,6 +57,7 @@ mod points;
 mod reader;
 mod registers;
 mod sections;
+mod start;
 mod statements;
 mod words;
 

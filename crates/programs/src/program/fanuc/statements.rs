@@ -229,8 +229,9 @@ impl Reader<'_> {
         let given = given.strip_suffix(b")").unwrap_or(given);
         let callees = self.callees(text);
         let first = short(self.builder.script.arguments.len());
+        let is_one = callees.len() == 1 && !is_chosen(text);
         for (routine, _) in &callees {
-            self.known.calls(*routine);
+            self.known.calls(*routine, is_one);
         }
         for (routine, _) in callees.iter().filter(|(_, uses_arguments)| *uses_arguments) {
             for (number, value) in (1..=MOST_ARGUMENTS).zip(parts(given)) {
@@ -272,6 +273,7 @@ impl Reader<'_> {
     /// `RUN PROGRAM`: it runs concurrently with this one.
     fn start(&mut self, text: &[u8]) {
         for (routine, _) in self.callees(text) {
+            self.known.starts(routine);
             self.builder.script.routines[routine as usize].start = Start::Concurrent;
         }
     }

@@ -110,6 +110,43 @@ fn a_register_keeps_what_it_held_where_a_way_passes_the_writes() {
 }
 
 #[test]
+fn a_register_keeps_what_it_held_where_it_is_written_behind_the_move() {
+    let set = "PR[7]=PR[7]-PR[7] ;\n";
+    for lines in [
+        format!("{GO}{set}"),
+        format!("LBL[1] ;\n{GO}{set}JMP LBL[1] ;"),
+        format!("PR[7]=PR[8] ;\n{GO}PR[8]=PR[8]-PR[8] ;"),
+        format!("{set}PR[7,3]=R[5] ;\n{GO}R[5]=0 ;"),
+        format!("OFFSET CONDITION PR[7] ;\nL P[1] 9mm/sec FINE Offset ;\n{set}"),
+    ] {
+        assert_eq!(of(&lines), Displacement::Unknown, "{lines}");
+    }
+    let program = |name: &str, lines: &str| listing(lines, &usual("1")).replace("TEST", name);
+    let (go, reset) = (program("GO", GO), program("RESET", set));
+    for (main, wanted) in [
+        ("CALL GO ;\nCALL RESET ;", Displacement::Unknown),
+        ("IF DI[1]=ON,CALL RESET ;\nCALL GO ;", Displacement::Unknown),
+        (
+            "IF DI[1]=ON,JMP LBL[1] ;\nCALL RESET ;\nLBL[1] ;\nCALL GO ;",
+            Displacement::Unknown,
+        ),
+        ("RUN GO ;\nCALL RESET ;\nCALL GO ;", Displacement::Unknown),
+        ("CALL RESET ;\nCALL GO ;", Displacement::None),
+        ("CALL RESET ;\nIF DI[1]=ON,CALL GO ;", Displacement::None),
+    ] {
+        let main = program("MAIN", main);
+        let all = [("g.ls", &*go), ("m.ls", &*main), ("r.ls", &*reset)];
+        let program = read_files(&all).expect("a program");
+        let moves = program.moves.iter().map(|of| of.displacement.clone());
+        assert!(
+            moves.clone().all(|by| by == wanted),
+            "{main} {:?}",
+            moves.collect::<Vec<_>>()
+        );
+    }
+}
+
+#[test]
 fn loops_count_and_jumps_do_not() {
     let grown = |head: &str, end: &str| {
         let step = "R[1]=R[1]+50 ;\nPR[7,3]=R[1] ;\n";
