@@ -258,17 +258,16 @@ impl Controller {
         }
         let name = format!("{}[{number}]", of.name);
         let shown = of.shown.get(&number).filter(|_| number > 0);
-        let declared = match shown.and_then(frames::Shown::disagreeing) {
-            Some([one, other]) => script.unknown(Remark::error_about(
+        let declared = if let Some([one, other]) = shown.and_then(frames::Shown::disagreeing) {
+            script.unknown(Remark::error_about(
                 "frame-name-ambiguous",
                 format!("{one} and {other} show another {name}"),
                 "give the files of one controller only, and of its backups one",
-            )),
-            None => {
-                let zero = (number == 0).then(Pose::identity);
-                let pose = zero.or_else(|| shown.map(|shown| shown.pose));
-                Expr::Value(script.frame(number.to_string(), pose))
-            }
+            ))
+        } else {
+            let zero = (number == 0).then(Pose::identity);
+            let pose = zero.or_else(|| shown.map(|shown| shown.pose));
+            Expr::Value(script.frame(number.to_string(), pose))
         };
         let made = variable(script, &name, declared, true, false);
         of.variables.insert(number, made);
