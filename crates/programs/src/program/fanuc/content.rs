@@ -2,7 +2,7 @@
 
 use super::numbers::{ELEMENTS, Known, MOST_NUMBER, of_call, of_position};
 use super::words::{
-    behind_group, bracket_end, concerns_group_1, element, register, whole, word_length,
+    behind_group, bracket_end, concerns_group_1, element, local, register, whole, word_length,
 };
 use crate::program::TargetId;
 use crate::program::numbers::counted;
@@ -288,6 +288,12 @@ pub(super) fn canonical(text: &[u8]) -> Vec<u8> {
 }
 
 fn push_indexed(out: &mut Vec<u8>, word: &[u8], index: &[u8]) {
+    // those of one program have numbers of their own
+    let (word, is_local) = match word {
+        b"LR" => (&b"R"[..], true),
+        b"LPR" => (&b"PR"[..], true),
+        _ => (word, false),
+    };
     let is_register = matches!(word, b"R" | b"AR" | b"PR" | b"P");
     let is_other = is_register && !concerns_group_1(index);
     out.extend_from_slice(if is_other { b"P" } else { word });
@@ -301,8 +307,13 @@ fn push_indexed(out: &mut Vec<u8>, word: &[u8], index: &[u8]) {
         } else {
             whole(index)
         };
+        let number = match number {
+            Some(number) if is_local => local(number),
+            number => number,
+        };
         match number {
             Some(number) => out.extend_from_slice(number.to_string().as_bytes()),
+            None if is_local => out.push(b'?'),
             None => push_index(out, behind_group(index)),
         }
         if word == b"PR" && of.is_element {
@@ -342,6 +353,8 @@ mod tests {
             ("ABS[R[2:x]]+GI[3:y]", "ABS[R[2]]+GI[0]"),
             ("PR[GP2:4]", "P[?]"),
             ("R[AR[1]]", "R[?]"),
+            ("LR[1:a]+LPR[2,3:b]", "R[262145]+PR[262146,3]"),
+            ("LPR[R[1]]", "PR[?]"),
         ] {
             let found = canonical(text.as_bytes());
             assert_eq!(std::str::from_utf8(&found), Ok(wanted), "{text}");

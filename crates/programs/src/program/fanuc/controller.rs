@@ -1,8 +1,8 @@
 //! What programs of one controller share: tools, user frames, position registers, and states that
 //! last until they change.
 
-use super::frames::Frames;
-use super::words::words;
+use super::frames;
+use super::words::{LOCAL, words};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::script::{
@@ -43,7 +43,7 @@ pub(super) struct Numbered {
     all: TableId,
     what: &'static str,
     name: &'static str,
-    poses: BTreeMap<u32, Pose>,
+    shown: frames::Numbered,
     variables: HashMap<u32, VariableId>,
     taught: HashMap<u32, RemarkId>,
 }
@@ -54,6 +54,8 @@ pub(super) enum Mode {
     TouchOffset,
     Search,
     Track,
+    /// `MP Offset`: what the first pass of a weld has recorded.
+    PassOffset,
 }
 
 /// What is said of points and moves.
@@ -171,7 +173,7 @@ pub(super) struct Controller {
     kinds: [Numbered; 2],
     /// Position registers.
     pub registers: TableId,
-    modes: [VariableId; 3],
+    modes: [VariableId; 4],
     /// Variables that speak against moves.
     refusals: [VariableId; 4],
     guards: [Option<u32>; 16],
@@ -189,8 +191,8 @@ pub(super) struct Controller {
 }
 
 impl Controller {
-    pub(super) fn new(script: &mut Script, values: Frames) -> Self {
-        let numbered = |script: &mut Script, [what, name, active]: [&'static str; 3], poses| {
+    pub(super) fn new(script: &mut Script, values: frames::All) -> Self {
+        let numbered = |script: &mut Script, [what, name, active]: [&'static str; 3], shown| {
             // what is active before a program selects any is called as points call it
             let declared = script.frame("F", None);
             Numbered {
@@ -200,7 +202,7 @@ impl Controller {
                 others: table(script, name),
                 what,
                 name,
-                poses,
+                shown,
                 variables: HashMap::new(),
                 taught: HashMap::new(),
             }
@@ -228,7 +230,7 @@ impl Controller {
         Self {
             kinds,
             registers: table(script, "PR"),
-            modes: ["Touch Offset", "Search", "Track"]
+            modes: ["Touch Offset", "Search", "Track", "MP Offset"]
                 .map(|name| variable(script, name, Expr::Absent, false, false)),
             refusals,
             guards: [None; 16],
@@ -254,11 +256,20 @@ impl Controller {
         if let Some(&known) = of.variables.get(&number) {
             return known;
         }
-        let zero = (number == 0).then(Pose::identity);
-        let pose = zero.or_else(|| of.poses.get(&number).copied());
-        let value = script.frame(number.to_string(), pose);
         let name = format!("{}[{number}]", of.name);
-        let made = variable(script, &name, Expr::Value(value), true, false);
+        let shown = of.shown.get(&number).filter(|_| number > 0);
+        let declared = if let Some([one, other]) = shown.and_then(frames::Shown::disagreeing) {
+            script.unknown(Remark::error_about(
+                "frame-name-ambiguous",
+                format!("{one} and {other} show another {name}"),
+                "give the files of one controller only, and of its backups one",
+            ))
+        } else {
+            let zero = (number == 0).then(Pose::identity);
+            let pose = zero.or_else(|| shown.map(|shown| shown.pose));
+            Expr::Value(script.frame(number.to_string(), pose))
+        };
+        let made = variable(script, &name, declared, true, false);
         of.variables.insert(number, made);
         let tables = [Some(of.all), (number > 0).then_some(of.others)];
         for table in tables.into_iter().flatten() {
@@ -345,7 +356,11 @@ impl Controller {
             return known;
         }
         let unknown = Expr::Unknown(self.computed);
-        let made = variable(script, &format!("PR[{number}]"), unknown, true, false);
+        let name = match number.checked_sub(LOCAL) {
+            Some(number) => format!("LPR[{number}]"),
+            None => format!("PR[{number}]"),
+        };
+        let made = variable(script, &name, unknown, true, false);
         script.tables[table].entries.insert(entry, made);
         made
     }
@@ -362,8 +377,8 @@ impl Controller {
         })
     }
 
-    /// The mode that `Touch Offset PR[1]`, `Search Start[1] PR[1]`, `Track TAST[1]` and their ends
-    /// switch: its variable, and what it holds then.
+    /// The mode that `Touch Offset PR[1]`, `Search Start[1] PR[1]`, `Track TAST[1]`, `MP Offset PR[1]
+    /// RPM[1]` and their ends switch: its variable, and what it holds then.
     pub(super) fn mode(&self, name: &[u8], rest: &[u8]) -> Option<(Mode, VariableId, Expr)> {
         let mut words = words(rest);
         let mode = match name {
@@ -372,6 +387,10 @@ impl Controller {
                 .filter(|word| word.eq_ignore_ascii_case(b"OFFSET"))
                 .map(|_| Mode::TouchOffset)?,
             b"SEARCH" => Mode::Search,
+            b"MP" => words
+                .next()
+                .filter(|word| word.eq_ignore_ascii_case(b"OFFSET"))
+                .map(|_| Mode::PassOffset)?,
             _ => Mode::Track,
         };
         let ends = words

@@ -1,9 +1,10 @@
 //! Tools and work frames in files of the controller: `SYSFRAME.VA` and `FRAME.DG`.
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Separation};
 use crate::program::notation::pose_of_angles;
 use crate::program::number;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Tools and work frames of group 1, by number.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,24 +18,76 @@ pub(super) struct Frames {
     pub rounded: bool,
 }
 
-impl Frames {
-    /// Takes in the frames of another file: those of variables are exact and go before those of a
-    /// list.
-    pub(super) fn add(&mut self, mut other: Self) {
-        if !other.rounded {
-            std::mem::swap(self, &mut other);
-            self.rounded = false;
+/// A tool or frame as the files show it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shown {
+    pub pose: Pose,
+    rounded: bool,
+    file: String,
+    /// Another file shows another one.
+    other: Option<String>,
+}
+
+impl Shown {
+    /// The two files that disagree.
+    pub(super) fn disagreeing(&self) -> Option<[&str; 2]> {
+        self.other.as_ref().map(|other| [&*self.file, &**other])
+    }
+
+    /// Takes in what another file shows: what is exact goes before what is rounded.
+    fn meet(&mut self, mut other: Self) {
+        if self.rounded != other.rounded {
+            if self.rounded {
+                std::mem::swap(self, &mut other);
+            }
+            return;
         }
+        let apart = self.pose.separation(&other.pose);
+        if apart.distance_m > SAME.distance_m || apart.angle_rad > SAME.angle_rad {
+            self.other.get_or_insert(other.file);
+        }
+    }
+}
+
+/// By number.
+pub(super) type Numbered = BTreeMap<u32, Shown>;
+
+/// The tools and frames of all files.
+#[derive(Debug, Default)]
+pub(super) struct All {
+    pub tools: Numbered,
+    pub frames: Numbered,
+}
+
+impl All {
+    /// Takes in those of a file.
+    pub(super) fn add(&mut self, found: Frames, file: &str) {
+        let rounded = found.rounded;
         for (all, more) in [
-            (&mut self.tools, other.tools),
-            (&mut self.frames, other.frames),
+            (&mut self.tools, found.tools),
+            (&mut self.frames, found.frames),
         ] {
             for (number, pose) in more {
-                all.entry(number).or_insert(pose);
+                let shown = Shown {
+                    pose,
+                    rounded,
+                    file: file.to_owned(),
+                    other: None,
+                };
+                match all.entry(number) {
+                    Entry::Vacant(place) => _ = place.insert(shown),
+                    Entry::Occupied(mut place) => place.get_mut().meet(shown),
+                }
             }
         }
     }
 }
+
+/// Farther apart than this are no two readings of one text.
+const SAME: Separation = Separation {
+    distance_m: 1e-9,
+    angle_rad: 1e-9,
+};
 
 /// A number that no robot can use.
 #[derive(Clone, Debug, PartialEq, Eq)]

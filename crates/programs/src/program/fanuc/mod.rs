@@ -35,9 +35,10 @@
 //!
 //! # Limits
 //!
-//! What registers `R[n]` select is unknown: tools, frames, points. A program that a local condition
-//! of a move (TB, TA) calls is taken to run behind the move. `PAYLOAD` is not read: a tool's load
-//! is the profile's. A translated INC, RTCP, COORD, IF or CALL is known in German only. That moves
+//! What registers `R[n]` select is unknown: points, and tools and frames but behind the write of a
+//! number. A program that a local condition of a move (TB, TA, DB) calls may not have run yet at the
+//! moves behind it. `PAYLOAD` is not read, several are reported: a tool's load is the profile's.
+//! `LR[n]` and `LPR[n]` are taken for one register of all programs. A translated INC, RTCP, COORD, IF or CALL is known in German only. That moves
 //! other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
@@ -56,6 +57,7 @@ mod points;
 mod reader;
 mod registers;
 mod sections;
+mod start;
 mod statements;
 mod words;
 

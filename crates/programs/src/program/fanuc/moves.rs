@@ -128,7 +128,10 @@ impl Reader<'_> {
             self.known.open();
         }
         for part in words.then {
+            // it is done some time before or behind the end of the move, or not at all
+            self.builder.begin_if(None);
             self.then(&text[part]);
+            self.builder.end_choice();
         }
         if !words.is_harmless {
             self.known.close();
@@ -252,13 +255,19 @@ impl Reader<'_> {
 
     fn point(&mut self, index: u32) -> Option<Goal> {
         let point = self.listing.points[index as usize];
-        let Some(target) = point.target else {
-            if !std::mem::replace(&mut self.listing.reported_group, true) {
-                let message = "the point has no group 1: it is one of another group and stays";
-                self.say(self.place, Remark::note("other-group", message, ""));
-            }
-            return None;
+        let message = match point.target {
+            None => Some("the point has no group 1: it is one of another group and stays"),
+            Some(_) => point.has_other_arm.then_some(
+                "the point is one of another robot too: only its group 1 is corrected, what it has \
+                 of the other stays",
+            ),
         };
+        if let Some(message) = message
+            && !std::mem::replace(&mut self.listing.reported_group, true)
+        {
+            self.say(self.place, Remark::note("other-group", message, ""));
+        }
+        let target = point.target?;
         let twin = point
             .twin
             .and_then(|twin| self.listing.points[twin as usize].target);

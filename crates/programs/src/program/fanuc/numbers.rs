@@ -5,6 +5,7 @@
 //! held before where the text may come to a move without a write.
 
 use super::content::{Content, Entered, Own};
+use super::start::{Step, Steps};
 use super::words::whole;
 use crate::geometry::Pose;
 use crate::program::TargetId;
@@ -53,8 +54,6 @@ fn any_of(number: u32) -> u32 {
 struct Written {
     entered: Rc<Entered>,
     site: Site,
-    /// In the present program, in no branch.
-    order: Option<u32>,
     is_settled: bool,
 }
 
@@ -67,9 +66,10 @@ struct Path {
     depth: u32,
     jumps: Vec<(u32, u64)>,
     labels: HashMap<u64, u32>,
-    last_move: u32,
-    /// What is written in no branch, and where.
-    written: Vec<(u32, u32)>,
+    /// The last move or call.
+    last_use: u32,
+    /// What it does with numbers, and where it does that in no branch.
+    steps: Vec<(Option<u32>, Step)>,
 }
 
 /// A loop that counts.
@@ -90,8 +90,7 @@ pub(super) struct Known {
     path: Path,
     /// Other programs run at the same time.
     pub is_concurrent: bool,
-    /// Numbers that are written whatever way the programs go.
-    sure: HashSet<u32>,
+    steps: Steps,
     all: HashSet<u32>,
     /// Any register may be written.
     any: Vec<(u32, Rc<Entered>)>,
@@ -114,7 +113,7 @@ impl Known {
         };
     }
 
-    /// The end of a program: what is written before all moves that a jump may come to.
+    /// The end of a program: what it writes before all moves and calls that a jump may come to.
     pub(super) fn end(&mut self) {
         self.clear();
         let path = std::mem::take(&mut self.path);
@@ -122,8 +121,8 @@ impl Known {
         let mut passed = vec![0_i32; path.order as usize + 2];
         for (at, label) in &path.jumps {
             let to = path.labels.get(label).copied().unwrap_or(path.order + 1);
-            let comes_to_moves = *label == ANY_LABEL || to <= path.last_move || last_jump > to;
-            if to > *at && comes_to_moves {
+            let comes_to_uses = *label == ANY_LABEL || to <= path.last_use || last_jump > to;
+            if to > *at && comes_to_uses {
                 passed[*at as usize] += 1;
                 passed[to as usize] -= 1;
             }
@@ -133,9 +132,15 @@ impl Known {
             over += *passed;
             *passed = over;
         }
-        let sure = path.written.into_iter();
-        let sure = sure.filter(|(_, at)| passed[*at as usize] == 0);
-        self.sure.extend(sure.map(|(number, _)| number));
+        let steps = path.steps.into_iter().filter_map(|(at, step)| {
+            let is_sure = at.is_some_and(|at| passed[at as usize] == 0);
+            match step {
+                Step::Writes(_) if !is_sure => None,
+                Step::Calls { routine, .. } => Some(Step::Calls { routine, is_sure }),
+                step => Some(step),
+            }
+        });
+        self.steps.add(path.routine, steps);
     }
 
     /// A branch begins.
@@ -169,14 +174,46 @@ impl Known {
         self.numbers.jumps(self.path.routine);
     }
 
-    pub(super) fn calls(&mut self, routine: RoutineId) {
+    /// A program is called, or one of several.
+    pub(super) fn calls(&mut self, routine: RoutineId, is_one: bool) {
         self.numbers.calls(self.path.routine, routine);
+        self.moves();
+        let at = Some(self.path.order).filter(|_| is_one && self.path.depth == 0);
+        let is_sure = at.is_some();
+        self.path.steps.push((at, Step::Calls { routine, is_sure }));
+    }
+
+    /// A program is started next to this one.
+    pub(super) fn starts(&mut self, routine: RoutineId) {
+        self.steps.starts(routine);
+    }
+
+    /// A position register is read as it is.
+    pub(super) fn reads_position(&mut self, number: u32) {
+        let all = (0..ELEMENTS).map(|element| of_position(number, element));
+        let open = all.filter(|number| !self.now.contains_key(number));
+        let steps = open.map(|number| (None, Step::Reads(number)));
+        self.path.steps.extend(steps);
+    }
+
+    /// Likewise the one that an index, `R[1]`, tells.
+    pub(super) fn reads_any_position(&mut self, index: &[u8]) {
+        let entered = self.entered(u32::MAX, index, 0);
+        self.reads(&entered);
+        self.path.steps.push((None, Step::ReadsAny));
+    }
+
+    /// What is computed reads numbers as they are.
+    fn reads(&mut self, entered: &Entered) {
+        let read = entered.read.iter();
+        let steps = read.map(|number| (None, Step::Reads(*number)));
+        self.path.steps.extend(steps);
     }
 
     /// A move that may be displaced.
     pub(super) fn moves(&mut self) {
         self.path.order += 1;
-        self.path.last_move = self.path.order;
+        self.path.last_use = self.path.order;
     }
 
     /// `FOR R[1]=1 TO 4`, the next loop of a script; the counter where it is known. How often it runs
@@ -197,6 +234,10 @@ impl Known {
             let step = if is_down { -1.0 } else { 1.0 };
             let ends = exact(from).zip(exact(to));
             most = ends.and_then(|(from, to)| rounds(from, to, step));
+        }
+        for text in counting.iter().flat_map(|(_, from, to, _)| [*from, *to]) {
+            let entered = self.entered(u32::MAX, text.trim_ascii(), 0);
+            self.reads(&entered);
         }
         self.clear();
         if let Some((number, from, to, is_down)) = counting {
@@ -287,11 +328,14 @@ impl Known {
     /// A number becomes something.
     pub(super) fn write(&mut self, number: u32, entered: Entered) {
         self.path.order += 1;
-        let is_sure = self.path.depth == 0 && !entered.is_own;
+        self.reads(&entered);
+        if self.path.depth == 0 && !entered.is_own {
+            let step = (Some(self.path.order), Step::Writes(number));
+            self.path.steps.push(step);
+        }
         let written = Written {
             entered: Rc::new(entered),
             site: self.blocks.site(),
-            order: Some(self.path.order).filter(|_| is_sure),
             is_settled: false,
         };
         self.assigned.insert(number);
@@ -315,6 +359,7 @@ impl Known {
 
     /// A register becomes something, and another register says which.
     pub(super) fn write_any(&mut self, of: u32, entered: Entered) {
+        self.reads(&entered);
         self.clear();
         self.any.push((any_of(of), Rc::new(entered)));
     }
@@ -331,6 +376,7 @@ impl Known {
     pub(super) fn give(&mut self, routine: RoutineId, number: u32, text: &[u8]) {
         let parameter = of_call(routine, number);
         let entered = Rc::new(self.entered(parameter, text, 0));
+        self.reads(&entered);
         let site = Some(Site::at_start(routine));
         self.numbers.write(parameter, entered, site);
     }
@@ -344,8 +390,6 @@ impl Known {
             let (entered, site) = (Rc::clone(&written.entered), written.site.clone());
             self.all.insert(number);
             self.numbers.write(number, entered, Some(site));
-            let order = written.order.map(|order| (number, order));
-            self.path.written.extend(order);
         }
     }
 
@@ -393,8 +437,11 @@ impl Known {
             }
             self.numbers.lose(of);
         }
+        let positions = self.all.iter().copied();
+        let positions = positions.filter(|number| (OF_POSITIONS..OF_CALLS).contains(number));
+        let read = self.steps.read_before(&positions.collect::<Vec<_>>());
         for &number in &self.all {
-            if !self.sure.contains(&number) && !is_any(number) {
+            if read.contains(&number) && !is_any(number) {
                 let is_counter = self.loops.iter().any(|of| of.counter == number);
                 if !is_counter || self.assigned.contains(&number) {
                     self.numbers.lose(number);

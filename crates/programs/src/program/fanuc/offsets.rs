@@ -195,6 +195,7 @@ impl Reader<'_> {
         let mut amounts = Vec::with_capacity(offsets.len());
         for (axes, text) in offsets {
             let of = text.map_or(Which::Condition, which);
+            self.reads_offset(&of);
             let now = if let Which::One(number) = of {
                 let all = (0..ELEMENTS).map(|at| self.known.now(of_position(number, at)));
                 all.collect()
@@ -231,6 +232,7 @@ impl Reader<'_> {
         let Some(at) = memchr::memmem::find(text, b"PR[") else {
             return;
         };
+        let at = at - usize::from(text[..at].ends_with(b"L"));
         self.known.settle();
         let mut number = None;
         for word in [&b"UFRAME["[..], b"UTOOL["] {
@@ -239,12 +241,22 @@ impl Reader<'_> {
             let inside = inside.and_then(|rest| rest.split(|b| *b == b']').next());
             number = number.or(inside.map(whole));
         }
+        let of = which(&text[at..]);
+        self.reads_offset(&of);
         self.conditions.push(Condition {
             routine: self.listing.routine,
             axes,
-            of: which(&text[at..]),
+            of,
             number,
         });
+    }
+
+    fn reads_offset(&mut self, of: &Which) {
+        match of {
+            Which::One(number) => self.known.reads_position(*number),
+            Which::Index(index) => self.known.reads_any_position(index),
+            Which::Condition => {}
+        }
     }
 
     // ---- when all programs are read

@@ -40,6 +40,8 @@ pub(super) struct Point {
     /// Its work frame, `UF : 2`; none where that is the one that is active when the robot goes
     /// there, `UF : F`.
     pub frame: Option<u32>,
+    /// A group besides the first is another arm.
+    pub has_other_arm: bool,
     /// Its tool, likewise.
     pub tool: Option<u32>,
     /// Axes besides the six of the arm, of other groups as `G2J1`, and their values; not a number
@@ -144,6 +146,7 @@ impl<'a> Points<'a> {
             numbers: 0..0,
             frame: None,
             tool: None,
+            has_other_arm: false,
             external: Vec::new(),
         };
         self.expect(b'{', "{")?;
@@ -259,6 +262,8 @@ impl<'a> Points<'a> {
             self.at = inside + length + 1;
             if within {
                 first.configuration(self.bytes, inside..inside + length);
+            } else {
+                point.has_other_arm = true;
             }
             return Ok(());
         }

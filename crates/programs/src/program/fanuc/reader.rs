@@ -2,14 +2,14 @@
 
 use super::ABOUT;
 use super::controller::{Controller, Why};
-use super::frames::{self, Frames};
+use super::frames;
 use super::lines::Lines;
 use super::numbers::Known;
 use super::offsets::{Condition, Copied, Offset};
 use super::points::{Content, Point, Points, bad_value};
 use super::registers::{Part, Sum};
 use super::sections::Sections;
-use super::statements::State;
+use super::statements::{State, is_chosen};
 use super::words::{Named, Register, words};
 use crate::finding::{Finding, Severity};
 use crate::program::kit::{Fault, not_this_language};
@@ -63,6 +63,8 @@ pub(super) struct Taught {
     pub tool: Option<u32>,
     pub frame: Option<u32>,
     pub is_joints: bool,
+    /// It is a point of another arm too.
+    pub has_other_arm: bool,
     /// The one before it with its number.
     pub twin: Option<u32>,
 }
@@ -101,6 +103,10 @@ pub(super) struct Reader<'a> {
     pub conditions: Vec<Condition>,
     pub sums: Vec<Sum>,
     pub parts: Vec<Part>,
+    /// Loads that programs select; `None` where a register says which.
+    pub payloads: BTreeSet<Option<u32>>,
+    /// That they are several is reported.
+    pub reported_payload: bool,
     /// Points that programs write.
     pub written_points: BTreeSet<TargetId>,
 }
@@ -112,12 +118,14 @@ fn starts_others(bytes: &[u8], names: &HashMap<Box<str>, Vec<(RoutineId, bool)>>
         return false;
     }
     Lines::new(bytes, 0..bytes.len()).any(|line| {
-        let mut words = words(&bytes[line.text]);
+        let text = &bytes[line.text];
+        let mut words = words(text);
         let is_start = |word: &[u8]| matches!(word, b"RUN" | b"MONITOR");
         words.any(is_start)
-            && words
-                .next()
-                .is_some_and(|name| names.contains_key(&called(name)))
+            && words.next().is_some_and(|name| {
+                let at = name.as_ptr() as usize - text.as_ptr() as usize;
+                is_chosen(&text[at..]) || names.contains_key(&called(name))
+            })
     })
 }
 
@@ -127,14 +135,16 @@ fn gets_elements(bytes: &[u8]) -> bool {
         let start = memchr::memrchr2(b'\n', b'\r', &bytes[..at]).map_or(0, |end| end + 1);
         let before = &bytes[start..at];
         let before = before.splitn(2, |&b| b == b':').nth(1).unwrap_or(before);
-        before.trim_ascii_start().starts_with(b"R[") && before.contains(&b'=')
+        let before = before.trim_ascii_start();
+        let is_number = before.starts_with(b"R[") || before.starts_with(b"LR[");
+        is_number && before.contains(&b'=')
     })
 }
 
 /// The statements of all files.
 pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
-    let (mut values, mut listings) = (Frames::default(), Vec::new());
+    let (mut values, mut listings) = (frames::All::default(), Vec::new());
     for (file, source) in sources.iter().enumerate() {
         if let Some(sections) = Sections::of(&source.bytes) {
             let listing = listing(&mut builder, source, short(file), &sections, names);
@@ -145,7 +155,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
             if found.rounded {
                 builder.script.findings.push(frames_rounded(source));
             }
-            values.add(found);
+            values.add(found, &source.name);
         } else {
             return Err(not_this_language(&ABOUT, source));
         }
@@ -181,6 +191,8 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         conditions: Vec::new(),
         sums: Vec::new(),
         parts: Vec::new(),
+        payloads: BTreeSet::new(),
+        reported_payload: false,
         written_points: BTreeSet::new(),
     };
     reader.known.is_concurrent = listings.iter().any(|listing| {
@@ -300,6 +312,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         tool: point.tool,
         frame: point.frame,
         is_joints: point.content == Some(Content::Joints),
+        has_other_arm: point.has_other_arm,
         twin,
     });
 }

@@ -10,9 +10,11 @@ use super::offsets::Axes;
 use super::reader::{Reader, called};
 use super::words::{
     Named, Register, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position,
-    indexed, is_word, motion, parts, position, register, whole, word_length, words,
+    element, indexed, is_word, local, motion, parts, position, register, whole, word_length, words,
 };
-use crate::program::script::{Argument, Call, Expr, How, Start, VariableId, Written, short};
+use crate::program::script::{
+    Argument, Call, Expr, How, Remark, RoutineId, Start, VariableId, Written, short,
+};
 use std::collections::BTreeSet;
 
 /// Conditions inside conditions.
@@ -131,10 +133,11 @@ impl Reader<'_> {
             }
             (b"END" | b"ENDE", None) => self.builder.back(),
             (b"ABORT" | b"ABBRUCH", None) => self.builder.exit(),
-            (b"TOUCH" | b"SEARCH" | b"TRACK", _) => {
+            (b"TOUCH" | b"SEARCH" | b"TRACK" | b"MP", _) => {
                 self.known.clear();
                 self.mode(&name, rest);
             }
+            (b"PAYLOAD", Some(b'[')) => self.payload(&rest[1..]),
             (_, Some(b'=')) if selects(&name).is_some() => {
                 self.select(selects(&name).flatten(), rest[1..].trim_ascii());
             }
@@ -220,12 +223,15 @@ impl Reader<'_> {
     pub(super) fn call(&mut self, text: &[u8]) {
         let name = called(&text[..word_length(text)]);
         let given = text[word_length(text)..].trim_ascii_start();
+        let index = given.strip_prefix(b"[").and_then(bracket_end);
+        let given = given[index.map_or(0, |length| length + 2)..].trim_ascii_start();
         let given = given.strip_prefix(b"(").unwrap_or_default();
         let given = given.strip_suffix(b")").unwrap_or(given);
-        let callees = self.by_name.get(&name).cloned().unwrap_or_default();
+        let callees = self.callees(text);
         let first = short(self.builder.script.arguments.len());
+        let is_one = callees.len() == 1 && !is_chosen(text);
         for (routine, _) in &callees {
-            self.known.calls(*routine);
+            self.known.calls(*routine, is_one);
         }
         for (routine, _) in callees.iter().filter(|(_, uses_arguments)| *uses_arguments) {
             for (number, value) in (1..=MOST_ARGUMENTS).zip(parts(given)) {
@@ -238,8 +244,23 @@ impl Reader<'_> {
         self.known.clear();
         let callees = callees.iter().map(|(routine, _)| *routine).collect();
         let arguments = first..short(self.builder.script.arguments.len());
-        self.builder
-            .call(Call::of(self.place, callees, name, arguments));
+        let mut call = Call::of(self.place, callees, name, arguments);
+        call.foreign |= is_chosen(text);
+        self.builder.call(call);
+    }
+
+    /// The programs that `PROGRAM` may be; with `SR[1]`, `AR[1]`, `PROGRAM[R[1]]` any but the
+    /// present one.
+    fn callees(&self, text: &[u8]) -> Vec<(RoutineId, bool)> {
+        if is_chosen(text) {
+            let all = self.by_name.values().flatten().copied();
+            let others = all.filter(|(routine, _)| *routine != self.listing.routine);
+            let mut all: Vec<_> = others.collect();
+            all.sort_unstable();
+            return all;
+        }
+        let name = called(&text[..word_length(text)]);
+        self.by_name.get(&name).cloned().unwrap_or_default()
     }
 
     fn give(&mut self, parameter: Option<VariableId>, value: Expr) {
@@ -251,9 +272,9 @@ impl Reader<'_> {
 
     /// `RUN PROGRAM`: it runs concurrently with this one.
     fn start(&mut self, text: &[u8]) {
-        let name = called(&text[..word_length(text)]);
-        for (routine, _) in self.by_name.get(&name).into_iter().flatten() {
-            self.builder.script.routines[*routine as usize].start = Start::Concurrent;
+        for (routine, _) in self.callees(text) {
+            self.known.starts(routine);
+            self.builder.script.routines[routine as usize].start = Start::Concurrent;
         }
     }
 
@@ -281,6 +302,25 @@ impl Reader<'_> {
             name: called(&text[..word_length(text)]),
             arguments: first..short(self.builder.script.arguments.len()),
         });
+    }
+
+    /// `PAYLOAD[2]`: what the schedules say is not in the files. One is the load of the tool.
+    fn payload(&mut self, inside: &[u8]) {
+        let index = &inside[..bracket_end(inside).unwrap_or(0)];
+        if !concerns_group_1(index) {
+            return;
+        }
+        self.payloads
+            .insert(whole(behind_group(index.trim_ascii())));
+        let is_one = self.payloads.len() == 1 && !self.payloads.contains(&None);
+        if !is_one && !std::mem::replace(&mut self.reported_payload, true) {
+            let message = "PAYLOAD selects one of several loads here, which the files do not have; \
+                moves are taken with the load of their tool";
+            let hint = "give the tool of the profile the load that counts where it must be exact, \
+                and compensate programs with another one alone";
+            let remark = Remark::warning("load-chosen-at-run-time", message, hint);
+            self.say(self.place, remark);
+        }
     }
 
     // ---- writes
@@ -357,6 +397,17 @@ impl Reader<'_> {
                 .controller
                 .number(&mut self.builder.script, which, number);
         }
+        // what the program has just written into a register
+        let written = self.known.entered(u32::MAX, &canonical(text), 0).exact();
+        let is_number =
+            |value: &f64| value.fract() == 0.0 && (0.0..=f64::from(u8::MAX)).contains(value);
+        if let Some(number) = written.filter(is_number) {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let number = number as u32;
+            return self
+                .controller
+                .number(&mut self.builder.script, which, number);
+        }
         match text.strip_prefix(b"AR").and_then(indexed).flatten() {
             Some(number) => Expr::Variable(self.argument(self.listing.routine, number)),
             None => Expr::Unknown(self.controller.chosen),
@@ -368,9 +419,11 @@ impl Reader<'_> {
         let is_ours = concerns_group_1(index);
         match name {
             b"P" => self.set_point(index, value),
-            b"PR" | b"UFRAME" | b"UTOOL" if !is_ours => {}
+            b"PR" | b"LPR" | b"UFRAME" | b"UTOOL" if !is_ours => {}
             b"PR" => self.set_register(index, value),
             b"R" => self.set_number(index, value),
+            b"LPR" => self.set_register(&of_program(index), value),
+            b"LR" => self.set_number(&of_program(index), value),
             b"UFRAME" | b"UTOOL" => {
                 self.set_frame(kind_of(name), whole(behind_group(index)), value);
             }
@@ -444,6 +497,25 @@ impl Reader<'_> {
             .entry(&mut self.builder.script, kind, number);
         Some(Expr::Variable(entry))
     }
+}
+
+/// Whether a register says which program is called.
+pub(super) fn is_chosen(text: &[u8]) -> bool {
+    text[word_length(text)..]
+        .trim_ascii_start()
+        .starts_with(b"[")
+}
+
+/// The index of `LPR[4,3]`, as that of a register that other programs do not have; `?` where
+/// another register says it.
+fn of_program(index: &[u8]) -> Vec<u8> {
+    let of = register(index);
+    let number = of.number.and_then(local);
+    let number = number.map_or("?".into(), |number| number.to_string());
+    let element = of.is_element.then(|| element(index)).flatten();
+    let element = element.map(|element| format!(",{element}"));
+    let element = element.unwrap_or_else(|| if of.is_element { ",?" } else { "" }.into());
+    (number + &element).into_bytes()
 }
 
 /// Whether `THEN` ends a condition.

@@ -137,6 +137,52 @@ fn other_groups_are_left_alone() {
 }
 
 #[test]
+fn a_point_of_two_robots_is_reported_once() {
+    let both = |number: &str| {
+        let other = usual("9").replace("GP1", "GP2");
+        let other = &other["P[9]{\n".len()..];
+        usual(number).replace("};\n", "") + other
+    };
+    let points = both("1") + &both("2");
+    let program = read("1:J P[1] 100% FINE ;\n2:J P[2] 100% FINE ;", &points);
+    assert_eq!((program.moves.len(), program.targets.len()), (2, 2));
+    assert_eq!(ids(&program), ["other-group"]);
+    assert!(program.findings[0].message.contains("another robot"));
+}
+
+#[test]
+fn files_that_show_different_frames_are_named() {
+    let shown = |z: f64| {
+        let tool = format!(
+            "[*SYSTEM*]$MNUTOOL  Storage: CMOS  Access: RW  : ARRAY[1,2] OF POSITION\n  [1,1] = \n  \
+             X: 0.000 Y: 0.000 Z: {z:.3}\n  W: 0.000 P: 0.000 R: 0.000\n  [1,2] = \n  X: 0.000 Y: \
+             0.000 Z: 9.000\n  W: 0.000 P: 0.000 R: 0.000\n"
+        );
+        let frame = tool
+            .replace("TOOL", "FRAME")
+            .replace(&format!("{z:.3}"), "1.000");
+        tool + &frame
+    };
+    let text = listing("1:J P[1] 100% FINE ;", &usual("1"));
+    let with = |other: f64| {
+        let all = [
+            ("r1/s.va", &*shown(150.0)),
+            ("r2/s.va", &*shown(other)),
+            ("a.ls", &*text),
+        ];
+        read_files(&all).expect("a program")
+    };
+    assert_eq!(with(150.0).findings, []);
+    let program = with(150.1);
+    assert_eq!(blocked(&program), ["P[1]"]);
+    assert_eq!(ids(&program), ["frame-name-ambiguous"]);
+    let message = &program.findings[0].message;
+    for what in ["UTOOL[1]", "r1/s.va", "r2/s.va"] {
+        assert!(message.contains(what), "{message}");
+    }
+}
+
+#[test]
 fn german_listings_are_read_like_others() {
     let text = b"/PROG  UP1\n/EIGN.\nKOMMENTAR\t= \"Gr\xf6\xdfe\";\nPROG_GR\xd6\xdfE = \
         1;\n/APPL\n/MN\n   1:  BENUTZER_NUM=0 ;\n   2:  WKZ_NUM=24 ;\n   3:J P[1] 100% CNT0 ACC100 \

@@ -2,6 +2,8 @@
 
 use crate::program::number;
 
+/// Registers of one program, `LR[1]` and `LPR[1]`, count from here on: no controller has so many.
+pub(super) const LOCAL: u32 = 1 << 18;
 /// Bytes of an index with its name.
 const MOST_INDEX: usize = 256;
 
@@ -46,12 +48,25 @@ pub(super) fn motion(text: &[u8]) -> Option<(u8, usize)> {
     let mut at = 1 + blanks.count();
     // the listing of a pendant marks where the robot is
     at += usize::from(text.get(at) == Some(&b'@'));
-    let (named, _) = position(&text[at..])?;
-    (named != Named::Computed || at > 1).then_some((letter, at))
+    let (named, length) = position(&text[at..])?;
+    // `LPR[1]=P[2]` is no move
+    let is_assigned = text[at + length..].trim_ascii_start().starts_with(b"=");
+    (!is_assigned && (named != Named::Computed || at > 1)).then_some((letter, at))
 }
 
 /// The position that a text starts with, and its length.
 pub(super) fn position(text: &[u8]) -> Option<(Named, usize)> {
+    if text.starts_with(b"LPR[") {
+        let (named, length) = position(&text[1..])?;
+        let of_program = match named {
+            Named::Register(Register { number, is_element }) => Named::Register(Register {
+                number: number.and_then(local),
+                is_element,
+            }),
+            other => other,
+        };
+        return Some((of_program, length + 1));
+    }
     if !text.first()?.eq_ignore_ascii_case(&b'P') {
         return None;
     }
@@ -69,6 +84,13 @@ pub(super) fn position(text: &[u8]) -> Option<(Named, usize)> {
         _ => return None,
     };
     Some((named, name + 1 + length + 1))
+}
+
+/// The number by which a register of one program goes.
+pub(super) fn local(number: u32) -> Option<u32> {
+    number
+        .checked_add(LOCAL)
+        .filter(|number| *number < 2 * LOCAL)
 }
 
 /// `4`, `4:name`, `GP1:4`, `4,2:name`, `R[1]`
@@ -239,6 +261,8 @@ mod tests {
             ("PR[R[1:a]]", register(None, false)),
             ("PR[R[1:a],3]", register(None, true)),
             ("PAL_1[BTM]", Named::Computed),
+            ("LPR[4,2]", register(Some(LOCAL + 4), true)),
+            ("LPR[R[4]]", register(None, false)),
         ] {
             let found = position(text.as_bytes());
             assert_eq!(found, Some((wanted, text.len())), "{text}");
@@ -257,6 +281,8 @@ mod tests {
             ("J @P[1] 5%", Some((b'J', 3))),
             ("J PAL_1[A_1] 5%", Some((b'J', 2))),
             ("SPAL_1[1]", None),
+            ("L LPR[1] 5%", Some((b'L', 2))),
+            ("LPR[1]=P[1]", None),
             ("LBL[1]", None),
             ("CALL P", None),
         ] {

@@ -135,6 +135,102 @@ fn selections_last_across_calls_and_arguments_bind() {
 }
 
 #[test]
+fn a_program_that_a_register_names_may_be_any_of_the_files() {
+    let a = |lines: &str| listing(lines, &(pose("1", ACTIVE) + &usual("2"))).replace("TEST", "A");
+    let b = listing("UTOOL_NUM=5 ;", "").replace("TEST", "B");
+    let idle = listing("DO[1]=ON ;", "").replace("TEST", "B");
+    for call in [
+        "CALL SR[1]",
+        "CALL AR[1]",
+        "CALL PROG[R[1]](4)",
+        "IF R[1]=1,CALL SR[1:which]",
+        "J P[2] 1% FINE TB .10sec,CALL SR[1]",
+        "RUN SR[1]",
+    ] {
+        let a = a(&format!("UTOOL_NUM=4 ;\n{call} ;\nJ P[1] 1% FINE ;"));
+        let program = read_files(&[("a.ls", &a), ("b.ls", &b)]).expect("a program");
+        let names = program.tools.iter().map(|tool| &*tool.name);
+        let is_known = blocked(&program).is_empty();
+        assert!(!is_known || names.eq(["4", "5"]), "{call}: {program:?}");
+        // one that selects nothing leaves the tool as it is
+        if !call.starts_with('J') {
+            let a = listing(
+                &format!("UTOOL_NUM=4 ;\n{call} ;\nJ P[1] 1% FINE ;"),
+                &pose("1", ACTIVE),
+            );
+            let program = read_files(&[("a.ls", &a), ("b.ls", &idle)]).expect("a program");
+            assert_eq!(ids(&program), [""; 0], "{call} {:?}", program.findings);
+        }
+    }
+}
+
+#[test]
+fn what_a_move_calls_on_its_way_comes_some_time_later() {
+    let b = listing("UTOOL_NUM=5 ;", "").replace("TEST", "B");
+    for when in ["TA .50sec", "TB    .10sec", "DB 30.0mm"] {
+        let lines = format!("UTOOL_NUM=4 ;\nL P[1] 9mm/sec FINE {when},CALL B ;\nJ P[1] 1% FINE ;");
+        let a = listing(&lines, &pose("1", ACTIVE)).replace("TEST", "A");
+        assert_eq!(
+            tools_of(&[("a.ls", &a), ("b.ls", &b)]),
+            ["4", "5"],
+            "{when}"
+        );
+    }
+}
+
+#[test]
+fn of_two_programs_with_one_name_either_is_called() {
+    let a = listing("CALL B ;\nJ P[1] 1% FINE ;", &pose("1", ACTIVE)).replace("TEST", "A");
+    let b = |number: u32| listing(&format!("UTOOL_NUM={number} ;"), "").replace("TEST", "B");
+    let all = [("a.ls", &*a), ("b.ls", &b(5)), ("c/b.ls", &b(6))];
+    assert_eq!(tools_of(&all), ["5", "6"]);
+}
+
+#[test]
+fn a_number_that_has_just_been_written_selects_a_tool() {
+    for lines in [
+        "R[1]=5 ;\nUTOOL_NUM=R[1:grip] ;\nJ P[1] 1% FINE ;",
+        "R[1]=4 ;\nUTOOL_NUM=R[1]+1 ;\nJ P[1] 1% FINE ;",
+        "LR[1]=5 ;\nUTOOL_NUM=LR[1] ;\nJ P[1] 1% FINE ;",
+    ] {
+        assert_eq!(tools(lines), ["5"], "{lines}");
+    }
+    for lines in [
+        "R[1]=5 ;\nCALL X ;\nUTOOL_NUM=R[1] ;\nJ P[1] 1% FINE ;",
+        "R[1]=5.5 ;\nUTOOL_NUM=R[1] ;\nJ P[1] 1% FINE ;",
+        "R[1]=5 ;\nUTOOL_NUM=LR[1] ;\nJ P[1] 1% FINE ;",
+    ] {
+        let program = read(lines, &pose("1", ACTIVE));
+        assert_eq!(ids(&program), ["frame-chosen-at-run-time"], "{lines}");
+    }
+}
+
+#[test]
+fn several_loads_are_reported_once() {
+    let go = "J P[1] 1% FINE ;\n";
+    for (lines, wanted) in [
+        (format!("PAYLOAD[1] ;\n{go}PAYLOAD[1:grip] ;\n{go}"), vec![]),
+        (
+            format!("PAYLOAD[GP2:1] ;\n{go}PAYLOAD[GP1:2] ;\n{go}"),
+            vec![],
+        ),
+        (
+            format!("PAYLOAD[1] ;\n{go}PAYLOAD[2] ;\n{go}PAYLOAD[3] ;\n{go}"),
+            vec![("load-chosen-at-run-time", 7)],
+        ),
+        (
+            format!("PAYLOAD[R[1]] ;\n{go}"),
+            vec![("load-chosen-at-run-time", 5)],
+        ),
+    ] {
+        let program = read(&lines, &usual("1"));
+        let found = program.findings.iter();
+        let found: Vec<_> = found.map(|found| (found.id, found.line)).collect();
+        assert_eq!(found, wanted, "{lines}");
+    }
+}
+
+#[test]
 fn a_macro_between_moves_of_two_tools_is_uncertain() {
     let lines = "J P[2] 1% FINE ;\nUTOOL_NUM=4 ;\nGRIP OPEN ;\nJ P[1] 1% FINE ;";
     let program = read(lines, &(pose("1", ACTIVE) + &usual("2")));
@@ -293,6 +389,7 @@ fn moves_that_a_sensor_corrects_are_reported_once_a_place() {
         ("Touch Offset PR[1]", "Touch Offset End"),
         ("Search Start[1] PR[1]", "Search End"),
         ("Track TAST[1]", "Track End"),
+        ("MP Offset PR[1] RPM[1]", "MP Offset End"),
     ] {
         let lines = format!(
             "L P[1] 9mm/sec FINE ;\n{begin} ;\nL P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;\n{end} \

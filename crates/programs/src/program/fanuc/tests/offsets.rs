@@ -52,6 +52,28 @@ fn what_was_written_last_counts() {
 }
 
 #[test]
+fn registers_of_one_program_count_like_others() {
+    for lines in [
+        "LPR[7]=LPR[7]-LPR[7] ;\nLPR[7,3:z]=100 ;\nPR[7,3]=300 ;\nL P[1] 9mm/sec FINE \
+         Offset,LPR[7] ;",
+        "PR[7]=PR[7]-PR[7] ;\nLR[1]=100 ;\nR[1]=300 ;\nPR[7,3]=LR[1] ;\nL P[1] 9mm/sec FINE \
+         Offset,PR[7] ;",
+        "LPR[7]=LPR[7]-LPR[7] ;\nLPR[7,3]=100 ;\nOFFSET CONDITION LPR[7] ;\nL P[1] 9mm/sec FINE \
+         Offset ;",
+    ] {
+        assert_eq!(of(lines), up(0.1), "{lines}");
+    }
+    // a copy of a point goes where the point goes
+    let lines = "UTOOL_NUM=1 ;\nUFRAME_NUM=2 ;\nLPR[4]=P[1] ;\nLPR[4,3]=LPR[4,3]+100 ;\nL LPR[4] \
+        9mm/sec FINE ;";
+    let program = read(lines, &usual("1"));
+    assert_eq!(program.findings, []);
+    assert_eq!(program.moves.len(), 1);
+    assert!(program.target_of(&program.moves[0]).is_some());
+    assert_eq!(program.moves[0].displacement, up(0.1));
+}
+
+#[test]
 fn elsewhere_a_register_is_any_of_what_is_written() {
     let lines = format!("{ZERO}PR[7,3]=100 ;\nCALL X ;\n{GO}");
     assert_eq!(of(&lines), up(0.1));
@@ -85,6 +107,43 @@ fn a_register_keeps_what_it_held_where_a_way_passes_the_writes() {
     // the way around leads to no move
     let around = format!("IF DI[1]=ON,JMP LBL[9] ;\n{some}CALL X ;\n{GO}LBL[9] ;");
     assert_eq!(of(&around), up(0.1));
+}
+
+#[test]
+fn a_register_keeps_what_it_held_where_it_is_written_behind_the_move() {
+    let set = "PR[7]=PR[7]-PR[7] ;\n";
+    for lines in [
+        format!("{GO}{set}"),
+        format!("LBL[1] ;\n{GO}{set}JMP LBL[1] ;"),
+        format!("PR[7]=PR[8] ;\n{GO}PR[8]=PR[8]-PR[8] ;"),
+        format!("{set}PR[7,3]=R[5] ;\n{GO}R[5]=0 ;"),
+        format!("OFFSET CONDITION PR[7] ;\nL P[1] 9mm/sec FINE Offset ;\n{set}"),
+    ] {
+        assert_eq!(of(&lines), Displacement::Unknown, "{lines}");
+    }
+    let program = |name: &str, lines: &str| listing(lines, &usual("1")).replace("TEST", name);
+    let (go, reset) = (program("GO", GO), program("RESET", set));
+    for (main, wanted) in [
+        ("CALL GO ;\nCALL RESET ;", Displacement::Unknown),
+        ("IF DI[1]=ON,CALL RESET ;\nCALL GO ;", Displacement::Unknown),
+        (
+            "IF DI[1]=ON,JMP LBL[1] ;\nCALL RESET ;\nLBL[1] ;\nCALL GO ;",
+            Displacement::Unknown,
+        ),
+        ("RUN GO ;\nCALL RESET ;\nCALL GO ;", Displacement::Unknown),
+        ("CALL RESET ;\nCALL GO ;", Displacement::None),
+        ("CALL RESET ;\nIF DI[1]=ON,CALL GO ;", Displacement::None),
+    ] {
+        let main = program("MAIN", main);
+        let all = [("g.ls", &*go), ("m.ls", &*main), ("r.ls", &*reset)];
+        let program = read_files(&all).expect("a program");
+        let moves = program.moves.iter().map(|of| of.displacement.clone());
+        assert!(
+            moves.clone().all(|by| by == wanted),
+            "{main} {:?}",
+            moves.collect::<Vec<_>>()
+        );
+    }
 }
 
 #[test]
