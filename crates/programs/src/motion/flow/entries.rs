@@ -30,7 +30,6 @@ impl Flow<'_> {
         for _ in 0..MOST_ROUNDS {
             let before = self.anytime.clone();
             self.forget();
-            self.moved_by_others = None;
             let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
                 let state = match self.started.get(&routine).cloned() {

@@ -84,8 +84,6 @@ struct State {
     /// By slot of the variables that are tracked.
     holds: Rc<Vec<Holding>>,
     before: Before,
-    /// Routines have been started that run concurrently: their moves may come before any.
-    others_run: bool,
 }
 
 /// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives
@@ -175,8 +173,6 @@ pub(super) struct Flow<'a> {
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
     is_concurrent: bool,
-    /// Moves of routines that run concurrently.
-    moved_by_others: Option<Before>,
     /// With what routines are started concurrently with others.
     started: HashMap<RoutineId, State>,
     /// What those that start others write, by variable.
@@ -228,7 +224,6 @@ impl<'a> Flow<'a> {
             given_away: Vec::new(),
             by_operator: Vec::new(),
             is_concurrent: false,
-            moved_by_others: None,
             started: HashMap::new(),
             concurrent: HashMap::new(),
             dead: None,

@@ -28,7 +28,6 @@ impl<'a> Flow<'a> {
         State {
             holds: Rc::new(holds),
             before: self.sets.one(before),
-            others_run: false,
         }
     }
 
@@ -51,7 +50,6 @@ impl<'a> Flow<'a> {
         State {
             holds,
             before: self.sets.union(a.before, b.before),
-            others_run: a.others_run || b.others_run,
         }
     }
 
@@ -240,7 +238,6 @@ impl<'a> Flow<'a> {
                 }
                 Statement::Start(call) => {
                     self.start(&script.calls[call as usize], at, &state);
-                    state.others_run = true;
                 }
                 Statement::Label(label) => {
                     self.arrive(instance, label, &state);
@@ -314,21 +311,12 @@ impl<'a> Flow<'a> {
             }
             _ => self.modes(instruction.modal, site, state),
         };
-        let here = self.sets.one(stop);
-        let mut before = state.before;
-        if self.is_concurrent {
-            let others = self.moved_by_others;
-            let others = others.map_or(here, |others| self.sets.union(others, here));
-            self.moved_by_others = Some(others);
-        } else if let Some(others) = self.moved_by_others.filter(|_| state.others_run) {
-            before = self.sets.union(before, others);
-        }
         self.reached[stop as usize] = Some(Reached {
             modes,
             target,
-            before,
+            before: state.before,
         });
-        state.before = here;
+        state.before = self.sets.one(stop);
     }
 
     /// With what a move at a place runs.
