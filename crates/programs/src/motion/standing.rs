@@ -10,7 +10,11 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::Branch;
 use crate::program::{Configuration, Motion, Move, TargetId};
+use std::f64::consts::TAU;
 use std::sync::Arc;
+
+/// Joints nearer to their limit than this are at it, radians.
+const SAME_RAD: f64 = 1e-4 * DEG;
 
 impl Walker<'_, '_> {
     /// The posture at the end of a move.
@@ -158,7 +162,7 @@ impl Walker<'_, '_> {
             return as_it_is;
         }
         // a whole rotation less, where that is within the limits
-        let turn = std::f64::consts::TAU;
+        let turn = TAU;
         let near = std::array::from_fn(|i| {
             let limits = &mechanism.joints[i];
             let back = turn * f64::from(u8::from(q[i] > limits.max_rad));
@@ -198,5 +202,44 @@ impl Walker<'_, '_> {
         let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
         let meant = posture.configured.then_some(posture)?;
         self.carried(motion, target, wanted, meant)
+    }
+
+    /// Whether joints that a target says stand where no arm can: more than a rotation beyond their
+    /// limits. Less than that may be within those of the controller.
+    pub(super) fn stands_beyond(&mut self, target: TargetId, q: &[f64; 6]) -> bool {
+        let ground = self.ground;
+        let joints = &ground.profile.mechanism.joints;
+        let by = |i: usize| (joints[i].min_rad - q[i]).max(q[i] - joints[i].max_rad);
+        let farthest = (0..6).max_by(|a, b| by(*a).total_cmp(&by(*b)));
+        let Some(joint) = farthest.filter(|joint| by(*joint) > SAME_RAD) else {
+            return false;
+        };
+        let is_impossible = by(joint) > TAU;
+        // whoever looks at a program's moves judges these joints there
+        if !is_impossible && self.walk_options.strict {
+            return false;
+        }
+        let message = format!(
+            "joint {} of {} stands at {:.3} deg; its limits are {:.3} to {:.3} deg",
+            joint + 1,
+            ground.name_of(target),
+            q[joint] / DEG,
+            joints[joint].min_rad / DEG,
+            joints[joint].max_rad / DEG
+        );
+        let (id, severity, hint) = if is_impossible {
+            let hint = "is it in the unit of the language (radians in URScript, else degrees or \
+                pulses)? no posture is more than a rotation beyond the limits";
+            ("joint-limit", Severity::Error, hint)
+        } else {
+            let hint = "move the target; or correct the limits in the profile, if the controller's \
+                are wider: the robot is taken to stand there";
+            ("beyond-limit", Severity::Warning, hint)
+        };
+        let finding = ground.at_target(id, severity, target, message, hint);
+        if !self.findings.contains(&finding) {
+            self.findings.push(finding);
+        }
+        is_impossible
     }
 }

@@ -330,6 +330,9 @@ impl Walker<'_, '_> {
                 self.say_endless(target, ("a joint", angle / DEG, MOST_JOINT_RAD / DEG));
                 return nowhere;
             }
+            if self.stands_beyond(target, &q) {
+                return nowhere;
+            }
             let arm = ground.arms.iter().flatten().next();
             return Arrival {
                 q,

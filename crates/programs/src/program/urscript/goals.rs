@@ -296,18 +296,22 @@ impl Goals<'_, '_, '_> {
         let Some(elements) = self.variables.elements(name, at, function) else {
             return self.unknown();
         };
-        let mut all = Vec::with_capacity(elements.len());
-        for (value, within) in elements {
+        let mut all = Vec::with_capacity(elements.values.len());
+        for (value, within) in elements.values {
             let goal = self.goal_within(value, within, steps);
             if !matches!(goal.feature, Feature::Base) || goal.tool.is_some() {
                 return self.unknown();
             }
             all.push(goal.target);
         }
-        match *all {
-            [] => self.unknown(),
+        let goal = match *all {
+            [] => return self.unknown(),
             [one] => Goal::to(one),
             _ => Goal::to(self.builder.script.any(all)),
+        };
+        match elements.changed {
+            Some(by) => self.displaced_by(goal, by),
+            None => goal,
         }
     }
 
@@ -485,7 +489,7 @@ impl Goals<'_, '_, '_> {
             Expr::Kinematics { pose, .. } => inner(pose),
             Expr::Element(name, at) => {
                 let elements = self.variables.elements(name, at, function);
-                let mut elements = elements.into_iter().flatten();
+                let mut elements = elements.into_iter().flat_map(|of| of.values);
                 elements.any(|(value, function)| self.has_target(value, function, steps / 2))
             }
             _ => false,

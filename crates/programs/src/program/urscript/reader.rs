@@ -23,6 +23,16 @@ struct Block {
     what: &'static str,
 }
 
+/// Which part of a variable is assigned.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    None,
+    /// An element, and its number where that is written out.
+    Element(Option<u32>),
+    /// A part of an element.
+    Deep,
+}
+
 /// Reads one file.
 pub(super) struct Reader<'a> {
     source: &'a Source,
@@ -355,12 +365,13 @@ impl<'a> Reader<'a> {
             if self.scanner.bytes.get(self.scanner.at) == Some(&b'=') {
                 return self.rest(next);
             }
-            return self.assign(name, reach, false, None);
+            return self.assign(name, reach, Part::None);
         }
         if next.is(b'[') {
             self.next()?;
             let element = self.constant_index();
             self.brackets(next)?;
+            let deep = self.scanner.peek().is(b'[');
             while self.scanner.peek().is(b'[') {
                 let more = self.next()?;
                 self.brackets(more)?;
@@ -369,7 +380,12 @@ impl<'a> Reader<'a> {
             let compared = self.scanner.bytes.get(after.end) == Some(&b'=');
             if after.is(b'=') && !compared {
                 self.next()?;
-                return self.assign(name, reach, true, element);
+                let part = if deep {
+                    Part::Deep
+                } else {
+                    Part::Element(element)
+                };
+                return self.assign(name, reach, part);
             }
             return Ok(());
         }
@@ -377,7 +393,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `= …` behind a name or an element of it.
-    fn assign(&mut self, name: Token, reach: Reach, part: bool, element: Option<u32>) -> Read<()> {
+    fn assign(&mut self, name: Token, reach: Reach, part: Part) -> Read<()> {
         let alone = self.number_alone();
         let mut value = self.value(name.start)?;
         if let Some(known) = alone.and_then(number::parse) {
@@ -393,8 +409,12 @@ impl<'a> Reader<'a> {
             reach,
             value,
             offset: short(name.start),
-            part: part || dot.is_some(),
-            element,
+            part: part != Part::None || dot.is_some(),
+            deep: part == Part::Deep,
+            element: match part {
+                Part::Element(element) => element,
+                Part::None | Part::Deep => None,
+            },
             is_number: alone.is_some(),
         });
         let number = short(self.parsed.assignments.len() - 1);

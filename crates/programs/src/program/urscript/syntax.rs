@@ -112,6 +112,8 @@ pub(super) struct Assignment {
     pub offset: u32,
     /// Only a part of the variable is assigned.
     pub part: bool,
+    /// That is a part of an element: `x[i][j] = …`
+    pub deep: bool,
     /// The number of that element, where it is written out.
     pub element: Option<u32>,
     /// Nothing but a number is.

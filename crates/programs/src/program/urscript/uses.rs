@@ -6,7 +6,22 @@
 
 use super::syntax::{Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
-use crate::program::script::short;
+use crate::program::script::{DisplacementId, OVERWRITTEN, UNBOUNDED, short};
+use foldhash::{HashSet, HashSetExt};
+
+/// What moves have been found to go to.
+struct Seen {
+    variables: Vec<bool>,
+    /// Values of elements of lists.
+    elements: HashSet<ExprId>,
+}
+
+/// What an element of a list may be.
+pub(super) struct Elements {
+    pub values: Vec<(ExprId, FunctionId)>,
+    /// One of the values with something else done to it; `None` where it is as it was given.
+    pub changed: Option<DisplacementId>,
+}
 
 impl Variables<'_, '_> {
     /// Finds the literals and variables that moves go to.
@@ -16,7 +31,10 @@ impl Variables<'_, '_> {
         // what `pose_trans(a, b)` goes to depends on whether others go to a
         for round in 0..4 {
             let mut changed = false;
-            let mut seen = vec![false; self.list.len()];
+            let mut seen = Seen {
+                variables: vec![false; self.list.len()],
+                elements: HashSet::new(),
+            };
             for (at, function) in parsed.functions.iter().enumerate() {
                 for event in &function.events {
                     if let Event::Step(step) = event
@@ -37,7 +55,7 @@ impl Variables<'_, '_> {
     fn mark_targets(
         &mut self,
         open: &mut Vec<(ExprId, FunctionId)>,
-        seen: &mut [bool],
+        seen: &mut Seen,
         through_features: bool,
     ) -> bool {
         let parsed = self.parsed;
@@ -55,7 +73,10 @@ impl Variables<'_, '_> {
                     None
                 }
                 Expr::Element(name, at) => {
-                    open.extend(self.elements(name, at, function).unwrap_or_default());
+                    if let Some(elements) = self.elements(name, at, function) {
+                        let new = |(value, _): &(ExprId, _)| seen.elements.insert(*value);
+                        open.extend(elements.values.into_iter().filter(new));
+                    }
                     None
                 }
                 Expr::Name(name, _) => self.meaning(name, function),
@@ -78,11 +99,11 @@ impl Variables<'_, '_> {
                 _ => None,
             };
             if let Some(variable) = variable
-                && !std::mem::replace(&mut seen[variable as usize], true)
+                && !std::mem::replace(&mut seen.variables[variable as usize], true)
             {
                 let of = &mut self.list[variable as usize];
                 changed |= !std::mem::replace(&mut of.is_position, true);
-                let whole = self.sources(variable).filter(|s| s.way != Assigned::Part);
+                let whole = self.sources(variable).filter(|s| !s.way.is_part());
                 open.extend(whole.map(|source| (source.value, source.function)));
             }
         }
@@ -106,7 +127,8 @@ impl Variables<'_, '_> {
         name: Symbol,
         at: Option<u32>,
         function: FunctionId,
-    ) -> Option<Vec<(ExprId, FunctionId)>> {
+    ) -> Option<Elements> {
+        let mut changed = None;
         let mut found = Vec::new();
         let mut seen = vec![self.meaning(name, function)?];
         let mut is_one = true;
@@ -114,7 +136,11 @@ impl Variables<'_, '_> {
         while let Some(&variable) = seen.get(next) {
             next += 1;
             for (number, source) in self.sources(variable).enumerate() {
-                is_one &= number == 0 && source.way != Assigned::Part;
+                is_one &= number == 0 && !source.way.is_part();
+                if source.way == Assigned::Deep {
+                    changed = Some(OVERWRITTEN);
+                    continue;
+                }
                 if source.way == Assigned::Part {
                     found.push((source.value, source.function));
                     continue;
@@ -152,7 +178,58 @@ impl Variables<'_, '_> {
         let is_plain = found
             .iter()
             .all(|(value, _)| !matches!(self.parsed.expression(*value), Expr::Element(..)));
-        is_plain.then_some(found)
+        // one that is made of elements of this list is made of what it is itself, any number of
+        // times; of other lists one is looked into
+        found.retain(|&(value, function)| {
+            let mut inside = Vec::new();
+            self.lists_in(value, function, MOST_STEPS, &mut inside);
+            let again = inside
+                .iter()
+                .any(|of| seen.contains(of) || self.has_composed_elements(*of));
+            if again {
+                changed = changed.or(Some(UNBOUNDED));
+            }
+            !again
+        });
+        is_plain.then_some(Elements {
+            values: found,
+            changed,
+        })
+    }
+
+    /// The lists that a value takes elements of.
+    fn lists_in(&self, value: ExprId, function: FunctionId, steps: u32, found: &mut Vec<VarId>) {
+        let Some(steps) = steps.checked_sub(1) else {
+            return;
+        };
+        let (expression, function) = self.follow(value, function);
+        match expression {
+            Expr::Element(name, _) => found.extend(self.meaning(name, function)),
+            Expr::Trans(a, b) => {
+                self.lists_in(a, function, steps, found);
+                self.lists_in(b, function, steps, found);
+            }
+            Expr::Add(a, _) | Expr::Inverse(a) | Expr::Kinematics { pose: a, .. } => {
+                self.lists_in(a, function, steps, found);
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether elements of a list are made of elements of lists.
+    fn has_composed_elements(&self, list: VarId) -> bool {
+        let mut inside = Vec::new();
+        for source in self.sources(list) {
+            match self.parsed.expression(source.value) {
+                Expr::List(of) => {
+                    for value in &self.parsed.lists[of as usize].elements {
+                        self.lists_in(*value, source.function, MOST_STEPS, &mut inside);
+                    }
+                }
+                _ => self.lists_in(source.value, source.function, MOST_STEPS, &mut inside),
+            }
+        }
+        !inside.is_empty()
     }
 
     /// Whether a value is a position that moves go to, in a feature or displaced, too.
@@ -195,7 +272,7 @@ impl Variables<'_, '_> {
             Expr::Actual => true,
             Expr::Trans(a, _) | Expr::Add(a, _) => self.comes_from_actual(a, function, steps),
             Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
-                let mut sources = self.sources(variable).filter(|s| s.way != Assigned::Part);
+                let mut sources = self.sources(variable).filter(|s| !s.way.is_part());
                 let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();
                 all.peek().is_some()
                     && all.all(|s| self.comes_from_actual(s.value, s.function, steps / 2))

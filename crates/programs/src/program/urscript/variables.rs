@@ -26,8 +26,17 @@ pub(super) enum Assigned {
     Whole,
     /// `x[i] = …`
     Part,
+    /// `x[i][j] = …`
+    Deep,
     /// By a call, or as the result of a function.
     Given,
+}
+
+impl Assigned {
+    /// Something else of the variable stays.
+    pub(super) fn is_part(self) -> bool {
+        matches!(self, Self::Part | Self::Deep)
+    }
 }
 
 /// One of the values that a variable gets.
@@ -171,7 +180,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             next: NONE,
         });
         let of = &mut self.list[variable as usize];
-        of.has_parts |= way == Assigned::Part;
+        of.has_parts |= way.is_part();
         if of.first == NONE {
             of.first = at;
         } else {
@@ -249,10 +258,10 @@ impl<'n, 'a> Variables<'n, 'a> {
                 self.names.insert((owner, name), made);
                 made
             };
-            let way = if assignment.part {
-                Assigned::Part
-            } else {
-                Assigned::Whole
+            let way = match assignment {
+                Assignment { deep: true, .. } => Assigned::Deep,
+                Assignment { part: true, .. } => Assigned::Part,
+                _ => Assigned::Whole,
             };
             self.source(variable, assignment.value, assignment.function, way);
             self.assigned.push(variable);
