@@ -387,8 +387,9 @@ fn without_a_noise_to_judge_by_nothing_is_named() {
     assert!(error.contains("too few"), "{error}");
 }
 
-#[test]
-fn a_spring_that_would_push_is_no_answer() {
+/// The report of a robot whose joint 2 has a spring of `real`, in rad/(N m), where its profile has
+/// one of `known`.
+fn of_springs(known: &str, real: &str) -> Value {
     let folder = scratch();
     let at = |name: &str| folder.path().join(name).display().to_string();
     let with = |name: &str, compliance: &str| {
@@ -398,56 +399,50 @@ fn a_spring_that_would_push_is_no_answer() {
             .expect("a spring of joint 2");
         let (_, after) = after.split_once('}').expect("its end");
         let path = at(name);
-        std::fs::write(
-            &path,
-            format!("{before}joint: 2, rad_per_n_m: {compliance}}}{after}"),
-        )
-        .expect("a writable folder");
+        let text = format!("{before}joint: 2, rad_per_n_m: {compliance}}}{after}");
+        std::fs::write(&path, text).expect("a writable folder");
         path
     };
-    let (stiff, pushing) = (with("stiff.yaml", "0"), with("pushing.yaml", "-6e-5"));
+    let (known, real) = (with("known.yaml", known), with("real.yaml", real));
     let (joints, measured) = (at("joints.csv"), at("measured.csv"));
-    let reported = |arguments: &[&str]| {
-        let (status, out, error) = run(arguments);
+    let reported = |arguments: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let (status, out, error) = run(&arguments);
         assert!(status < 2, "{error}");
         out
     };
-    reported(&[
-        "plan",
-        "--profile",
-        &stiff,
-        "--count",
-        "150",
-        "--candidates",
-        "500",
-        "--starts",
-        "1",
-        "-o",
-        &joints,
-    ]);
-    reported(&[
-        "simulate",
-        "--profile",
-        &pushing,
-        "--joints",
-        &joints,
-        "--noise-mm",
-        "0.03",
-        "--seed",
-        "1",
-        "-o",
-        &measured,
-    ]);
-    let json = reported(&[
-        "diagnose",
-        "--profile",
-        &stiff,
-        "--measurements",
-        &measured,
-        "--json",
-    ]);
-    let report: Value = serde_json::from_str(&json).expect("JSON");
+    reported(&format!(
+        "plan --profile {known} --count 150 --candidates 500 --starts 1 -o {joints}"
+    ));
+    reported(&format!(
+        "simulate --profile {real} --joints {joints} --noise-mm 0.03 --seed 1 -o {measured}"
+    ));
+    let json = reported(&format!(
+        "diagnose --profile {known} --measurements {measured} --json"
+    ));
+    serde_json::from_str(&json).expect("JSON")
+}
+
+#[test]
+fn a_spring_that_would_push_is_no_answer() {
+    let report = of_springs("0", "-6e-5");
     assert_eq!(report["verdict"], "undetermined", "{report:#}");
     let reasons = report["reasons"].to_string();
     assert!(reasons.contains("below what is possible"), "{reasons}");
+}
+
+#[test]
+fn a_spring_that_pushes_in_the_profile_may_push_less() {
+    let report = of_springs("-6e-5", "-2e-5");
+    let first = &report["effects"][0];
+    assert_eq!(
+        (&first["effect"], &first["joint"]),
+        (&"joint_compliance".into(), &2.into()),
+        "{report:#}"
+    );
+    let found = first["parameters"]["rad_per_n_m"].as_f64();
+    assert!(
+        found.is_some_and(|found| (found + 2e-5).abs() < 4e-6),
+        "{first}"
+    );
 }

@@ -2,10 +2,13 @@
 
 use super::commands::diagnosed;
 use super::{group, with_csv, without_sigma};
-use crate::trial::{Case, NOISE_MM, case, case_of};
+use crate::trial::{Case, Group, NOISE_MM, case, case_of};
 use poseshift::diagnose::estimator::table::Layout;
 use poseshift::diagnose::question::noise::{Repeats, of_repeats};
+use poseshift::diagnose::question::{Trust, session};
 use poseshift::diagnose::{Diagnosis, Found, NoiseSource, Options, Standing, Verdict, diagnose};
+use poseshift::geometry::Pose;
+use poseshift::identify::measurements::Observed;
 use poseshift::identify::parameters::{Level, Selection};
 use poseshift::identify::problem::{Problem, Row};
 use poseshift::model::effects::{BASE, Kind};
@@ -328,4 +331,38 @@ fn a_base_that_drifts_may_be_a_device_that_does() {
     assert_eq!(base.effect.site.index, BASE);
     assert!(base.standing < Standing::Certain);
     assert!(base.against[0].what.contains("the measuring device"));
+}
+
+#[test]
+fn orientations_weigh_by_what_they_scatter_where_no_column_says() {
+    // poses with 0.03 mm and 1e-4 rad of noise
+    let nothing = Group {
+        hidden: 0,
+        size: (0.0, 0.0),
+        ..group("devices").clone()
+    };
+    let case = case(&nothing, 3, 5, 150);
+    assert!(case.csv.contains(",qw,") && case.csv.contains("sigma_mm"));
+    let sigma_rad = |more: f64, stated: Option<f64>| {
+        let mut measurements = case.measurements.clone();
+        let mut random = StdRng::seed_from_u64(3);
+        for row in &mut measurements.rows {
+            row.sigma_rad = stated;
+            if let Observed::Pose(pose) = &mut row.observed {
+                let by: [f64; 3] = std::array::from_fn(|_| more * normal(&mut random));
+                *pose = *pose * Pose::from_xyz_rxryrz([0.0, 0.0, 0.0, by[0], by[1], by[2]]);
+            }
+        }
+        let trust = Trust::Calibrated { g: 1.0 };
+        let (session, _) =
+            session(&case.profile, &measurements, trust, &|_| false).expect("enough rows");
+        session.problem.rows[0].sigma_rad
+    };
+    for more in [0.0, 4e-4] {
+        let expected = f64::hypot(1e-4, more);
+        let found = sigma_rad(more, None);
+        // each of two mean squares of 450 numbers is known to 7 %
+        assert!((found / expected - 1.0).abs() < 0.1, "{more}: {found}");
+    }
+    assert!((sigma_rad(4e-4, Some(2e-4)) - 2e-4).abs() < 1e-12);
 }

@@ -4,7 +4,7 @@
 //! anew): every effect of the registry, at every joint, order, torque, time constant or row it may
 //! have, is a group of columns, tested by what it gains beyond the parameters that are fitted with
 //! it. Source: C. R. Rao's score test; A. Zellner's g-prior for a calibration that is trusted in
-//! part; G. Schwarz (1978) for the information criterion.
+//! part; F. Liang and others (2008) for what a parameter costs.
 //!
 //! ```text
 //! question (what the rows and the profile say) → estimator (what a column gains) → search (effects)

@@ -333,7 +333,7 @@ impl One {
             candidates,
             used,
             normal: Normal::of((&self.layout, used), &self.residual, own, floor),
-            ln_numbers: (self.problem.numbers() as f64).ln(),
+            numbers: self.problem.numbers() as f64,
             accepted,
         }
     }

@@ -454,15 +454,20 @@ impl Fit {
     /// 1, its residual says nothing of it.
     #[must_use]
     pub fn leverage(&self, layout: &Layout, columns: &[Column]) -> Vec<f64> {
-        let of_number = |number: usize| {
-            let along = self.factor.forward(|index| columns[index][number]);
-            self.roots[number].powi(2) * dot(&along, &along)
-        };
         let of_row = |row: usize| {
             let range = layout.row(row);
-            range.clone().map(of_number).sum::<f64>() / range.len().max(1) as f64
+            let own = range
+                .clone()
+                .map(|number| self.leverage_of(number, columns));
+            own.sum::<f64>() / range.len().max(1) as f64
         };
         (0..layout.rows()).map(of_row).collect()
+    }
+
+    /// The same of one number.
+    pub(crate) fn leverage_of(&self, number: usize, columns: &[Column]) -> f64 {
+        let along = self.factor.forward(|index| columns[index][number]);
+        self.roots[number].powi(2) * dot(&along, &along)
     }
 
     /// A column, weighted, less what the fit takes of it (R. Frisch, F. V. Waugh (1933)): products

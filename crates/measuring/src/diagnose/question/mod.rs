@@ -2,7 +2,7 @@
 
 pub mod noise;
 
-use self::noise::{Repeats, of_repeats};
+use self::noise::{Repeats, of_repeats, weigh_orientations};
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
@@ -246,8 +246,14 @@ pub fn session(
         .iter()
         .map(|p| if free(p.subject) { 1.0 } else { share })
         .collect();
-    let (residual, columns) = table(&problem, &estimate, &problem.parameters);
     let used = for_choice(measurements);
+    weigh_orientations(
+        &mut problem,
+        measurements,
+        (&layout, &used),
+        (&estimate, &shares),
+    );
+    let (residual, columns) = table(&problem, &estimate, &problem.parameters);
     // columns that do what those before them do are left out for good: given an effect found later,
     // a last link that bends, they would be distinguished by almost nothing and run away together
     let own = (&columns[..], &shares[..]);
@@ -330,7 +336,7 @@ impl Session {
             held: &self.columns,
             candidates: &self.candidates,
             normal: Normal::of((layout, used), &self.residual, own, self.floor()),
-            ln_numbers: (numbers as f64).ln(),
+            numbers: numbers as f64,
             used,
             accepted,
         }
@@ -357,7 +363,7 @@ impl Session {
     ) -> bool {
         let world = self.world(used, &[]);
         let fit = world.fit(chosen);
-        let least = 2.0 * world.ln_numbers + 2.0 * (waves::places() as f64).ln();
+        let least = 2.0 * world.numbers.ln() + 2.0 * (waves::places() as f64).ln();
         let (problem, estimate) = (&self.problem, &self.estimate);
         let mut peaks = waves::peaks(
             problem,

@@ -1,17 +1,21 @@
-//! The noise that poses measured more than once show: pure error, whatever the model.
+//! The noise that poses measured more than once show: pure error, whatever the model; and that of
+//! orientations where no column states it.
 //!
 //! # Source
 //! J. von Neumann, R. H. Kent, H. R. Bellinson, B. I. Hart, "The mean square successive difference"
 //! (1941): what changes slowly cancels from one repetition to the next. N. R. Draper, H. Smith,
-//! "Applied Regression Analysis", on pure error and lack of fit.
+//! "Applied Regression Analysis", on pure error and lack of fit. W. Förstner, "Ein Verfahren zur
+//! Schätzung von Varianz- und Kovarianzkomponenten" (1979), for components of variance: the squares
+//! of each sort of numbers over their redundancy, until the weights rest.
 
 use crate::diagnose::estimator::chances::{chi_squared_quantile, f_tail};
 use crate::diagnose::estimator::fit::Normal;
-use crate::diagnose::estimator::table::{Column, Layout};
-use crate::identify::measurements::Observed;
-use crate::identify::problem::{PointRef, Problem, Row};
+use crate::diagnose::estimator::table::{Column, Layout, table};
+use crate::identify::measurements::{Measurements, Observed};
+use crate::identify::problem::{Estimate, PointRef, Problem, Row};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::sync::Arc;
 
 /// Repeated poses tell the noise from so many degrees of freedom on.
 const FEWEST: f64 = 10.0;
@@ -21,6 +25,11 @@ const NEAR_PART: f64 = 0.1;
 const NEAR_C: f64 = 0.5;
 /// The noise is at least the estimate's lower bound, which it stays above with this probability.
 const SURE: f64 = 0.99;
+/// Rounds of weights of orientations, and the change at which they rest.
+const TURNS: usize = 8;
+const AT_REST: f64 = 0.01;
+/// Numbers of a pose that are its place; the others are its orientation.
+const OF_PLACE: usize = 3;
 
 /// Noise of a measured number by repetitions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,4 +163,52 @@ pub fn of_repeats(
         (repeats.freedom >= FEWEST).then_some(repeats)
     };
     of(&is_near).or_else(|| of(&|_, _| true))
+}
+
+/// Says of orientations how sure they are, against the places of the same poses, where no column
+/// does: by what a fit of the parameters with these shares leaves of both. Where too few numbers
+/// remain they count as they are.
+pub(crate) fn weigh_orientations(
+    problem: &mut Problem,
+    measurements: &Measurements,
+    (layout, used): (&Layout, &[bool]),
+    (estimate, shares): (&Estimate, &[f64]),
+) {
+    let is_guessed = |row: &Row| {
+        matches!(row.observed, Observed::Pose(_))
+            && measurements.rows[row.measurement].sigma_rad.is_none()
+    };
+    let guessed: Vec<usize> = (0..layout.rows())
+        .filter(|row| used[*row] && is_guessed(&problem.rows[*row]))
+        .collect();
+    for _ in 0..TURNS {
+        if guessed.is_empty() {
+            return;
+        }
+        let (residual, columns) = table(problem, estimate, &problem.parameters);
+        let fit = Normal::of((layout, used), &residual, (&columns, shares), 0.0).fit(&[]);
+        // squares and redundancies of places and of orientations
+        let mut sums = [(0.0, 0.0); 2];
+        for row in &guessed {
+            for (k, number) in layout.row(*row).enumerate() {
+                let (squares, redundancy) = &mut sums[usize::from(k >= OF_PLACE)];
+                *squares += fit.left[number].powi(2);
+                *redundancy += fit.roots[number].powi(2) - fit.leverage_of(number, &columns);
+            }
+        }
+        let [places, orientations] = sums;
+        let times = (orientations.0 / orientations.1 / (places.0 / places.1)).sqrt();
+        if places.1.min(orientations.1) < FEWEST || !(times.is_finite() && times > 0.0) {
+            return;
+        }
+        for row in Arc::make_mut(&mut problem.rows)
+            .iter_mut()
+            .filter(|row| is_guessed(row))
+        {
+            row.sigma_rad *= times;
+        }
+        if (times - 1.0).abs() < AT_REST {
+            return;
+        }
+    }
 }

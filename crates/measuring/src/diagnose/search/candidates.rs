@@ -39,10 +39,11 @@ pub struct Candidate {
     /// First row, from 1, for an effect that begins during the session; the columns hold from row
     /// 1.
     pub row: Option<u32>,
-    /// Parameters that were chosen from a list (a torque, a time constant, a row): they count like
-    /// fitted ones.
+    /// Parameters that were chosen from a list (a torque, a time constant): they count like fitted
+    /// ones.
     pub chosen: usize,
-    /// How many candidates of its kind there are: their choice costs twice the logarithm.
+    /// How many of its kind it was chosen from, places or first rows times the sets of parameters
+    /// that may be sought there: the choice costs twice the logarithm.
     pub peers: usize,
 }
 
@@ -413,8 +414,8 @@ impl Candidates {
         let mut all = Self::default();
         // one effect for each place and chosen value, with every parameter that some variant seeks
         let mut wanted: Vec<(Effect, Vec<usize>)> = Vec::new();
-        let mut groups: Vec<(usize, Vec<usize>, usize)> = Vec::new();
-        let mut peers: Vec<usize> = Vec::new();
+        let mut groups: Vec<(usize, Vec<usize>, usize, usize)> = Vec::new();
+        let mut of_kind: Vec<usize> = Vec::new();
         let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
         let has_time = range(times) > 0.0;
         let track = problem.profile.external.track.len();
@@ -431,7 +432,11 @@ impl Candidates {
             let mut places = 0;
             for site in sites(kind, &tools, &stood) {
                 let mut any = false;
-                for (sought, value) in variants(kind, &site, tried) {
+                let variants = variants(kind, &site, tried);
+                let mut sets: Vec<&[usize]> = variants.iter().map(|(s, _)| s.as_slice()).collect();
+                sets.dedup();
+                let sets = sets.len();
+                for (sought, value) in variants {
                     let mut parameters = [0.0; MOST_PARAMETERS];
                     if let Some((number, value)) = value {
                         parameters[number] = value;
@@ -457,11 +462,11 @@ impl Candidates {
                     }
                     let listed = kind.definition().listed();
                     let is_choice = listed.is_some_and(|(_, list)| list.is_a_choice());
-                    groups.push((at, sought, usize::from(is_choice)));
+                    groups.push((at, sought, usize::from(is_choice), sets));
                 }
                 places += usize::from(any);
             }
-            peers.resize(groups.len(), places);
+            of_kind.resize(groups.len(), places);
         }
         let columns = columns_of(problem, estimate, &wanted);
         let mut first = Vec::new();
@@ -469,7 +474,7 @@ impl Candidates {
             first.push(all.columns.len());
             all.columns.extend(own);
         }
-        for ((at, sought, chosen), peers) in groups.into_iter().zip(peers) {
+        for ((at, sought, chosen, sets), places) in groups.into_iter().zip(of_kind) {
             let (effect, numbers) = &wanted[at];
             let definition = effect.definition();
             let present = estimate.effects.iter().find(|e| e.same_place(effect));
@@ -477,7 +482,8 @@ impl Candidates {
                 let scale = definition.parameters[*number].prior_sigma
                     * definition.parameters[*number].unit.in_si();
                 let now = present.map_or(0.0, |e| e.parameters[*number]);
-                least(problem, effect, *number).map(|low| (low - now) / scale)
+                // where the profile has what no arm has, it may come nearer to what is possible
+                least(problem, effect, *number).map(|low| ((low - now) / scale).min(0.0))
             };
             let place = |n: &usize| numbers.iter().position(|known| known == n);
             let columns = sought.iter().filter_map(place).map(|p| first[at] + p);
@@ -488,8 +494,8 @@ impl Candidates {
                 effect: effect.clone(),
                 sought,
                 row: begins.then_some(1),
-                chosen: chosen + usize::from(begins),
-                peers: if begins { problem.rows.len() } else { peers },
+                chosen,
+                peers: sets * if begins { problem.rows.len() } else { places },
             });
         }
         all

@@ -7,6 +7,7 @@ pub(crate) mod waves;
 
 use self::candidates::{Candidate, Candidates};
 use self::scan::View;
+use crate::diagnose::estimator::chances::occam;
 use crate::diagnose::estimator::fit::{Fit, Normal};
 use crate::diagnose::estimator::gain::Gain;
 use crate::diagnose::estimator::table::{Column, Layout};
@@ -42,8 +43,8 @@ pub struct World<'a> {
     pub used: &'a [bool],
     /// Their normal equations.
     pub normal: Normal<'a>,
-    /// The logarithm of how many numbers are in use.
-    pub ln_numbers: f64,
+    /// How many numbers are in use.
+    pub numbers: f64,
     /// Effects that a person wants, whatever the evidence.
     pub accepted: &'a [Pick],
 }
@@ -116,12 +117,12 @@ pub(crate) fn overlaps(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
 }
 
 impl World<'_> {
-    /// What naming this effect costs with `count` parameters: the information criterion's `k ln n`,
-    /// the choice among its peers and among all kinds, and the odds against a rare one.
-    pub(crate) fn cost(&self, candidate: &Candidate, count: usize) -> f64 {
-        let parameters = (count + candidate.chosen) as f64;
+    /// What naming this effect costs with `count` parameters and this gain: those parameters and
+    /// those chosen from a list, the choice among its peers and among all kinds, and the odds
+    /// against a rare one.
+    pub(crate) fn cost(&self, candidate: &Candidate, gain: f64, count: usize) -> f64 {
         let kinds = of_arm().count() as f64;
-        parameters * self.ln_numbers
+        occam(gain, (count + candidate.chosen) as f64, self.numbers)
             + 2.0 * (candidate.peers as f64).ln()
             + 2.0 * kinds.ln()
             + if candidate.effect.definition().search.rare {

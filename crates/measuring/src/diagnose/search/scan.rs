@@ -219,7 +219,7 @@ impl View {
                 values: vec![gain.values[k]],
                 count: 1,
             },
-            cost: world.cost(&list[own[k]], 1),
+            cost: world.cost(&list[own[k]], part, 1),
         };
         live.into_iter().map(one).collect()
     }
@@ -242,7 +242,7 @@ impl View {
             let of = |row, gain: Gain| Scored {
                 index,
                 row,
-                cost: world.cost(candidate, gain.count),
+                cost: world.cost(candidate, gain.gain, gain.count),
                 gain,
             };
             if let (Some(steps), Some(cross)) = (&self.seen.steps[index], &side.steps[index]) {
