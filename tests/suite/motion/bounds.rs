@@ -1,7 +1,7 @@
 //! What displaces a point is never judged smaller than what the text allows.
 
 use super::displaced::{misses, of_krl, of_rapid, of_urscript, unknown};
-use super::{PLAIN, errors, given, message, profile_of};
+use super::{P, PLAIN, done, errors, given, message, profile_of, rapid};
 use poseshift::compensate::{Compensation, Options, compensate};
 use poseshift::program::{Source, language_of};
 
@@ -248,4 +248,57 @@ fn a_joint_of_a_copy_that_changes_has_no_bound() {
     let done = compensate(language, &[source], &profile, &options).expect("read");
     assert!(message(&done, "displacement-unknown").contains("not bound"));
     assert_eq!(errors(&done), ["displacement-unknown"]);
+}
+
+#[test]
+fn elements_made_of_their_own_list_end_in_a_refusal() {
+    let of = |line: &str| {
+        let text = format!(
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,0,0,0,1.0,0])\n  \
+             l=[p[0.43,0,0.4,0,3.14159,0],p[0.43,0.05,0.4,0,3.14159,0]]\n  i=0\n  movel(l[0])\n  \
+             {line}\n  movel(l[0])\nend\n"
+        );
+        done(&[PLAIN], &[("t.script", &text)])
+    };
+    for line in [
+        "l[0]=pose_add(l[0],p[0,0,-0.1,0,0,0])",
+        "l[0]=pose_add(l[1],p[0,0,-0.1,0,0,0])",
+        "l[i]=pose_add(l[i],p[0,0,-0.1,0,0,0])",
+    ] {
+        let made = of(line);
+        assert!(
+            errors(&made).contains(&"displacement-unknown"),
+            "{line}: {:?}",
+            made.findings
+        );
+    }
+    let over = of("l[0][2]=0.3");
+    assert!(
+        errors(&over).contains(&"target-overwritten"),
+        "{:?}",
+        over.findings
+    );
+}
+
+#[test]
+fn kept_joints_in_another_unit_are_refused_and_such_a_little_beyond_are_reported() {
+    let of = |joint: &str| {
+        let text = rapid(
+            &format!("CONST robtarget p := [[430,0,400],{P};"),
+            &format!(
+                "MoveAbsJ [[{joint},0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+                 p,v100,fine,tool0;"
+            ),
+        );
+        done(&[PLAIN], &[("t.mod", &text)])
+    };
+    // the arm's joint 1 goes to 165 degrees
+    let inside = of("160");
+    assert!(inside.findings.iter().all(|f| f.id != "beyond-limit"));
+    assert_eq!(errors(&inside), [""; 0], "{:?}", inside.findings);
+    let beyond = of("170");
+    assert_eq!(errors(&beyond), [""; 0], "{:?}", beyond.findings);
+    assert!(message(&beyond, "beyond-limit").contains("165.000"));
+    let other_unit = of("9167");
+    assert!(errors(&other_unit).contains(&"joint-limit"));
 }
