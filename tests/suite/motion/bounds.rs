@@ -302,3 +302,25 @@ fn kept_joints_in_another_unit_are_refused_and_such_a_little_beyond_are_reported
     let other_unit = of("9167");
     assert!(errors(&other_unit).contains(&"joint-limit"));
 }
+
+#[test]
+fn joint_moves_of_threads_are_reported_where_moves_to_poses_follow() {
+    let of = |inside: &str| {
+        let text = format!(
+            "def t():\n  set_tcp(p[0,0,0,0,0,0])\n  thread away():\n    {inside}\n  end\n  \
+             movej([0,0,0,0,1.0,0])\n  h=run away()\n  join h\n  \
+             movej(p[0.43,0,0.4,0,3.14159,0])\nend\n"
+        );
+        done(&[PLAIN], &[("t.script", &text)])
+    };
+    let joints = of("movej([0,0,1.0,0,-1.0,0])");
+    let said = message(&joints, "posture-assumed");
+    assert!(said.contains("thread `away`"), "{said}");
+    // on a straight line the arm stays on its branch
+    let straight = of("movel(p[0.43,0,0.45,0,3.14159,0])");
+    assert!(
+        straight.findings.iter().all(|f| f.id != "posture-assumed"),
+        "{:?}",
+        straight.findings
+    );
+}

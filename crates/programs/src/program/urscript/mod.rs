@@ -41,6 +41,7 @@ mod reader;
 mod rotation;
 mod sniff;
 mod syntax;
+mod threads;
 mod tokens;
 mod translate;
 mod uses;

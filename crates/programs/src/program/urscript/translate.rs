@@ -9,6 +9,7 @@ use self::loads::Present;
 use super::common::Common;
 use super::goals::{Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
+use super::threads;
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
@@ -327,6 +328,9 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             in_tool: (!of.thread && !self.called.contains(&function)).then_some(false),
             ..Present::default()
         };
+        if let Some(remark) = threads::moves_joints(self.goals.variables, function) {
+            self.say(of.offset, remark);
+        }
         let calm = self.calm(&of.events);
         let mut dead = Dead::default();
         for (event, calm) in of.events.iter().zip(calm) {
