@@ -324,6 +324,15 @@ fn boards(poses: &[Pose]) -> String {
     text
 }
 
+/// Robot and board of these tests.
+const HANDEYE: [&str; 5] = [
+    "handeye",
+    "robot.csv",
+    "board.csv",
+    "--setup",
+    "eye-in-hand",
+];
+
 #[test]
 fn an_inverted_board_is_one_of_the_readings_that_fit() {
     let folder = scratch();
@@ -332,20 +341,13 @@ fn an_inverted_board_is_one_of_the_readings_that_fit() {
     let board = super::poses("tests/data/register/board.csv");
     write(at, "robot.csv", &boards(&robot));
     write(at, "board.csv", &boards(&board));
-    let words = [
-        "handeye",
-        "robot.csv",
-        "board.csv",
-        "--setup",
-        "eye-in-hand",
-    ];
-    let (status, report, reported) = registered(at, &words);
+    let (status, report, reported) = registered(at, &HANDEYE);
     assert_eq!(status, 0, "{reported}");
     assert!(!has(&report, "scale"), "{report}");
     let camera = ["x_mm", "y_mm", "z_mm"].map(|k| report["camera"][k].as_f64().expect("mm"));
     let inverted: Vec<Pose> = board.iter().map(Pose::inverse).collect();
     write(at, "board.csv", &boards(&inverted));
-    let (status, _, reported) = registered(at, &words);
+    let (status, _, reported) = registered(at, &HANDEYE);
     assert_eq!(status, 2, "{reported}");
     let reading = format!("camera_from_board; {:.0} mm from the flange)", norm(camera));
     for word in [
@@ -372,14 +374,7 @@ fn a_board_of_another_size_is_found() {
         .collect();
     write(at, "robot.csv", &boards(&robot));
     write(at, "board.csv", &boards(&board));
-    let words = [
-        "handeye",
-        "robot.csv",
-        "board.csv",
-        "--setup",
-        "eye-in-hand",
-    ];
-    let (status, report, reported) = registered(at, &words);
+    let (status, report, reported) = registered(at, &HANDEYE);
     assert_eq!(status, 0, "{reported}");
     assert!(has(&report, "scale"), "{report}");
     // 1 / 1.02
@@ -392,13 +387,6 @@ fn positions_in_another_unit_are_refused_with_its_name() {
     let at = folder.path();
     let robot = super::poses("tests/data/register/robot.csv");
     let board = super::poses("tests/data/register/board.csv");
-    let words = [
-        "handeye",
-        "robot.csv",
-        "board.csv",
-        "--setup",
-        "eye-in-hand",
-    ];
     let of = |poses: &[Pose], factor: f64| -> Vec<Pose> {
         let poses = poses.iter().map(|pose| Pose {
             translation: pose.translation.map(|v| v * factor),
@@ -413,7 +401,7 @@ fn positions_in_another_unit_are_refused_with_its_name() {
         ] {
             write(at, "robot.csv", &boards(&of(&robot, factors[0])));
             write(at, "board.csv", &boards(&of(&board, factors[1])));
-            let (status, _, reported) = registered(at, &words);
+            let (status, _, reported) = registered(at, &HANDEYE);
             assert_eq!(status, 2, "{who}, {name}: {reported}");
             let advice = format!("with {who}'s positions times {unit_mm} ({name}) it fits");
             assert!(reported.contains(&advice), "{advice}: {reported}");

@@ -144,47 +144,41 @@ impl Base<'_> {
                     let places = strides::places(steps, self.reach_m, false)?;
                     Some(self.most_m(&mut places.into_iter()))
                 });
-                most.map_or_else(
-                    || self.unbounded(),
-                    |most| {
-                        self.bounded(
-                            most,
-                            &format!(
-                                "a point derived from {} takes its correction along, displaced {}: \
-                                 within reach",
-                                self.name,
-                                strides::in_words(steps),
-                            ),
-                        )
-                    },
-                )
+                self.bounded_by(most, &|name| {
+                    format!(
+                        "a point derived from {name} takes its correction along, displaced {}: \
+                         within reach",
+                        strides::in_words(steps)
+                    )
+                })
             }
             Displacement::AtLeast(steps) => {
                 let most = judged.most_m(displacement, &self.uses, || {
                     let known = strides::places(steps, self.reach_m, true)?.into_iter();
                     Some(self.most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M))))
                 });
-                most.map_or_else(
-                    || self.unbounded(),
-                    |most| {
-                        self.bounded(
-                            most,
-                            &format!(
-                                "a point derived from {} at run time takes its correction along: \
-                                 the numbers of the text alone, with 1 for each factor that only \
-                                 the running program knows, displace it {}, and from there to the \
-                                 target, within reach,",
-                                self.name,
-                                strides::in_words(steps),
-                            ),
-                        )
-                    },
-                )
+                self.bounded_by(most, &|name| {
+                    format!(
+                        "a point derived from {name} at run time takes its correction along: the \
+                         numbers of the text alone, with 1 for each factor that only the running \
+                         program knows, displace it {}, and from there to the target, within \
+                         reach,",
+                        strides::in_words(steps)
+                    )
+                })
             }
             Displacement::Unbounded => self.unbounded(),
             Displacement::Overwritten => self.overwritten(),
             Displacement::By(shift) => self.by(shift),
         })
+    }
+
+    /// The verdict of a largest miss, whose message begins so; `None` where nothing bounds it.
+    fn bounded_by(&self, most_m: Option<f64>, begin: &dyn Fn(&str) -> String) -> Verdict {
+        match most_m {
+            Some(most_m) => self.bounded(most_m, &begin(&self.name)),
+            None => self.unbounded(),
+        }
     }
 
     /// A verdict whose message begins so.

@@ -162,11 +162,10 @@ impl Walker<'_, '_> {
             return as_it_is;
         }
         // a whole rotation less, where that is within the limits
-        let turn = TAU;
         let near = std::array::from_fn(|i| {
             let limits = &mechanism.joints[i];
-            let back = turn * f64::from(u8::from(q[i] > limits.max_rad));
-            let on = turn * f64::from(u8::from(q[i] < limits.min_rad));
+            let back = TAU * f64::from(u8::from(q[i] > limits.max_rad));
+            let on = TAU * f64::from(u8::from(q[i] < limits.min_rad));
             q[i] - back + on
         });
         let any = Configuration::default();
@@ -219,6 +218,9 @@ impl Walker<'_, '_> {
         if !is_impossible && self.walk_options.strict {
             return false;
         }
+        if !self.beyond.insert(target) {
+            return is_impossible;
+        }
         let message = format!(
             "joint {} of {} stands at {:.3} deg; its limits are {:.3} to {:.3} deg",
             joint + 1,
@@ -236,10 +238,8 @@ impl Walker<'_, '_> {
                 are wider: the robot is taken to stand there";
             ("beyond-limit", Severity::Warning, hint)
         };
-        let finding = ground.at_target(id, severity, target, message, hint);
-        if !self.findings.contains(&finding) {
-            self.findings.push(finding);
-        }
+        self.findings
+            .push(ground.at_target(id, severity, target, message, hint));
         is_impossible
     }
 }

@@ -16,7 +16,7 @@ use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap, HashSet};
 
 /// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
@@ -158,6 +158,7 @@ pub(crate) fn walk(
         open: BinaryHeap::new(),
         many: false,
         named: ground.program.named.iter().copied().collect(),
+        beyond: HashSet::new(),
     };
     let behind = Behind::of(ground);
     for at in 0..count {
@@ -230,6 +231,8 @@ pub(super) struct Walker<'a, 'f> {
     many: bool,
     /// Where a move says itself near which joints it comes to a target: its posture there.
     pub(super) named: HashMap<TargetId, [f64; 6]>,
+    /// Targets whose joints have been reported beyond their limits.
+    pub(super) beyond: HashSet<TargetId>,
 }
 
 impl Walker<'_, '_> {
