@@ -35,11 +35,11 @@
 //!
 //! # Limits
 //!
-//! What registers `R[n]` select is unknown: points, and tools and frames but behind the write of a
-//! number. A program that a local condition of a move (TB, TA, DB) calls may not have run yet at the
-//! moves behind it. `PAYLOAD` is not read, several are reported: a tool's load is the profile's.
-//! `LR[n]` and `LPR[n]` are taken for one register of all programs. A translated INC, RTCP, COORD, IF or CALL is known in German only. That moves
-//! other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
+//! Which point a register `R[n]` selects is unknown, and which tool or frame unless the program has
+//! just written its number. A program that a local condition of a move (TB, TA, DB) calls may not
+//! have run yet at the moves behind it. `PAYLOAD` is not read, several are reported: a tool's load
+//! is the profile's. `LR[n]` and `LPR[n]` are taken for one register of all programs. A translated
+//! INC, RTCP, COORD, IF or CALL is known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
 mod config;

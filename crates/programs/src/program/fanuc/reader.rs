@@ -10,7 +10,7 @@ use super::points::{Content, Point, Points, bad_value};
 use super::registers::{Part, Sum};
 use super::sections::Sections;
 use super::statements::{State, is_chosen};
-use super::words::{Named, Register, words};
+use super::words::{Named, Register, is_word, word_length};
 use crate::finding::{Finding, Severity};
 use crate::program::kit::{Fault, not_this_language};
 use crate::program::script::{
@@ -119,13 +119,18 @@ fn starts_others(bytes: &[u8], names: &HashMap<Box<str>, Vec<(RoutineId, bool)>>
     }
     Lines::new(bytes, 0..bytes.len()).any(|line| {
         let text = &bytes[line.text];
-        let mut words = words(text);
-        let is_start = |word: &[u8]| matches!(word, b"RUN" | b"MONITOR");
-        words.any(is_start)
-            && words.next().is_some_and(|name| {
-                let at = name.as_ptr() as usize - text.as_ptr() as usize;
-                is_chosen(&text[at..]) || names.contains_key(&called(name))
-            })
+        let starts = |verb: &[u8], at: usize| {
+            let (before, behind) = (&text[..at], &text[at + verb.len()..]);
+            let ends = [before.last(), behind.first()];
+            let is_alone = !ends.into_iter().flatten().any(|b| is_word(*b));
+            let name = behind.trim_ascii_start();
+            is_alone && (is_chosen(name) || names.contains_key(&called(&name[..word_length(name)])))
+        };
+        let mut verbs = [&b"RUN"[..], b"MONITOR"].into_iter();
+        verbs.any(|verb| {
+            let mut places = memchr::memmem::find_iter(text, verb);
+            places.any(|at| starts(verb, at))
+        })
     })
 }
 
