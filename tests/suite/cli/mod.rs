@@ -4,6 +4,7 @@ mod as_they_come;
 mod compensate;
 mod control;
 mod doubted;
+mod exported;
 mod external;
 mod folders;
 mod fuzzed;

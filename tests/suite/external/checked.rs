@@ -1,8 +1,9 @@
 //! `check` on a rail: its bounds hold against dense samples of the reference, and what the arm only
 //! touches because its base moved is found.
 
-use super::landing::{Said, arm, joints, numbers_of};
+use super::landing::{arm, joints};
 use super::measured::{put, with_tool};
+use super::programs::{Said, numbers_of};
 use super::{rapid, tool};
 use crate::physics::external::{Rail, RailFault, carried};
 use crate::physics::matrix::{M4, V3, dot, frame, sub};

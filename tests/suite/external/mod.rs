@@ -9,6 +9,7 @@ mod measured;
 mod named;
 mod others;
 mod plates;
+mod programs;
 mod refused;
 mod switched;
 

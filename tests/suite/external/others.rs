@@ -1,7 +1,7 @@
 //! What something else carries or moves is refused, each with its reason: conveyors, other robots,
 //! groups without geometry, a seventh joint.
 
-use super::landing::{Said, numbers_of};
+use super::programs::{Said, numbers_of};
 use super::{profile, rapid, run, tool};
 use crate::physics::external::{Rail, carried};
 use crate::physics::matrix::{shift, times, turn_z};
