@@ -4,6 +4,7 @@
 //! Nothing here is the product's but the program that it writes: kinematics are those of
 //! `rs-opw-kinematics`, the real arm is that of `tests/physics`, rotations are nalgebra's.
 
+mod above;
 mod forms;
 
 use crate::physics::{Fault, Moment, Robot, matrix, tool_pose};

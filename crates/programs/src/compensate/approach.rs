@@ -1,5 +1,6 @@
 //! From where the robot comes to each target: with which tool, in which work frame, from where.
 
+use super::led::Led;
 use super::{Job, solve};
 use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Rotation};
@@ -154,6 +155,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     let program = ground.program;
     let mut approaches: Vec<Approach> = Vec::with_capacity(arrivals.all.len());
     let mut derived: Vec<Approach> = Vec::new();
+    let mut led = Led::of(job);
     let mut used = vec![false; program.targets.len()];
     for motion in &program.moves {
         if let Some(target) = motion.target {
@@ -180,12 +182,14 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             honoured: arrival.honoured,
             middle: arrival.middle,
         };
+        led.look(job, &approach);
         if motion.displacement == Displacement::None {
             approaches.push(approach);
         } else {
             derived.push(approach);
         }
     }
+    led.report(job, findings);
     sort(&mut approaches);
     add_derived(job, arrivals, derived, &mut approaches, findings);
     add_unused(job, &used, &mut approaches, findings);

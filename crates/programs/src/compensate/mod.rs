@@ -18,7 +18,7 @@
 //! the wrist's singularity), `shared` one set of numbers for all approaches, `limit` what a
 //! correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new
 //! targets between them, `displaced` says what a correction does to points that the program derives
-//! from a target; `written` puts it all into the files and reads them again. `context` and
+//! from a target, `led` what routines that are not in the files may do to the side from which joints come; `written` puts it all into the files and reads them again. `context` and
 //! `refused` say which files stay.
 //!
 //! # Source
@@ -46,6 +46,7 @@ mod added;
 mod approach;
 mod context;
 mod displaced;
+mod led;
 mod limit;
 mod outcome;
 mod portions;

@@ -11,7 +11,7 @@ use crate::model::effects::Need;
 use crate::motion::follow;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::program::script::short;
-use crate::program::{Motion, Shape};
+use crate::program::{Displacement, Motion, Shape, Shift};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -282,15 +282,52 @@ fn fake_joints(
         let of_target = approaches[first..]
             .iter()
             .take_while(|a| a.target == target);
-        let found = of_target.zip(&outcomes[first..]).find(|(a, _)| {
+        let solved = of_target
+            .zip(&outcomes[first..])
+            .filter_map(|(a, outcome)| {
+                let outcome = outcome.as_ref()?;
+                (outcome.status == Status::Converged).then_some((a, outcome))
+            });
+        if let Displacement::By(shift) = &motion.displacement {
+            let is_of_move = |(a, _): &(&Approach, &Outcome)| {
+                a.tool as usize == motion.tool && a.frame as usize == job.ground.frame_of(motion)
+            };
+            let (approach, outcome) = solved
+                .clone()
+                .find(is_of_move)
+                .or_else(|| solved.clone().next())?;
+            return shifted(job, arrival, shift, approach, outcome);
+        }
+        let mut solved = solved.filter(|_| !arrival.displaced);
+        let found = solved.find(|(a, _)| {
             a.branch == arrival.branch
                 && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
         });
-        let outcome = found?.1.as_ref()?;
-        (outcome.status == Status::Converged && !arrival.displaced).then_some(outcome.q)
+        found.map(|(_, outcome)| outcome.q)
     };
     let of = |arrival: &Arrival| fake(arrival).unwrap_or(arrival.q);
     arrivals.all.iter().map(of).collect()
+}
+
+/// The controller's joints at a point that the program displaces by a known shift from the target
+/// of an approach.
+fn shifted(
+    job: &Job,
+    arrival: &Arrival,
+    shift: &Shift,
+    approach: &Approach,
+    outcome: &Outcome,
+) -> Option<[f64; 6]> {
+    let ground = &job.ground;
+    let motion = &ground.program.moves[arrival.motion as usize];
+    let equipped = ground.equipped(motion.tool)?;
+    let controller = &ground.arm_with(approach.tool as usize).controller;
+    let world_from_tool = controller.forward(&outcome.q, &Conditions::default());
+    let frame = &ground.placed(approach.frame as usize).nominal;
+    let numbers = approach.numbers_for(frame.inverse() * world_from_tool);
+    let there = ground.placed(ground.frame_of(motion)).nominal * shift.apply(&numbers);
+    let (q, is_reached) = equipped.controller_joints(&there, arrival.branch, &arrival.q);
+    is_reached.then_some(q)
 }
 
 /// Where the direction of a joint depends on the correction that depends on it.

@@ -50,6 +50,9 @@ pub(super) struct Reached {
     /// `None` where the instruction's own expression says it whatever was before.
     pub target: Option<Holding>,
     pub before: Before,
+    /// A call between the moves before and this one that may have led the robot elsewhere: index in
+    /// [`Script::calls`].
+    pub led: Option<u32>,
 }
 
 /// With what a move runs, whichever way the program came to it.
@@ -84,6 +87,9 @@ struct State {
     /// By slot of the variables that are tracked.
     holds: Rc<Vec<Holding>>,
     before: Before,
+    /// A call since the move before that may have led the robot elsewhere: index in
+    /// [`Script::calls`].
+    led: Option<u32>,
 }
 
 /// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives

@@ -28,6 +28,7 @@ impl<'a> Flow<'a> {
         State {
             holds: Rc::new(holds),
             before: self.sets.one(before),
+            led: None,
         }
     }
 
@@ -50,6 +51,7 @@ impl<'a> Flow<'a> {
         State {
             holds,
             before: self.sets.union(a.before, b.before),
+            led: a.led.or(b.led),
         }
     }
 
@@ -224,9 +226,12 @@ impl<'a> Flow<'a> {
                 Statement::Write(write) => {
                     self.write(&script.writes[write as usize], at, &mut state);
                 }
-                Statement::Call(call) => {
-                    let call = &script.calls[call as usize];
+                Statement::Call(number) => {
+                    let call = &script.calls[number as usize];
                     self.call(instance, call, at, &mut state);
+                    if call.leads {
+                        state.led = Some(number);
+                    }
                     if !call.callees.is_empty() {
                         self.at_calls.insert((instance, at), state);
                         let before = self.behind_call(instance, at);
@@ -315,6 +320,7 @@ impl<'a> Flow<'a> {
             modes,
             target,
             before: state.before,
+            led: state.led.take(),
         });
         state.before = self.sets.one(stop);
     }

@@ -73,6 +73,11 @@ pub(super) fn resolve(
     resolver.report.finish();
     drop(resolver);
     program.instructions = script.instructions;
+    if !program.led.is_empty() {
+        let calls = script.calls.into_iter();
+        program.calls = calls.map(|call| (call.place, call.name)).collect();
+        program.led.sort_unstable();
+    }
     program.speed_zones = script.modals.iter().map(|modal| modal.speed_zone).collect();
     Ok(program)
 }

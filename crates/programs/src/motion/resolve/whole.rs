@@ -29,6 +29,10 @@ impl Resolver<'_, '_> {
             for motion in &mut self.report.program.moves[first as usize..end as usize] {
                 motion.before = before;
             }
+            if let Some(call) = reached.led {
+                let called = (first..end).map(|motion| (motion, call));
+                self.report.program.led.extend(called);
+            }
         }
     }
 

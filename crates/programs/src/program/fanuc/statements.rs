@@ -299,6 +299,7 @@ impl Reader<'_> {
             place: self.place,
             callees: callees.collect(),
             foreign: true,
+            leads: true,
             name: called(&text[..word_length(text)]),
             arguments: first..short(self.builder.script.arguments.len()),
         });

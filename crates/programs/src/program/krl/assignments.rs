@@ -128,13 +128,9 @@ impl Reader {
         mut cursor: Cursor,
     ) -> Read<()> {
         self.last = None;
-        let axis = part.and_then(|part| {
-            let mut listed = EXTERNAL.iter();
-            listed.find(|name| part.eq_ignore_ascii_case(name.as_bytes()) && self.bit_of(name) != 0)
-        });
-        let how = if let Some(axis) = axis {
+        let how = if let Some(how) = part.and_then(|part| self.axis_written(part)) {
             self.calls_in(cursor);
-            How::Whole(self.unknown(external_written(axis)))
+            how
         } else if let Some(part) = part {
             self.calls_in(cursor);
             self.part_becomes(part, cursor)
@@ -157,6 +153,14 @@ impl Reader {
         };
         self.write_element(owner, at, how);
         Ok(())
+    }
+
+    /// What becomes of a position of which the value of an external axis is written.
+    pub(super) fn axis_written(&mut self, part: &[u8]) -> Option<How> {
+        let mut listed = EXTERNAL.iter();
+        let axis = listed
+            .find(|name| part.eq_ignore_ascii_case(name.as_bytes()) && self.bit_of(name) != 0)?;
+        Some(How::Whole(self.unknown(external_written(axis))))
     }
 
     /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or

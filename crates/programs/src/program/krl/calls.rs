@@ -1,9 +1,9 @@
 //! Calls of routines and functions, and what runs concurrently with the program.
 
-use super::frames::State;
+use super::frames::{State, Table};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{COMPUTED, conveyor};
+use super::remarks::{COMPUTED, FRAME_ASSIGNED, carried, conveyor};
 use super::statements::{action, is_kept};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
@@ -117,6 +117,16 @@ enum Given {
     Named(Symbol, Index),
     /// All of an array: `p[]`.
     Array(Symbol),
+    /// A tool, base, load or mode, or a part of it: `$BASE`, `$LOAD.M`.
+    State(State),
+    /// An entry of a table, or a part of it: `BASE_DATA[1]`, `TOOL_DATA[n].X`.
+    Entry {
+        table: Table,
+        at: Index,
+        is_part: bool,
+    },
+    /// A part of a position: `XP1.Z`.
+    Part(Symbol, Index, Box<[u8]>),
     /// A position that is written out, or a product.
     Position(Expr),
     Number(u32),
@@ -166,12 +176,12 @@ impl Reader {
                     match given {
                         Given::Named(name, at) => self.write_by_controller(name, at),
                         Given::Array(name) => self.write_by_controller(name, Index::Variable),
-                        _ => {}
+                        other => self.lose_given(place, &other),
                     }
                 }
             }
             (callee, _) => {
-                self.emit(place, symbol, callee, arguments, is_statement);
+                self.emit(place, symbol, callee, &arguments, is_statement);
                 let word = capitals(cursor.text(name), &mut buffer);
                 if callee.is_none() && CONVEYORS.iter().any(|begins| word.starts_with(begins)) {
                     let spelled = self.names.symbols.spelling(symbol).to_owned();
@@ -197,28 +207,89 @@ impl Reader {
         }
     }
 
+    /// A tool, base, load, mode or part of a position is written with what the text does not tell.
+    fn lose_given(&mut self, place: Place, given: &Given) {
+        match given {
+            Given::State(state) => {
+                let value = match state {
+                    State::Tool | State::Base => self.unknown(FRAME_ASSIGNED),
+                    State::Load => self.unknown(carried()),
+                    State::Ipo | State::FdatIpo => self.mode_value(None),
+                    State::Orientation | State::LdatOrientation => return,
+                    State::FdatTool | State::FdatBase | State::ActTool | State::ActBase => {
+                        self.number_of(None)
+                    }
+                };
+                self.set(place, *state, value);
+            }
+            Given::Entry { table, at, .. } => {
+                let remark = match table {
+                    Table::Load => carried(),
+                    Table::Tool | Table::Base => FRAME_ASSIGNED,
+                };
+                let how = How::Whole(self.unknown(remark));
+                let variable = self.entry_written(*table, *at);
+                self.builder.write(place, variable, how);
+            }
+            Given::Part(name, at, part) => {
+                let Some(datum) = self.names.datum(*name, self.context()) else {
+                    return;
+                };
+                if self.names.data[datum as usize].kind.is_place() {
+                    let how = match self.axis_written(part) {
+                        Some(how) => how,
+                        None => How::part(false, false, self.builder.script.remark(COMPUTED)),
+                    };
+                    self.write_element(Owner::Datum(datum), *at, how);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether a routine may write what it is given.
+    fn may_write(&self, callee: Option<u32>, parameter: Option<(u32, bool)>) -> bool {
+        match parameter {
+            Some((datum, by_reference)) => {
+                let name = self.names.data[datum as usize].name;
+                by_reference && self.names.touched.contains(&name)
+            }
+            None => callee.is_none(),
+        }
+    }
+
     fn emit(
         &mut self,
         place: Place,
         name: Symbol,
         callee: Option<u32>,
-        given: Vec<Given>,
+        given: &[Given],
         is_statement: bool,
     ) {
         let mut arguments = Vec::with_capacity(given.len());
         let mut gives = false;
         let mut written = Vec::new();
         let mut lost = Vec::new();
-        for (at, given) in given.into_iter().enumerate() {
-            let parameter = callee.and_then(|callee| {
-                let head = &self.names.heads[callee as usize];
-                head.parameters.get(at).copied()
-            });
-            let value = self.value_given(place, &given, parameter, callee.is_none());
+        let parameter = |reader: &Self, at: usize| {
+            let head = &reader.names.heads[callee? as usize];
+            head.parameters.get(at).copied()
+        };
+        // a routine writes it before or behind its moves
+        let changed = |reader: &mut Self| {
+            for (at, given) in given.iter().enumerate() {
+                if reader.may_write(callee, parameter(reader, at)) {
+                    reader.lose_given(place, given);
+                }
+            }
+        };
+        changed(self);
+        for (at, given) in given.iter().enumerate() {
+            let parameter = parameter(self, at);
+            let value = self.value_given(place, given, parameter, callee.is_none());
             let Some((value, kind)) = value else {
                 continue;
             };
-            written.extend(self.array_written(&given, parameter));
+            written.extend(self.array_written(given, parameter));
             let mut is_number = false;
             let is_given = parameter.is_some_and(|(datum, _)| {
                 let datum = &self.names.data[datum as usize];
@@ -256,7 +327,12 @@ impl Reader {
         let arguments = self.builder.script.give(arguments);
         let callees = callee.into_iter().collect();
         let name = self.names.symbols.spelling(name);
-        self.builder.call(Call::of(place, callees, name, arguments));
+        self.builder.call(Call {
+            // functions do not move the robot
+            leads: callee.is_none() && is_statement,
+            ..Call::of(place, callees, name, arguments)
+        });
+        changed(self);
         for variable in lost {
             let value = self.chosen();
             self.put(place, variable, value);
@@ -293,7 +369,15 @@ impl Reader {
                 }
                 return Some((self.number_value(number), Some(DataKind::Number)));
             }
-            Given::Position(_) | Given::Other => return nothing,
+            Given::State(state @ (State::Tool | State::Base)) => {
+                return Some((self.states.expr(state), Some(DataKind::Frame)));
+            }
+            Given::Entry {
+                table: table @ (Table::Tool | Table::Base),
+                at,
+                is_part: false,
+            } => return Some((self.entry_value(table, at), Some(DataKind::Frame))),
+            _ => return nothing,
         };
         let Some(datum) = self.names.datum(name, self.context()) else {
             return nothing;
@@ -356,6 +440,27 @@ impl Reader {
                 let Ok(at) = ahead.brackets() else {
                     return Given::Other;
                 };
+                let mut buffer = [0; 24];
+                let word = capitals(ahead.text(token), &mut buffer);
+                let part = ahead.take(b'.').then(|| ahead.next());
+                if part.is_some() || word.starts_with(b"$") || Table::named(word).is_some() {
+                    if !alone(&mut ahead) {
+                        return Given::Other;
+                    }
+                    let at = Index::of(at, &ahead);
+                    if let Some(state) = State::named(word) {
+                        return Given::State(state);
+                    }
+                    if let Some(table) = Table::named(word) {
+                        let is_part = part.is_some();
+                        return Given::Entry { table, at, is_part };
+                    }
+                    let name = self.symbol(&ahead, token);
+                    let part = part.map(|part| ahead.text(part).to_ascii_uppercase());
+                    return part.map_or(Given::Named(name, at), |part| {
+                        Given::Part(name, at, part.into())
+                    });
+                }
                 if alone(&mut ahead) {
                     let name = self.symbol(&ahead, token);
                     return match at {

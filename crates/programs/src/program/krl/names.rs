@@ -38,6 +38,14 @@ impl Index {
         }
         Self::At(place)
     }
+
+    /// The entry of a table with one index, where the text says which.
+    pub(super) fn first(self) -> Option<u32> {
+        match self {
+            Self::At([entry, 0, 0]) => Some(entry),
+            _ => None,
+        }
+    }
 }
 
 /// A whole number of a table.

@@ -209,6 +209,9 @@ impl Reader {
                 Kind::Name if fresh => {
                     let mut after = cursor;
                     let at = after.brackets().unwrap_or(None);
+                    if after.take(b'.') {
+                        after.next();
+                    }
                     if matches!(after.blanks(), b',' | b')') {
                         let name = self.symbol(&cursor, token);
                         self.note_given_number(name);

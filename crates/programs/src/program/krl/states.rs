@@ -185,14 +185,9 @@ impl Reader {
         let at = cursor.brackets()?;
         let name = self.symbol(cursor, word);
         let is_kept = !self.names.touched.contains(&name);
-        Ok(match Index::of(at, cursor) {
-            Index::At([at, 0, 0])
-                if is_kept && cursor.text(word).eq_ignore_ascii_case(b"BASE_DATA") =>
-            {
-                self.declared.base(at)
-            }
-            _ => None,
-        })
+        let is_base = is_kept && cursor.text(word).eq_ignore_ascii_case(b"BASE_DATA");
+        let entry = Index::of(at, cursor).first().filter(|_| is_base);
+        Ok(entry.and_then(|entry| self.declared.base(entry)))
     }
 
     fn plain_frame(&mut self, table: Table, called: &str, cursor: &mut Cursor) -> Read<Expr> {
@@ -263,10 +258,7 @@ impl Reader {
             let name = cursor.next();
             let at = cursor.brackets()?;
             let is_machine = cursor.text(name).eq_ignore_ascii_case(b"MACHINE_DEF");
-            let index = match Index::of(at, cursor) {
-                Index::At([number, 0, 0]) if is_machine => Some(number),
-                _ => None,
-            };
+            let index = Index::of(at, cursor).first().filter(|_| is_machine);
             let is_part = cursor.take(b'.') && cursor.next().kind == Kind::Name;
             Ok(index.filter(|_| is_part && cursor.take(b',')))
         };
@@ -508,6 +500,19 @@ impl Reader {
             .write(place, variable, How::Parts { first, parts });
     }
 
+    /// What a write of an entry of a table writes.
+    pub(super) fn entry_written(&mut self, table: Table, at: Index) -> Written {
+        match at.first() {
+            Some(entry) => Written::One(self.entry(table, entry)),
+            None => Written::AnyOf(self.states.tables[table as usize]),
+        }
+    }
+
+    /// What an entry of a table holds.
+    pub(super) fn entry_value(&mut self, table: Table, at: Index) -> Expr {
+        self.element(table, at.first().map(Choice::Entry))
+    }
+
     /// `BASE_DATA[2]={...}`, `TOOL_DATA[n].X=...`; the cursor stands behind `=`.
     pub(super) fn write_entry(
         &mut self,
@@ -517,14 +522,8 @@ impl Reader {
         part: Option<&[u8]>,
         cursor: &mut Cursor,
     ) -> Read<()> {
-        let entry = match Index::of(at, cursor) {
-            Index::At([entry, 0, 0]) => Some(entry),
-            _ => None,
-        };
-        let variable = match entry {
-            Some(entry) => Written::One(self.entry(table, entry)),
-            None => Written::AnyOf(self.states.tables[table as usize]),
-        };
+        let at = Index::of(at, cursor);
+        let variable = self.entry_written(table, at);
         if let Some(part) = part {
             if table == Table::Load {
                 let how = How::Whole(self.unknown(carried()));
@@ -534,7 +533,8 @@ impl Reader {
             }
             return Ok(());
         }
-        let name = format!("{}[{}]", table.name(), entry.unwrap_or_default());
+        let entry = at.first().unwrap_or_default();
+        let name = format!("{}[{entry}]", table.name());
         let value = match table {
             Table::Load => self.load_expr(cursor)?,
             _ => match self.frame(table, &name, cursor)? {

@@ -195,6 +195,7 @@ impl Translator<'_> {
             place: self.here,
             callees: callees.routines.clone().into(),
             foreign: callees.foreign,
+            leads: false,
             name,
             arguments,
         });

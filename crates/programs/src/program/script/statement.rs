@@ -287,6 +287,8 @@ pub struct Call {
     /// It may also be one that is not in the files, which then may write what it is given, and
     /// what is shared.
     pub foreign: bool,
+    /// It may leave the robot elsewhere than the text says.
+    pub leads: bool,
     /// What is called, for messages.
     pub name: Box<str>,
     /// In [`super::Script::arguments`].
@@ -305,6 +307,7 @@ impl Call {
         Self {
             place,
             foreign: callees.is_empty(),
+            leads: callees.is_empty(),
             callees,
             name: name.into(),
             arguments,
