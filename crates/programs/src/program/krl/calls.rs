@@ -54,6 +54,14 @@ fn known(word: &[u8]) -> Option<Known> {
         | b"SBASE"
         | b"SLOAD"
         | b"SIPO_MODE"
+        | b"SORI_TYP"
+        | b"SVEL_CP"
+        | b"SVEL_JOINT"
+        | b"SACC_CP"
+        | b"SACC_JOINT"
+        | b"SGEAR_JERK"
+        | b"SAPO"
+        | b"SAPO_PTP"
         | b"VARSTATE"
         | b"SWRITE"
         | b"CWRITE"
@@ -103,6 +111,11 @@ fn known(word: &[u8]) -> Option<Known> {
         }
         _ => return None,
     })
+}
+
+/// Whether a routine of the controller only reads what it is given.
+pub(super) fn only_reads(name: &[u8]) -> bool {
+    matches!(known(capitals(name, &mut [0; 24])), Some(Known::Reads))
 }
 
 /// Whether an index leaves out which element is meant: `[]`, `[,]`, `[2,]`.

@@ -1,6 +1,7 @@
 //! Statements of a routine, one a line.
 
 use super::aggregate::{self, EXTERNAL};
+use super::calls::only_reads;
 use super::frames::Table;
 use super::moves::{With, motion};
 use super::names::Index;
@@ -13,11 +14,6 @@ use crate::program::{ExternalUse, Source, SpeedZone};
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
-}
-
-/// Functions that give the tool of the FDAT, or the orientation of the LDAT, that is their argument.
-fn only_reads(name: &[u8]) -> bool {
-    is_any(name, &[b"STOOL", b"STOOL2", b"SORI_TYP"])
 }
 
 fn is_any(name: &[u8], known: &[&[u8]]) -> bool {
