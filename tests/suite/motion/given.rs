@@ -1,7 +1,10 @@
-//! What routines of KRL write through parameters: tools, bases, loads and parts of positions.
+//! What routines of KRL write through parameters, what calls do to the side from which joints come, and
+//! corrections across half a rotation.
 
 use super::{PLAIN, done, errors};
 use poseshift::compensate::Compensation;
+use poseshift::model::Conditions;
+use poseshift::model::profile::Mounted;
 
 const CONFIG: &str = "DEFDAT $CONFIG\nDECL FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B \
     0,C 0}\nDECL FRAME BASE_DATA[32]\nBASE_DATA[1]={X 100,Y 0,Z 50,A 0,B 0,C 0}\nBASE_DATA[2]={X \
@@ -197,4 +200,51 @@ fn a_routine_that_may_lead_the_robot_elsewhere_makes_directions_uncertain() {
         reported(&[backlash], &[files[0], files[1], ("t.src", &whole)]),
         []
     );
+}
+
+#[test]
+fn a_correction_across_half_a_rotation_from_where_a_joint_stands_is_reported() {
+    // a program without data of rotations: the controller takes the nearest one
+    let wrist = |deg: f64| format!("{{effect: link_geometry, link: 6, theta_deg: {deg}}}");
+    let plain = super::profile(&[PLAIN]);
+    let at = |j6: f64| {
+        let q = [10.0, 20.0, -10.0, 30.0, 60.0, j6].map(f64::to_radians);
+        let controller = plain.controller_model(&Mounted::flange());
+        let pose = controller.forward(&q, &Conditions::default());
+        let numbers = [pose.translation, pose.rotation.vector()].concat();
+        numbers
+            .iter()
+            .map(|x| format!("{x:.7}"))
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    let program = |j6: f64| {
+        format!(
+            "movej([0.1745,0.3491,-0.1745,0.5236,1.0472,-1.5707963])\nmovej(p[{}])\n",
+            at(j6)
+        )
+    };
+    // the first takes joint 6 to 90.05 deg, half a rotation from -90 is 90
+    for (deg, j6, expected) in [(-0.1, 89.95, 1), (0.1, 89.95, 0), (-0.1, 89.0, 0)] {
+        let text = program(j6);
+        let done = done(&[&wrist(deg)], &[("t.script", &text)]);
+        let found: Vec<_> = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "several-postures")
+            .collect();
+        assert_eq!(
+            found.len(),
+            expected,
+            "{deg} {j6} {:?} {:?}",
+            done.findings,
+            done.targets[0].q
+        );
+        for found in found {
+            assert!(
+                found.message.contains("joint 6") && found.message.contains("90.05 deg"),
+                "{found:?}"
+            );
+        }
+    }
 }

@@ -4,21 +4,24 @@
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::motion::follow;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::program::script::short;
-use crate::program::{Displacement, Motion, Shape, Shift};
+use crate::program::{Displacement, Motion, Shape, Shift, Value};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{PI, TAU};
 
 /// Targets solved by one thread at a time.
 const CHUNK: usize = 512;
 /// Times that the directions of arrival are looked at again on the path between fake targets.
 const MOST_ROUNDS: usize = 3;
+/// Corrections move a joint by less than this, radians.
+const NEAR_HALF_RAD: f64 = 0.1;
 
 /// Whether the direction in which joints arrive matters to an effect of the profile.
 pub(super) fn is_directed(job: &Job) -> bool {
@@ -61,6 +64,7 @@ pub(super) fn solve(
     if walk_options.directed {
         tell_unknown(job, arrivals, approaches, findings);
     }
+    other_rotations(job, arrivals, approaches, &outcomes, findings);
     let outcomes = outcomes.into_iter();
     outcomes
         .map(|outcome| outcome.expect("every approach is solved"))
@@ -267,6 +271,67 @@ fn changed_directions(
     approaches.iter().enumerate().filter_map(differs).collect()
 }
 
+/// Reports joint moves on which the correction takes a joint farther than half a rotation from where
+/// it stands, so that a controller that takes the nearest rotation goes the other way round.
+fn other_rotations(
+    job: &Job,
+    arrivals: &Arrivals,
+    approaches: &[Approach],
+    outcomes: &[Option<Outcome>],
+    findings: &mut Vec<Finding>,
+) {
+    let ground = &job.ground;
+    let mut reported = BTreeSet::new();
+    for arrival in &arrivals.all {
+        let motion = &ground.program.moves[arrival.motion as usize];
+        let Some(from) = arrivals.start_of(arrival).filter(|_| arrival.known) else {
+            continue;
+        };
+        let by = |from: &[f64; 6], to: &[f64; 6], i: usize| (to[i] - from[i]).abs();
+        let is_far = |i: &usize| (PI - NEAR_HALF_RAD..PI).contains(&by(&from.q, &arrival.q, *i));
+        if motion.motion != Motion::Joint || !(0..6).any(|i| is_far(&i)) {
+            continue;
+        }
+        let (Some(target), Some(goal)) = (motion.target, ground.goal(motion)) else {
+            continue;
+        };
+        if matches!(goal.value, Value::Joints(_)) || reported.contains(&target) {
+            continue;
+        }
+        let [start, end] =
+            [from, arrival].map(|at| fake_of(job, approaches, outcomes, at).unwrap_or(at.q));
+        let configuration = &goal.configuration;
+        let is_free =
+            |i: &usize| configuration.joints[*i].is_none() && configuration.beyond[*i].is_none();
+        let limits = &ground.profile.mechanism.joints;
+        let other = |i: usize| end[i] - TAU.copysign(end[i] - start[i]);
+        let fits = |i: &usize| (limits[*i].min_rad..=limits[*i].max_rad).contains(&other(*i));
+        let is_beyond = |i: &usize| by(&start, &end, *i) > PI;
+        let Some(joint) = (0..6).find(|i| is_far(i) && is_free(i) && is_beyond(i) && fits(i))
+        else {
+            continue;
+        };
+        reported.insert(target);
+        let message = format!(
+            "the correction takes joint {} farther than half a rotation from where it stands: a \
+             controller that takes the nearest goes from {:.2} deg the other way round to {:.2} deg, \
+             not to {:.2} deg, on its way to {}",
+            joint + 1,
+            start[joint] / DEG,
+            other(joint) / DEG,
+            end[joint] / DEG,
+            ground.name_of(target)
+        );
+        findings.push(ground.at_move(
+            "several-postures",
+            Severity::Warning,
+            motion,
+            message,
+            "see that nothing on the arm is wound up, or go to a target between the two first",
+        ));
+    }
+}
+
 /// The controller's joints at each arrival of the compensated program.
 fn fake_joints(
     job: &Job,
@@ -274,39 +339,48 @@ fn fake_joints(
     approaches: &[Approach],
     outcomes: &[Option<Outcome>],
 ) -> Vec<[f64; 6]> {
-    let moves = &job.ground.program.moves;
-    let fake = |arrival: &Arrival| {
-        let motion = &moves[arrival.motion as usize];
-        let target = short(motion.target?);
-        let first = approaches.partition_point(|approach| approach.target < target);
-        let of_target = approaches[first..]
-            .iter()
-            .take_while(|a| a.target == target);
-        let solved = of_target
-            .zip(&outcomes[first..])
-            .filter_map(|(a, outcome)| {
-                let outcome = outcome.as_ref()?;
-                (outcome.status == Status::Converged).then_some((a, outcome))
-            });
-        if let Displacement::By(shift) = &motion.displacement {
-            let is_of_move = |(a, _): &(&Approach, &Outcome)| {
-                a.tool as usize == motion.tool && a.frame as usize == job.ground.frame_of(motion)
-            };
-            let (approach, outcome) = solved
-                .clone()
-                .find(is_of_move)
-                .or_else(|| solved.clone().next())?;
-            return shifted(job, arrival, shift, approach, outcome);
-        }
-        let mut solved = solved.filter(|_| !arrival.displaced);
-        let found = solved.find(|(a, _)| {
-            a.branch == arrival.branch
-                && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
-        });
-        found.map(|(_, outcome)| outcome.q)
-    };
+    let fake = |arrival: &Arrival| fake_of(job, approaches, outcomes, arrival);
     let of = |arrival: &Arrival| fake(arrival).unwrap_or(arrival.q);
     arrivals.all.iter().map(of).collect()
+}
+
+/// The controller's joints at an arrival of the compensated program; `None` where they are as they
+/// were.
+fn fake_of(
+    job: &Job,
+    approaches: &[Approach],
+    outcomes: &[Option<Outcome>],
+    arrival: &Arrival,
+) -> Option<[f64; 6]> {
+    let moves = &job.ground.program.moves;
+    let motion = &moves[arrival.motion as usize];
+    let target = short(motion.target?);
+    let first = approaches.partition_point(|approach| approach.target < target);
+    let of_target = approaches[first..]
+        .iter()
+        .take_while(|a| a.target == target);
+    let solved = of_target
+        .zip(&outcomes[first..])
+        .filter_map(|(a, outcome)| {
+            let outcome = outcome.as_ref()?;
+            (outcome.status == Status::Converged).then_some((a, outcome))
+        });
+    if let Displacement::By(shift) = &motion.displacement {
+        let is_of_move = |(a, _): &(&Approach, &Outcome)| {
+            a.tool as usize == motion.tool && a.frame as usize == job.ground.frame_of(motion)
+        };
+        let (approach, outcome) = solved
+            .clone()
+            .find(is_of_move)
+            .or_else(|| solved.clone().next())?;
+        return shifted(job, arrival, shift, approach, outcome);
+    }
+    let mut solved = solved.filter(|_| !arrival.displaced);
+    let found = solved.find(|(a, _)| {
+        a.branch == arrival.branch
+            && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
+    });
+    found.map(|(_, outcome)| outcome.q)
 }
 
 /// The controller's joints at a point that the program displaces by a known shift from the target
