@@ -3,11 +3,13 @@
 
 mod arcs;
 mod bounds;
+mod calls;
 mod decided;
 mod displaced;
 mod followed;
 mod jobs;
 mod krl;
+mod listings;
 mod registers;
 mod rows;
 mod straight;
