@@ -257,13 +257,12 @@ fn numbers_of_the_text_are_the_least_that_a_displacement_is() {
 }
 
 /// What is said of a program of another language.
-fn of_language(robot: &str, files: &[(&str, &str)]) -> Compensation {
-    let effect = "{effect: link_geometry, link: 3, theta_deg: 0.1, a_mm: 0.3}";
+pub(super) fn of_language(robot: &str, effects: &[&str], files: &[(&str, &str)]) -> Compensation {
     let sources = files.iter();
     let sources = sources.map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()));
     let sources: Vec<Source> = sources.collect();
     let language = language_of(&sources[0]).expect("a language");
-    compensate(language, &sources, &profile_of(robot, &[effect]), &given()).expect("read")
+    compensate(language, &sources, &profile_of(robot, effects), &given()).expect("read")
 }
 
 /// A program in `URScript` that has moved to `w`, functions before it.
@@ -273,7 +272,11 @@ pub(super) fn of_urscript(functions: &str, body: &str) -> Compensation {
          p[0.43,0.1,0.3,0.0,3.14159,0.0]\n  movej([0,-1.2,1.5,-1.8,-1.5,0])\n  \
          movel(w)\n{body}end\n"
     );
-    of_language("robots/universal_robots_ur5.yaml", &[("t.script", &text)])
+    of_language(
+        "robots/universal_robots_ur5.yaml",
+        &[PLAIN],
+        &[("t.script", &text)],
+    )
 }
 
 /// A KRL program that has moved to `XP`, with data of its list.
@@ -287,7 +290,7 @@ pub(super) fn of_krl(data: &str, body: &str) -> Compensation {
          0}}\nENDDAT\n"
     );
     let files = [("t.src", text.as_str()), ("t.dat", &data)];
-    of_language("robots/kuka_kr6_r900.yaml", &files)
+    of_language("robots/kuka_kr6_r900.yaml", &[PLAIN], &files)
 }
 
 #[test]

@@ -3,12 +3,14 @@
 
 mod arcs;
 mod bounds;
+mod calls;
 mod decided;
 mod displaced;
 mod followed;
 mod given;
 mod jobs;
 mod krl;
+mod listings;
 mod registers;
 mod rows;
 mod straight;

@@ -9,9 +9,9 @@ use poseshift::geometry::{Pose, Rotation};
 use poseshift::program::{Source, language_of};
 
 const ARM: &str = "robots/fanuc_lrmate200ic.yaml";
-const AT: [f64; 6] = [450.0, 60.0, 250.0, 180.0, 0.0, 20.0];
+pub(super) const AT: [f64; 6] = [450.0, 60.0, 250.0, 180.0, 0.0, 20.0];
 
-fn point(number: u32, n: [f64; 6]) -> String {
+pub(super) fn point(number: u32, n: [f64; 6]) -> String {
     let [x, y, z, w, p, r] = n;
     format!(
         "P[{number}]{{\n GP1:\n UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0',\n X = {x:.6} mm, Y = \
@@ -19,7 +19,7 @@ fn point(number: u32, n: [f64; 6]) -> String {
     )
 }
 
-fn listing(name: &str, lines: &str, points: &str) -> String {
+pub(super) fn listing(name: &str, lines: &str, points: &str) -> String {
     let lines = lines.lines().map(|line| format!(" : {line} ;\n"));
     let lines: String = lines.collect();
     format!("/PROG {name}\n/MN\n{lines}/POS\n{points}/END\n")
@@ -31,8 +31,14 @@ fn program(lines: &str) -> String {
 }
 
 fn read(files: &[&str]) -> Compensation {
-    let files = files.iter().zip(["a.ls", "b.ls", "c.ls"]);
-    let sources = files.map(|(text, name)| Source::new(name, text.as_bytes().to_vec()));
+    let names = ["a.ls", "b.ls", "c.ls"].into_iter();
+    let files: Vec<(&str, &str)> = names.zip(files.iter().copied()).collect();
+    read_named(&files)
+}
+
+pub(super) fn read_named(files: &[(&str, &str)]) -> Compensation {
+    let sources = files.iter();
+    let sources = sources.map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()));
     let sources: Vec<Source> = sources.collect();
     let language = language_of(&sources[0]).expect("FANUC");
     compensate(language, &sources, &profile_of(ARM, &[PLAIN]), &given()).expect("read")

@@ -7,6 +7,14 @@ use crate::program::script::{Call, Expr, RoutineId, Statement, VariableId, short
 use std::rc::Rc;
 
 impl Flow<'_> {
+    /// Whether a statement calls routines of the files, of which the running program chooses one.
+    pub(in crate::motion) fn calls_one_of(&self, site: Site) -> bool {
+        match self.script.statements.get(site as usize) {
+            Some(Statement::Call(call)) => !self.script.calls[*call as usize].callees.is_empty(),
+            _ => false,
+        }
+    }
+
     /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
     /// uncertain.
     pub(super) fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {

@@ -100,14 +100,21 @@ impl Resolver<'_, '_> {
                 continue;
             }
             let because = self.flow.place_of(site);
-            self.report.block(
-                target,
-                "frame-chosen-at-run-time",
-                "a routine that is not in the files is called and may set another tool or work \
-                 frame",
-                "give the file with the routine too, or set both behind the call",
-                because,
-            );
+            let (wrong, hint) = if self.flow.calls_one_of(site) {
+                (
+                    "which routine is called is known only while the program runs, and some may \
+                     set another tool or work frame",
+                    "call the routine by its name, or set both behind the call",
+                )
+            } else {
+                (
+                    "a routine that is not in the files is called and may set another tool or work \
+                     frame",
+                    "give the file with the routine too, or set both behind the call",
+                )
+            };
+            self.report
+                .block(target, "frame-chosen-at-run-time", wrong, hint, because);
         }
     }
 

@@ -60,8 +60,13 @@ pub(super) struct All {
 }
 
 impl All {
+    fn disagree(&self) -> bool {
+        let mut all = self.tools.values().chain(self.frames.values());
+        all.any(|shown| shown.other.is_some())
+    }
+
     /// Takes in those of a file.
-    pub(super) fn add(&mut self, found: Frames, file: &str) {
+    fn add(&mut self, found: Frames, file: &str) {
         let rounded = found.rounded;
         for (all, more) in [
             (&mut self.tools, found.tools),
@@ -81,6 +86,45 @@ impl All {
             }
         }
     }
+}
+
+/// The folder of a file.
+fn folder(name: &str) -> &str {
+    name.rfind(['/', '\\']).map_or("", |end| &name[..=end])
+}
+
+/// Each controller with one of its files, what they show, and its programs. Where files
+/// disagree a program belongs to the nearest folder around it that has some, if each folder has
+/// programs and each program a folder; else all are of one.
+pub(super) fn controllers<'s, P>(
+    shown: Vec<(&'s str, Frames)>,
+    programs: Vec<P>,
+    name_of: impl Fn(&P) -> &'s str,
+) -> Vec<(&'s str, All, Vec<P>)> {
+    let mut one = All::default();
+    let mut by_folder: BTreeMap<&str, (&str, All, Vec<P>)> = BTreeMap::new();
+    for (name, frames) in shown {
+        one.add(frames.clone(), name);
+        let new = || (name, All::default(), Vec::new());
+        let (_, all, _) = by_folder.entry(folder(name)).or_insert_with(new);
+        all.add(frames, name);
+    }
+    let nearest = |program: &P| {
+        let folders = by_folder.keys().copied();
+        let around = folders.filter(|folder| name_of(program).starts_with(folder));
+        around.max_by_key(|folder| folder.len())
+    };
+    let homes: Vec<Option<&str>> = programs.iter().map(nearest).collect();
+    let is_clear = homes.iter().all(Option::is_some)
+        && by_folder.keys().all(|folder| homes.contains(&Some(folder)));
+    if !is_clear || !one.disagree() {
+        return vec![("", one, programs)];
+    }
+    for (home, program) in homes.into_iter().zip(programs) {
+        let of = home.and_then(|home| by_folder.get_mut(home));
+        of.expect("the folder is one of them").2.push(program);
+    }
+    by_folder.into_values().collect()
 }
 
 /// Farther apart than this are no two readings of one text.

@@ -19,7 +19,7 @@ use crate::program::script::{
 use crate::program::{
     External, ExternalNames, ExternalUse, Layout, ReadError, Shape, Source, Target, TargetId,
 };
-use foldhash::{HashMap, HashMapExt};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -72,7 +72,7 @@ pub(super) struct Taught {
 /// Reads programs into one script.
 pub(super) struct Reader<'a> {
     pub builder: Builder,
-    sources: &'a [Source],
+    pub sources: &'a [Source],
     /// The present program, its file, where it is while it is read, and the present instruction.
     pub listing: Listing,
     pub bytes: &'a [u8],
@@ -107,6 +107,8 @@ pub(super) struct Reader<'a> {
     pub payloads: BTreeSet<Option<u32>>,
     /// That they are several is reported.
     pub reported_payload: bool,
+    /// Names of several programs that are reported.
+    pub reported_names: HashSet<Box<str>>,
     /// Points that programs write.
     pub written_points: BTreeSet<TargetId>,
 }
@@ -149,7 +151,7 @@ fn gets_elements(bytes: &[u8]) -> bool {
 /// The statements of all files.
 pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
-    let (mut values, mut listings) = (frames::All::default(), Vec::new());
+    let (mut shown, mut listings) = (Vec::new(), Vec::new());
     for (file, source) in sources.iter().enumerate() {
         if let Some(sections) = Sections::of(&source.bytes) {
             let listing = listing(&mut builder, source, short(file), &sections, names);
@@ -160,12 +162,51 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
             if found.rounded {
                 builder.script.findings.push(frames_rounded(source));
             }
-            values.add(found, &source.name);
+            shown.push((&*source.name, found));
         } else {
             return Err(not_this_language(&ABOUT, source));
         }
     }
     builder.script.is_closed = true;
+    let name_of = |listing: &Listing| &*sources[listing.file as usize].name;
+    let controllers = frames::controllers(shown, listings, name_of);
+    let shown: Vec<&str> = controllers.iter().map(|(file, ..)| *file).collect();
+    if let [first, more @ ..] = &shown[..]
+        && !more.is_empty()
+    {
+        let finding = several_controllers(first, more);
+        builder.script.findings.push(finding);
+    }
+    for (_, values, listings) in controllers {
+        builder = of_controller(builder, sources, values, listings);
+    }
+    Ok(builder.finish())
+}
+
+fn several_controllers(first: &str, more: &[&str]) -> Finding {
+    Finding {
+        id: "several-controllers",
+        severity: Severity::Warning,
+        file: first.into(),
+        line: 0,
+        column: 0,
+        message: format!(
+            "{first} and {} show other tools or frames: each program has those of its folder, and \
+             all are corrected for the one arm of the profile",
+            more.join(", ")
+        ),
+        hint: "programs of another arm need its own profile: give the folders one by one".into(),
+        accepted: false,
+    }
+}
+
+/// Adds the programs of one controller.
+fn of_controller(
+    mut builder: Builder,
+    sources: &[Source],
+    values: frames::All,
+    listings: Vec<Listing>,
+) -> Builder {
     let controller = Controller::new(&mut builder.script, values);
     let mut by_name: HashMap<Box<str>, Vec<(RoutineId, bool)>> = HashMap::new();
     for listing in &listings {
@@ -198,6 +239,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         parts: Vec::new(),
         payloads: BTreeSet::new(),
         reported_payload: false,
+        reported_names: HashSet::new(),
         written_points: BTreeSet::new(),
     };
     reader.known.is_concurrent = listings.iter().any(|listing| {
@@ -207,7 +249,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
     for listing in listings {
         reader.listing(listing);
     }
-    Ok(reader.finish())
+    reader.finish()
 }
 
 fn frames_rounded(source: &Source) -> Finding {
@@ -448,7 +490,7 @@ impl Reader<'_> {
     }
 
     /// What depends on all programs: what registers hold.
-    fn finish(mut self) -> Script {
+    fn finish(mut self) -> Builder {
         for (place, register) in std::mem::take(&mut self.copies) {
             if !self.reads_any && !self.read.contains(&register) {
                 let message = "a point is copied into a register here, which nothing in the files \
@@ -475,6 +517,6 @@ impl Reader<'_> {
                 self.builder.script.instructions[instruction].target = any;
             }
         }
-        self.builder.finish()
+        self.builder
     }
 }

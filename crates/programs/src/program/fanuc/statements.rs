@@ -228,6 +228,20 @@ impl Reader<'_> {
         let given = given.strip_prefix(b"(").unwrap_or_default();
         let given = given.strip_suffix(b")").unwrap_or(given);
         let callees = self.callees(text);
+        if callees.len() > 1 && !is_chosen(text) && self.reported_names.insert(name.clone()) {
+            let files = callees.iter().map(|(routine, _)| {
+                let file = self.builder.script.routines[*routine as usize].place.file;
+                &*self.sources[file as usize].name
+            });
+            let files: Vec<&str> = files.collect();
+            let message = format!(
+                "{} are programs {name}: either may run here",
+                files.join(" and ")
+            );
+            let hint = "give the programs of one controller, and of its backups one";
+            let remark = Remark::warning_about("program-name-ambiguous", message, hint);
+            self.say(self.place, remark);
+        }
         let first = short(self.builder.script.arguments.len());
         let is_one = callees.len() == 1 && !is_chosen(text);
         for (routine, _) in &callees {

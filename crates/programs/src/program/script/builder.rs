@@ -214,11 +214,17 @@ impl Builder {
             self.put(before);
         }
         if !is_last {
-            let following = self.new_label();
-            self.branch(following);
-            if let Some(Block::Choice { next, .. }) = self.open.last_mut() {
-                *next = Some(following);
-            }
+            self.pass_branch();
+        }
+    }
+
+    /// What follows in the last branch may be passed over, unlike what stands before in it: the
+    /// calls of its condition.
+    pub fn pass_branch(&mut self) {
+        let following = self.new_label();
+        self.branch(following);
+        if let Some(Block::Choice { next, .. }) = self.open.last_mut() {
+            *next = Some(following);
         }
     }
 

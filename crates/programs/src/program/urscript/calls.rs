@@ -41,6 +41,7 @@ impl<'a> Reader<'a> {
 
     fn arguments_of(&mut self, open: Token) -> Read<Vec<Argument<'a>>> {
         let mut arguments = Vec::new();
+        let may_pass = self.may_pass;
         loop {
             let mut first = self.scanner.peek();
             match first.kind {
@@ -73,6 +74,7 @@ impl<'a> Reader<'a> {
                 match token.kind {
                     Kind::Sign(sign @ (b',' | b')')) => {
                         let text = &self.scanner.bytes[first.start..token.start.max(first.start)];
+                        self.may_pass = may_pass;
                         arguments.push(Argument {
                             name,
                             value,

@@ -19,6 +19,7 @@ pub(super) struct Common {
     pub frame_computed: RemarkId,
     pub frame_changes: RemarkId,
     pub somewhere: RemarkId,
+    own_load: ValueId,
     frames: HashMap<(String, [u64; 7]), ValueId>,
 }
 
@@ -66,6 +67,7 @@ impl Common {
             frame_computed,
             frame_changes,
             somewhere,
+            own_load: script.value(Held::Flag(false)),
             frames: HashMap::new(),
         }
     }
@@ -73,6 +75,11 @@ impl Common {
     /// What the parameters of a function hold that nothing in the file calls.
     pub(super) fn given_outside(&self) -> script::Expr {
         script::Expr::Unknown(self.not_called)
+    }
+
+    /// The load before a file sets one: that of the tool, if any.
+    pub(super) fn own_load(&self) -> script::Expr {
+        script::Expr::Value(self.own_load)
     }
 
     /// A tool or feature, the same for the same name and pose.
@@ -102,4 +109,28 @@ fn bits(pose: &Pose) -> [u64; 7] {
     let [a, b, c] = pose.translation;
     // -0 is 0
     [a, b, c, w, x, y, z].map(|number| (number + 0.0).to_bits())
+}
+
+/// What speaks against moves: streams, arcs with which the tool rotates, joints that are computed
+/// from unknown ones.
+pub(super) fn refusals() -> [Remark; 3] {
+    [
+        Remark::error(
+            "streamed-motion",
+            "servoing to poses is not compensated",
+            "use movel or movej, or servoj with joints",
+        ),
+        Remark::error(
+            "move-not-supported",
+            "the tool rotates with the arc (movec with another mode than 0) and does not \
+                 arrive in the orientation of pose_to",
+            "write mode=0, or the arc as movel or movep through points on it",
+        ),
+        Remark::error(
+            "inverse-start-unknown",
+            "only the running program knows the joints that the inverse starts from, or they \
+                 are not the same each time: which posture the robot comes in is not known",
+            "write qnear with numbers, or as a variable that is assigned once",
+        ),
+    ]
 }

@@ -152,7 +152,7 @@ impl Variables<'_, '_> {
             let names = &parsed.composed[coordinate.start as usize..coordinate.end as usize];
             let open = names.iter().filter_map(|name| {
                 let variable = self.meaning(*name, function);
-                variable.or_else(|| self.result_named(*name))
+                variable.or_else(|| self.result_named(*name, function))
             });
             self.are_own_numbers(open.collect())
         };

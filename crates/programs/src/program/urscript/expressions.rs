@@ -40,6 +40,10 @@ impl Reader<'_> {
     /// One token of an expression; a call with its arguments, a bracket with what is in it.
     pub(super) fn part(&mut self, token: Token) -> Read<()> {
         match token.kind {
+            Kind::Word if verbs::may_pass(self.text(token)) => {
+                self.may_pass = true;
+                Ok(())
+            }
             Kind::Word if self.scanner.peek().is(b'(') && !verbs::is_operator(self.text(token)) => {
                 self.call(token).map(|_| ())
             }
@@ -60,6 +64,7 @@ impl Reader<'_> {
         let mut waiting: Vec<(u8, usize)> = vec![(closing(open.kind), open.start)];
         let mut elements = 1;
         let mut piece = Piece::Nothing;
+        let may_pass = self.may_pass;
         loop {
             let token = self.next()?;
             let outside = waiting.len() == 1;
@@ -72,6 +77,7 @@ impl Reader<'_> {
                         return Err(self.unexpected(token, expected));
                     }
                     if waiting.is_empty() {
+                        self.may_pass = may_pass;
                         if let Some(values) = &mut values {
                             values.push(piece.take());
                         }
@@ -80,6 +86,7 @@ impl Reader<'_> {
                     continue;
                 }
                 Kind::Sign(b',') if outside => {
+                    self.may_pass = may_pass;
                     elements += 1;
                     if let Some(values) = &mut values {
                         values.push(piece.take());
@@ -99,6 +106,7 @@ impl Reader<'_> {
                 Kind::Word => {
                     let text = self.text(token);
                     let next = self.scanner.peek();
+                    self.may_pass |= verbs::may_pass(text);
                     if next.is(b'(') && !verbs::is_operator(text) {
                         match verbs::verb(text) {
                             Verb::Known => {}

@@ -455,10 +455,7 @@ impl Goals<'_, '_, '_> {
 
     /// Six joint angles that the text tells, radians.
     pub(super) fn joints(&self, value: ExprId, function: FunctionId) -> Option<[f64; 6]> {
-        let (Expr::Literal(id), _) = self.variables.follow(value, function) else {
-            return None;
-        };
-        let literal = self.parsed.literal(id);
+        let literal = self.parsed.literal(self.variables.joints(value, function)?);
         let values = self.parsed.values(literal).filter(|_| !literal.pose)?;
         let unit = if literal.content == Content::Degrees {
             DEG

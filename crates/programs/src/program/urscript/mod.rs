@@ -22,7 +22,7 @@
 //!
 //! # Limits
 //!
-//! Each file stands for itself. The pendant opens .urp, not .script: a compensated script is sent
+//! A file stands for itself, or with those that have the functions that it calls. The pendant opens .urp, not .script: a compensated script is sent
 //! or run as a script. A literal that is given to a function outside the file alone is no target:
 //! nothing tells whether it moves there. A variable that moves go to is, and is refused
 //! (`target-passed-to-routine`), unless the function is one of the language or of a server
@@ -34,6 +34,7 @@ mod common;
 mod composed;
 mod drive;
 mod expressions;
+mod files;
 mod goals;
 mod literals;
 mod numbers;
@@ -51,13 +52,14 @@ mod verbs;
 use super::insert::Manner;
 use super::kit::not_this_language;
 use super::notation;
-use super::script::{Builder, Script, short};
+use super::script::{Builder, Script};
 use super::{
     About, Inserted, Insertions, Language, Layout, Marker, ReadError, Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use common::Common;
+use files::Text;
 use reader::Reader;
 use translate::translate;
 
@@ -165,22 +167,27 @@ fn in_degrees(layout: Layout) -> bool {
     layout.variant == 1
 }
 
-/// Each file stands for itself.
+/// Each file, or several together where their functions call each other.
 fn script(sources: &[Source]) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
     let mut common = Common::new(&mut builder.script);
-    for (file, source) in sources.iter().enumerate() {
+    let mut alone = Vec::with_capacity(sources.len());
+    for source in sources {
         let reader = Reader::new(source).read()?;
         if !reader.recognised {
             return Err(not_this_language(&ABOUT, source));
         }
-        translate(
-            &mut builder,
-            &mut common,
-            source,
-            short(file),
-            reader.parsed,
-        );
+        alone.push(reader.parsed);
+    }
+    for together in files::together(&alone) {
+        if let [file] = together[..] {
+            let parsed = std::mem::take(&mut alone[file]);
+            translate(&mut builder, &mut common, &Text::of(sources, file), parsed);
+        } else {
+            let (text, joined) = Text::joined(sources, &together);
+            let reader = Reader::new(&joined).of_files(text.starts()).read()?;
+            translate(&mut builder, &mut common, &text, reader.parsed);
+        }
     }
     Ok(builder.finish())
 }

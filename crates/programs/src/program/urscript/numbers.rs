@@ -315,7 +315,7 @@ impl Variables<'_, '_> {
             [b'(', ..] if makes_position(name) => Some(Quantity::endless()),
             [b'(', ..] => {
                 let name = self.parsed.known_symbol(name);
-                let own = name.map_or(&[][..], |name| self.functions_of(name));
+                let own = name.map_or(&[][..], |name| self.functions_of(name, function));
                 let all: Vec<_> = own.iter().map(|at| of(RESULT | at)).collect();
                 // of the robot, or of files that are not here
                 Some(Quantity::any(&all))

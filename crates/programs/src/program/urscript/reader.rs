@@ -42,6 +42,10 @@ pub(super) struct Reader<'a> {
     blocks: Vec<Block>,
     /// Calls around the one that is being read.
     pub(super) depth: u32,
+    /// It stands behind `and` or `or`: whether it is called, what stands before them decides.
+    pub(super) may_pass: bool,
+    /// Where the next file of the text begins.
+    files: std::iter::Peekable<std::vec::IntoIter<u32>>,
     /// The file has a function, a move or another word of the language.
     pub recognised: bool,
 }
@@ -61,18 +65,40 @@ impl<'a> Reader<'a> {
             function: 0,
             blocks: Vec::new(),
             depth: 0,
+            may_pass: false,
+            files: Vec::new().into_iter().peekable(),
             recognised: false,
         }
     }
 
-    /// Reads the whole file.
+    /// Where the files of a text of several begin: of each the text outside functions is one.
+    pub(super) fn of_files(mut self, starts: impl Iterator<Item = u32>) -> Self {
+        self.files = starts.collect::<Vec<u32>>().into_iter().peekable();
+        self
+    }
+
+    /// The text outside functions of a file that begins before a byte.
+    fn begin_files(&mut self, at: usize) {
+        while let Some(offset) = self.files.next_if(|start| *start as usize <= at) {
+            self.function = short(self.parsed.functions.len());
+            self.parsed.functions.push(Function {
+                offset,
+                unit: self.function,
+                ..Function::default()
+            });
+        }
+    }
+
+    /// Reads the whole text.
     ///
     /// # Errors
     /// Where a block, bracket or text is not closed, or something else stands where the language
     /// wants one thing.
     pub(super) fn read(mut self) -> Read<Self> {
         loop {
+            self.may_pass = false;
             let token = self.next()?;
+            self.begin_files(token.start);
             match token.kind {
                 Kind::End => break,
                 Kind::Line => {}
@@ -109,9 +135,12 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn event(&mut self, event: Event) {
-        self.parsed.functions[self.function as usize]
-            .events
-            .push(event);
+        let events = &mut self.parsed.functions[self.function as usize].events;
+        if self.may_pass && event.is_of_call() {
+            events.extend([Event::If, event, Event::EndIf]);
+        } else {
+            events.push(event);
+        }
     }
 
     /// A statement by its first word.
@@ -131,8 +160,10 @@ impl<'a> Reader<'a> {
             }
             b"elif" => {
                 self.branch(first)?;
-                self.event(Event::Branch { is_last: false });
-                self.header()
+                self.event(Event::Branch { is_last: true });
+                self.header()?;
+                self.event(Event::ElseIf);
+                Ok(())
             }
             b"else" => {
                 self.branch(first)?;
@@ -281,6 +312,7 @@ impl<'a> Reader<'a> {
             name: Some(symbol),
             offset: short(first.start),
             parent: self.function,
+            unit: self.parsed.functions[self.function as usize].unit,
             thread,
             parameters,
             events: Vec::new(),

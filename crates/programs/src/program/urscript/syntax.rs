@@ -14,7 +14,8 @@ pub(super) struct Symbol(pub u32);
 pub(super) type ExprId = u32;
 /// Index in [`Parsed::literals`].
 pub(super) type LiteralId = u32;
-/// Index in [`Parsed::functions`]; 0 is the text outside functions.
+/// Index in [`Parsed::functions`]; 0 is the text outside functions. Of several files that is empty,
+/// and each has one of its own.
 pub(super) type FunctionId = u32;
 
 /// The value of everything that is not looked into.
@@ -186,10 +187,12 @@ pub(super) enum Event {
     Never,
     /// `switch`: nothing runs before its first branch.
     Switch,
-    /// `elif`, `case`; the last one is `else` or `default`.
+    /// `elif`, `case`; the last one is `else` or `default`, and `elif` before its condition.
     Branch {
         is_last: bool,
     },
+    /// The condition of `elif`, which is not always true.
+    ElseIf,
     EndIf,
     /// `while`, before its condition.
     Loop,
@@ -207,6 +210,14 @@ pub(super) enum Event {
 }
 
 impl Event {
+    /// Whether it is what a call does, wherever in an expression that stands.
+    pub(super) fn is_of_call(&self) -> bool {
+        matches!(
+            self,
+            Self::Tool(..) | Self::Load(..) | Self::Tracking(..) | Self::Call(_) | Self::Step(_)
+        )
+    }
+
     /// Whether the program comes to what follows from elsewhere too.
     pub(super) fn is_crossing(&self) -> bool {
         matches!(
@@ -227,6 +238,8 @@ pub(super) struct Function {
     pub name: Option<Symbol>,
     pub offset: u32,
     pub parent: FunctionId,
+    /// The text outside functions of its file.
+    pub unit: FunctionId,
     pub thread: bool,
     /// With the value where a call gives none.
     pub parameters: Vec<(Symbol, Option<ExprId>)>,

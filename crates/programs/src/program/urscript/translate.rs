@@ -1,4 +1,4 @@
-//! The statements of one file.
+//! The statements of one text.
 
 mod dead;
 mod loads;
@@ -6,7 +6,8 @@ mod parts;
 
 use self::dead::Dead;
 use self::loads::Present;
-use super::common::Common;
+use super::common::{self, Common};
+use super::files::Text;
 use super::goals::{Facets, Goals};
 use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::threads;
@@ -15,19 +16,19 @@ use crate::program::script::{
     self, Argument, Builder, Call, Held, How, Instruction, Modal, Place, Remark, RoutineId, Start,
     Variable, VariableId, Written, short,
 };
-use crate::program::{Layout, Shape, Source, Target, TargetId, kit};
+use crate::program::{Layout, Shape, Target, TargetId, kit};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
-/// Adds the statements of a file.
+/// Adds the statements of a text.
 pub(super) fn translate(
     builder: &mut Builder,
     common: &mut Common,
-    source: &Source,
-    file: u32,
+    text: &Text,
     mut parsed: Parsed,
 ) {
+    text.put(&mut parsed.numbers);
     let variables = Variables::new(&parsed);
-    let mut translator = Translator::new(builder, common, source, file, &variables);
+    let mut translator = Translator::new(builder, common, text, &variables);
     translator.list_targets();
     translator.declare_variables();
     for function in 0..short(parsed.functions.len()) {
@@ -40,8 +41,7 @@ pub(super) fn translate(
 
 struct Translator<'m, 'n, 'a> {
     goals: Goals<'m, 'n, 'a>,
-    source: &'m Source,
-    file: u32,
+    text: &'m Text<'m>,
     tcp: VariableId,
     load: VariableId,
     /// What is to be said of the load.
@@ -49,8 +49,9 @@ struct Translator<'m, 'n, 'a> {
     unknown_load: script::Expr,
     /// Whether moves go along a frame that moves.
     tracking: VariableId,
-    /// Sets of guards: for moves, for streams, for arcs with which the tool rotates.
-    guards: [u32; 3],
+    /// Sets of guards: for moves, for streams, for arcs with which the tool rotates, for moves to
+    /// joints that are computed from unknown ones.
+    guards: [u32; 4],
     first_routine: RoutineId,
     loads: HashMap<[u64; 4], script::ValueId>,
     present: Present,
@@ -65,25 +66,21 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     fn new(
         builder: &'m mut Builder,
         common: &'m mut Common,
-        source: &'m Source,
-        file: u32,
+        text: &'m Text<'m>,
         variables: &'m Variables<'n, 'a>,
     ) -> Self {
         let parsed = variables.parsed;
-        let place = Place::new(file, 0);
+        let place = text.place(0);
         let first_routine = short(builder.script.routines.len());
-        for (at, function) in parsed.functions.iter().enumerate() {
-            let name = function
-                .name
-                .map(|name| parsed.spelling(name))
-                .unwrap_or_default();
-            let start = match (at, function.thread) {
-                (0, _) => Start::Main,
+        for function in &parsed.functions {
+            let start = match (function.name, function.thread) {
+                (None, _) => Start::Main,
                 (_, true) => Start::Concurrent,
                 (_, false) => Start::Called,
             };
-            let offset = function.offset;
-            builder.declare(name, Place::new(file, offset), start);
+            let name = function.name.map(|name| parsed.spelling(name));
+            let place = text.place(function.offset);
+            builder.declare(name.unwrap_or_default(), place, start);
         }
         let script = &mut builder.script;
         let unknown = common.no_tool(script);
@@ -94,30 +91,17 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             })
         };
         let tcp = variable("tcp", unknown, true);
-        let load = variable("load", script::Expr::Absent, true);
+        let load = variable("load", common.own_load(), true);
         let tracking = variable("tracking", script::Expr::Absent, false);
-        let streamed = Held::Remark(script.remark(Remark::error(
-            "streamed-motion",
-            "servoing to poses is not compensated",
-            "use movel or movej, or servoj with joints",
-        )));
-        let declared = script.held(streamed);
-        let stream = script.variable(Variable::new("stream", place, declared));
-        let rotated = Held::Remark(script.remark(Remark::error(
-            "move-not-supported",
-            "the tool rotates with the arc (movec with another mode than 0) and does not arrive in \
-             the orientation of pose_to",
-            "write mode=0, or the arc as movel or movep through points on it",
-        )));
-        let declared = script.held(rotated);
-        let rotated = script.variable(Variable::new("arc", place, declared));
         let load_remark = script.variable(Variable::new("load", place, script::Expr::Absent));
-        let guards = [
-            vec![tracking, load_remark],
-            vec![tracking, load_remark, stream],
-            vec![tracking, load_remark, rotated],
-        ]
-        .map(|of| script.guard(of));
+        let [stream, rotated, lost] = common::refusals().map(|remark| {
+            let held = Held::Remark(script.remark(remark));
+            let declared = script.held(held);
+            let variable = Variable::new("guard", place, declared);
+            vec![tracking, load_remark, script.variable(variable)]
+        });
+        let guards =
+            [vec![tracking, load_remark], stream, rotated, lost].map(|of| script.guard(of));
         let unknown_load = script.unknown(kit::load_chosen(
             "load-chosen-at-run-time",
             "write mass and centre of gravity with numbers: set_payload(1.5, [0, 0, 0.05])",
@@ -139,8 +123,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 lost_start: false,
                 offsets: Vec::new(),
             },
-            source,
-            file,
+            text,
             tcp,
             load,
             load_remark,
@@ -160,7 +143,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     }
 
     fn at(&self, offset: u32) -> Place {
-        Place::new(self.file, offset)
+        self.text.place(offset)
     }
 
     // ---- targets and variables
@@ -194,7 +177,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         for id in literals {
             let literal = parsed.literal(id);
             let is_known = literal.content != Content::Expressions;
-            let place = self.at(literal.offset);
+            let (place, end) = (self.at(literal.offset), self.at(literal.end).offset);
             let layout = Layout {
                 shape: if literal.pose {
                     Shape::Pose
@@ -208,7 +191,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 name: names.get(&id).map(|name| parsed.spelling(*name).into()),
                 numbers: first + literal.numbers.start..first + literal.numbers.end,
                 blocked: !is_known,
-                ..Target::new(place, literal.end, layout)
+                ..Target::new(place, end, layout)
             });
             let target = targets.len() - 1;
             self.goals.targets[id as usize] = Some(target);
@@ -243,21 +226,27 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             Shape::Pose => Remark::error_about,
             Shape::Joints => Remark::warning_about,
         };
-        let see = if because == found.offset {
+        let because = self.text.place(because);
+        let see = if because == found.place() {
             String::new()
         } else {
-            let (line, _) = self.source.line_column(because as usize);
+            let source = &self.text.sources[because.file as usize];
+            let (line, _) = source.line_column(because.offset as usize);
             format!(" (see line {line})")
         };
         let name = found.name.as_ref().map(|name| format!("`{name}`: "));
         let message = format!("{}{wrong}{see}", name.unwrap_or_default());
-        let offset = found.offset;
-        self.say(offset, remark(id, message, hint));
+        let place = found.place();
+        self.say_at(place, remark(id, message, hint));
     }
 
     fn say(&mut self, offset: u32, remark: Remark) {
-        let finding = remark.found_in(self.source, offset);
-        self.goals.builder.script.findings.push(finding);
+        self.say_at(self.at(offset), remark);
+    }
+
+    fn say_at(&mut self, place: Place, remark: Remark) {
+        let script = &mut self.goals.builder.script;
+        script.say(self.text.sources, place, remark);
     }
 
     /// Variables with several values become variables of the script.
@@ -374,6 +363,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Event::If => builder.begin_if(None),
                 Event::Switch | Event::Never => builder.begin_choice(),
                 Event::Branch { is_last } => builder.next_branch(is_last),
+                Event::ElseIf => builder.pass_branch(),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
                 Event::Condition => {
@@ -500,7 +490,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     fn step(&mut self, step: &Step, function: FunctionId) {
         let place = self.at(step.offset);
         let mut instruction = Instruction {
-            end: step.end,
+            end: self.at(step.end).offset,
             motion: step.motion,
             target: script::Expr::Unknown(self.goals.common.somewhere),
             ..Instruction::at(place)
@@ -516,13 +506,6 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         if let Some(target) = step.target {
             self.goals.lost_start = false;
             let goal = self.goals.goal(target, function);
-            if self.goals.lost_start {
-                let message = "the joints that the inverse starts from are known at run time only; \
-                    it is taken to start from the present ones";
-                let hint = "write qnear with numbers, or as a variable that is assigned once";
-                let remark = Remark::warning("inverse-start-unknown", message, hint);
-                self.say(step.offset, remark);
-            }
             let is_stream = step.streamed && self.goals.may_be_pose(target, function, MOST_STEPS);
             instruction.target = goal.target;
             modal.frame = self.goals.frame_of(goal.feature);
@@ -534,9 +517,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 modal.guards = self.guards[1];
             } else if step.rotates_with_arc {
                 modal.guards = self.guards[2];
+            } else if self.goals.lost_start {
+                modal.guards = self.guards[3];
             }
             if step.repeatable && !step.streamed {
-                instruction.target_span = goal.span;
+                instruction.target_span = self.text.span(goal.span, place);
             }
         }
         self.goals.builder.go(instruction, modal);

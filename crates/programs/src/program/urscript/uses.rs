@@ -87,9 +87,7 @@ impl Variables<'_, '_> {
                 }
                 Expr::Trans(a, b) if through_features => {
                     let is_offset = self.goes_to(a, function) || self.is_actual(a, function);
-                    if !is_offset {
-                        open.push((b, function));
-                    }
+                    open.push((if is_offset { a } else { b }, function));
                     None
                 }
                 Expr::Add(a, _) if through_features => {
@@ -246,14 +244,23 @@ impl Variables<'_, '_> {
             Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
                 let is_position = self.list[variable as usize].is_position;
                 let Some(source) = self.fixed(variable) else {
-                    return is_position;
+                    let mut given = self.sources(variable).filter(|s| s.way == Assigned::Given);
+                    return is_position
+                        || given.any(|s| self.goes_within(s.value, s.function, steps / 2));
                 };
                 let value = self.parsed.expression(source.value);
                 is_position && matches!(value, Expr::Trans(..) | Expr::Add(..))
                     || self.goes_within(source.value, source.function, steps)
             }),
-            Expr::Trans(_, b) => self.goes_within(b, function, steps),
+            Expr::Trans(a, b) => {
+                self.goes_within(a, function, steps / 2) || self.goes_within(b, function, steps)
+            }
             Expr::Add(a, _) => self.goes_within(a, function, steps),
+            Expr::Element(name, at) => {
+                let elements = self.elements(name, at, function);
+                let mut values = elements.into_iter().flat_map(|of| of.values);
+                values.any(|(value, function)| self.goes_within(value, function, steps / 2))
+            }
             _ => false,
         }
     }

@@ -3,7 +3,9 @@
 //! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that
 //! function; what a function and one around it assign is taken for one variable.
 
-use super::syntax::{Assignment, Called, Event, Expr, ExprId, FunctionId, Parsed, Reach, Symbol};
+use super::syntax::{
+    Assignment, Called, Event, Expr, ExprId, FunctionId, LiteralId, Parsed, Reach, Symbol,
+};
 use super::verbs;
 use crate::geometry::Pose;
 use crate::program::script::short;
@@ -94,7 +96,8 @@ pub(super) struct Variables<'n, 'a> {
     names: HashMap<(FunctionId, Symbol), VarId>,
     /// What functions return.
     results: HashMap<FunctionId, VarId>,
-    functions: HashMap<Symbol, Vec<FunctionId>>,
+    /// Of each file, and by 0 those that any file may call.
+    functions: HashMap<(FunctionId, Symbol), Vec<FunctionId>>,
     /// The tool is set somewhere: a position whose joints are computed keeps the one of that
     /// place.
     pub sets_tool: bool,
@@ -110,10 +113,15 @@ pub(super) struct Variables<'n, 'a> {
 
 impl<'n, 'a> Variables<'n, 'a> {
     pub(super) fn new(parsed: &'n Parsed<'a>) -> Self {
-        let mut functions: HashMap<Symbol, Vec<FunctionId>> = HashMap::new();
+        let mut functions: HashMap<(FunctionId, Symbol), Vec<FunctionId>> = HashMap::new();
         for (at, function) in parsed.functions.iter().enumerate() {
-            if let Some(name) = function.name {
-                functions.entry(name).or_default().push(short(at));
+            let Some(name) = function.name else { continue };
+            let of_any = function.unit != 0 && function.parent == function.unit;
+            for unit in [Some(function.unit), of_any.then_some(0)]
+                .into_iter()
+                .flatten()
+            {
+                functions.entry((unit, name)).or_default().push(short(at));
             }
         }
         functions.retain(|_, all| all.len() <= MOST_OF_A_NAME);
@@ -274,12 +282,12 @@ impl<'n, 'a> Variables<'n, 'a> {
         for (at, function) in parsed.functions.iter().enumerate() {
             for event in &function.events {
                 match *event {
-                    Event::Return(value, offset) if at != 0 => {
+                    Event::Return(value, offset) => {
                         let at = short(at);
+                        let Some(name) = function.name else { continue };
                         let result = if let Some(known) = self.results.get(&at) {
                             *known
                         } else {
-                            let name = function.name.expect("functions have names");
                             let made = self.add(name, offset, None);
                             self.results.insert(at, made);
                             made
@@ -304,14 +312,17 @@ impl<'n, 'a> Variables<'n, 'a> {
         }
     }
 
-    /// Functions of the file that a call may mean.
+    /// Functions of the files that a call may mean.
     pub(super) fn callees(&self, call: &Called) -> &[FunctionId] {
-        self.functions_of(call.name)
+        self.functions_of(call.name, call.function)
     }
 
-    /// The functions of a name.
-    pub(super) fn functions_of(&self, name: Symbol) -> &[FunctionId] {
-        self.functions.get(&name).map_or(&[], Vec::as_slice)
+    /// The functions that a name means in a function: of its file, else of the others.
+    pub(super) fn functions_of(&self, name: Symbol, function: FunctionId) -> &[FunctionId] {
+        let unit = self.parsed.functions[function as usize].unit;
+        let own = self.functions.get(&(unit, name));
+        let own = own.or_else(|| self.functions.get(&(0, name)));
+        own.map_or(&[], Vec::as_slice)
     }
 
     /// Whether a call is of a function of the language that moves nothing.
@@ -352,15 +363,13 @@ impl<'n, 'a> Variables<'n, 'a> {
 
     /// What a call of a function of the file returns.
     pub(super) fn result(&self, call: u32) -> Option<VarId> {
-        match self.callees(&self.parsed.calls[call as usize]) {
-            [one] => self.results.get(one).copied(),
-            _ => None,
-        }
+        let call = &self.parsed.calls[call as usize];
+        self.result_named(call.name, call.function)
     }
 
-    /// What the function of this name returns.
-    pub(super) fn result_named(&self, name: Symbol) -> Option<VarId> {
-        match self.functions.get(&name)?[..] {
+    /// What the function returns that a name means in a function.
+    pub(super) fn result_named(&self, name: Symbol, function: FunctionId) -> Option<VarId> {
+        match *self.functions_of(name, function) {
             [one] => self.result_of(one),
             _ => None,
         }
@@ -454,6 +463,37 @@ impl<'n, 'a> Variables<'n, 'a> {
         (self.parsed.expression(value), function)
     }
 
+    /// The joint angles that a value is, of a variable with several values those of each.
+    pub(super) fn joints(&self, value: ExprId, function: FunctionId) -> Option<LiteralId> {
+        self.joints_within(value, function, MOST_STEPS)
+    }
+
+    fn joints_within(&self, value: ExprId, function: FunctionId, steps: u32) -> Option<LiteralId> {
+        let steps = steps.checked_sub(1)?;
+        let (expression, function) = self.follow(value, function);
+        match expression {
+            Expr::Literal(id) => Some(id),
+            Expr::Name(name, _) => {
+                let variable = self.meaning(name, function)?;
+                let has_parts = self.list[variable as usize].has_parts;
+                let mut sources = self.sources(variable).filter(|_| !has_parts);
+                let mut joints = |s: Source| self.joints_within(s.value, s.function, steps / 2);
+                let values = |id| {
+                    let literal = self.parsed.literal(id);
+                    (literal.content, self.parsed.values(literal))
+                };
+                let first = sources.next().and_then(&mut joints)?;
+                let same = |s| joints(s).is_some_and(|id| values(id) == values(first));
+                sources.all(same).then_some(first)
+            }
+            Expr::Element(..) => {
+                let (value, function) = self.one_of(expression, function)?;
+                self.joints_within(value, function, steps)
+            }
+            _ => None,
+        }
+    }
+
     /// A pose that the text tells.
     ///
     /// # Errors
@@ -466,6 +506,27 @@ impl<'n, 'a> Variables<'n, 'a> {
         self.evaluate(value, function, MOST_STEPS)
     }
 
+    /// The value of an element of a list, or of a call, where it has one.
+    fn one_of(&self, of: Expr, function: FunctionId) -> Option<(ExprId, FunctionId)> {
+        let one = match of {
+            Expr::Element(name, at) => {
+                let elements = self.elements(name, at, function)?;
+                elements.changed.is_none().then_some(elements.values)?
+            }
+            Expr::Call(call) => {
+                let sources = self.sources(self.result(call)?);
+                sources
+                    .map(|source| (source.value, source.function))
+                    .collect()
+            }
+            _ => return None,
+        };
+        match one[..] {
+            [one] => Some(one),
+            _ => None,
+        }
+    }
+
     fn evaluate(
         &self,
         value: ExprId,
@@ -474,13 +535,14 @@ impl<'n, 'a> Variables<'n, 'a> {
     ) -> Result<Pose, NotConstant> {
         let (expression, function) = self.follow(value, function);
         let steps = steps.checked_sub(1).ok_or(NotConstant::Computed)?;
-        let inner = |value| {
+        let within = |value, function| {
             self.evaluate(value, function, steps)
                 .map_err(|error| match error {
                     NotConstant::Endless(_) => error,
                     _ => NotConstant::Computed,
                 })
         };
+        let inner = |value| within(value, function);
         match expression {
             Expr::Literal(id) => {
                 let literal = self.parsed.literal(id);
@@ -507,6 +569,10 @@ impl<'n, 'a> Variables<'n, 'a> {
                 Ok(Pose::from_translation(x, y, z) * a * Pose::from_rotation(b.rotation))
             }
             Expr::Inverse(a) => Ok(inner(a)?.inverse()),
+            Expr::Element(..) | Expr::Call(_) => match self.one_of(expression, function) {
+                Some((value, function)) => within(value, function),
+                None => Err(NotConstant::Computed),
+            },
             _ => Err(NotConstant::Computed),
         }
     }

@@ -206,6 +206,11 @@ pub(super) fn value_of(name: &[u8]) -> Option<PoseCall> {
     }
 }
 
+/// Words behind which a condition is read only where it is still open.
+pub(super) fn may_pass(name: &[u8]) -> bool {
+    matches!(name, b"and" | b"or")
+}
+
 /// Words before brackets that are no calls.
 pub(super) fn is_operator(name: &[u8]) -> bool {
     matches!(

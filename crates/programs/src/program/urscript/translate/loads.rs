@@ -113,7 +113,7 @@ impl Translator<'_, '_, '_> {
             return None;
         }
         let (start, end) = (literal.offset as usize + 1, literal.end as usize - 1);
-        let inside = self.source.bytes.get(start..end)?;
+        let inside = self.goals.parsed.text.get(start..end)?;
         let mut values = inside
             .split(|b| *b == b',')
             .map(|text| number::parse(text.trim_ascii()));
