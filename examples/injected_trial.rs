@@ -37,9 +37,12 @@ struct Trial {
     /// Robots, by the names of their folders; all without
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
-    /// Seed
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Seeds
+    #[arg(long, value_delimiter = ',', default_value = "1")]
+    seed: Vec<u64>,
+    /// Sizes, in root mean squares of the residual
+    #[arg(long, value_delimiter = ',', default_value = "0.5,1,2")]
+    sizes: Vec<f64>,
     /// Print each case that is wrong
     #[arg(long)]
     list: bool,
@@ -47,8 +50,8 @@ struct Trial {
 
 /// Most diagnoses, one after another, whose findings are taken into the start.
 const ROUNDS: usize = 8;
-/// Sizes, in root mean squares of the residual.
-const SIZES: [f64; 3] = [0.5, 1.0, 2.0];
+/// The largest size that has to be possible, in root mean squares of the residual.
+const LARGEST: f64 = 2.0;
 
 /// An effect is drawn again where it would have to be beyond this many times its typical size: a
 /// reflector on the axis of a joint does not show how far that rotates.
@@ -97,8 +100,8 @@ fn labels(found: &Diagnosis) -> Vec<String> {
     found.found.iter().map(|f| label(&f.effect)).collect()
 }
 
-fn asked(profile: &Profile, measurements: &Measurements) -> Option<Diagnosis> {
-    diagnose(profile, measurements, &Options::default(), &mut |_| ()).ok()
+fn asked(profile: &Profile, measurements: &Measurements, options: &Options) -> Option<Diagnosis> {
+    diagnose(profile, measurements, options, &mut |_| ()).ok()
 }
 
 fn robot(folder: &Path) -> Robot {
@@ -110,7 +113,8 @@ fn robot(folder: &Path) -> Robot {
     let mut profile = calibrated.expect("enough rows").profile();
     let (mut known, mut alarms, mut residual_m) = (Vec::new(), Vec::new(), 0.0);
     for _ in 0..ROUNDS {
-        let found = asked(&profile, &measurements).expect("a diagnosis of the rows as they are");
+        let found = asked(&profile, &measurements, &Options::default());
+        let found = found.expect("a diagnosis of the rows as they are");
         residual_m = found.residual_m;
         let named = labels(&found);
         alarms = (named.iter().filter(|l| !known.contains(*l)).cloned()).collect();
@@ -185,12 +189,11 @@ impl Robot {
             }
             (seen, (squares / (3.0 * count as f64)).sqrt())
         };
-        let largest = SIZES[SIZES.len() - 1];
         for _ in 0..DRAWS {
             let unit = hidden(kind, count, 45.0 * count as f64, &torques, random);
             let (_, rms) = seen(&unit);
             let of_size = |size: f64| scaled(&unit, size * self.residual_m / rms);
-            if may_be(&of_size(largest)) {
+            if may_be(&of_size(LARGEST)) {
                 let effect = of_size(size);
                 let (measurements, _) = seen(&effect);
                 return (effect, measurements);
@@ -202,11 +205,17 @@ impl Robot {
         )
     }
 
-    /// What is named first beyond what is named anyway.
-    fn first(&self, measurements: &Measurements) -> Option<String> {
-        let named = labels(&asked(&self.profile, measurements)?).into_iter();
-        let mut new = named.filter(|label| !self.known.contains(label));
-        new.next()
+    /// What is named beyond what is named anyway, in the order of the report: the proof says how
+    /// sure each of them is, and names nothing.
+    fn named(&self, measurements: &Measurements) -> Vec<String> {
+        let quick = Options {
+            quick: true,
+            ..Options::default()
+        };
+        let found = asked(&self.profile, measurements, &quick);
+        let mut named = found.as_ref().map_or_else(Vec::new, labels);
+        named.retain(|label| !self.known.contains(label));
+        named
     }
 }
 
@@ -239,39 +248,41 @@ fn main() {
                 robot.alarms.join(", ")
             }
         );
-        let cases: Vec<(Kind, f64, u64)> = (kinds(&robot.measurements).into_iter().enumerate())
-            .flat_map(|(k, kind)| SIZES.iter().map(move |size| (kind, *size, k as u64)))
-            .collect();
-        let answers: Vec<(String, f64, Option<String>)> = cases
+        let kinds = kinds(&robot.measurements);
+        let mut cases = Vec::new();
+        for seed in &asked.seed {
+            for (kind, k) in kinds.iter().zip(0..) {
+                let seed = seed.wrapping_mul(1_000_003).wrapping_add(k);
+                cases.extend(asked.sizes.iter().map(|size| (*kind, *size, seed)));
+            }
+        }
+        let answers: Vec<(String, f64, Vec<String>)> = cases
             .par_iter()
-            .map(|(kind, size, k)| {
-                let seed = asked.seed.wrapping_mul(1_000_003).wrapping_add(*k);
-                let mut random = StdRng::seed_from_u64(seed);
+            .map(|(kind, size, seed)| {
+                let mut random = StdRng::seed_from_u64(*seed);
                 let (effect, measurements) = robot.with(*kind, *size, &mut random);
-                (label(&effect), *size, robot.first(&measurements))
+                (label(&effect), *size, robot.named(&measurements))
             })
             .collect();
-        for size in SIZES {
-            let of_size = answers.iter().filter(|(_, s, _)| *s == size);
-            let right = of_size
-                .clone()
-                .filter(|(label, _, first)| first.as_ref() == Some(label));
-            println!(
-                "  size {size} x residual: {} of {}",
-                right.count(),
-                of_size.count()
-            );
+        let is_right =
+            |(label, _, named): &&(String, f64, Vec<String>)| named.first() == Some(label);
+        for size in &asked.sizes {
+            let of_size = answers.iter().filter(|(_, s, _)| s == size);
+            let right = of_size.clone().filter(is_right).count();
+            println!("  size {size} x residual: {right} of {}", of_size.count());
         }
-        for (label, size, first) in &answers {
-            all += 1;
-            if first.as_ref() == Some(label) {
-                right_ones += 1;
-            } else if asked.list {
-                println!(
-                    "    {label} at {size}: {}",
-                    first.as_deref().unwrap_or("nothing")
-                );
-            }
+        all += answers.len();
+        right_ones += answers.iter().filter(is_right).count();
+        for (label, size, named) in answers
+            .iter()
+            .filter(|answer| asked.list && !is_right(answer))
+        {
+            let named = if named.is_empty() {
+                "nothing".to_owned()
+            } else {
+                named.join(", ")
+            };
+            println!("    {label} at {size}: {named}");
         }
     }
     println!("named first: {right_ones} of {all}");
