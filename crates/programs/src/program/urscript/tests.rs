@@ -300,11 +300,16 @@ fn a_target_that_is_an_offset_elsewhere_is_an_error() {
         program.findings
     );
     assert!(program.targets.iter().all(|target| target.blocked));
-    // a feature that is a target moves what is in it
+    // what is in a feature that is a target is displaced from it
     let program = path(
         "w=p[.4,.5,.6,0,0,0]\nf=pose_trans(w,p[0,0,.1,0,0,0])\nmovel(w)\nmovel(pose_trans(f,p[1,2,3,0,0,0]))",
     );
-    assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
+    assert_eq!(ids(&program), [""; 0]);
+    let displacement = &program.moves[1].displacement;
+    let crate::program::Displacement::By(shift) = displacement else {
+        panic!("{displacement:?}")
+    };
+    assert_eq!(shift.in_tool.translation, [1.0, 2.0, 3.1]);
 }
 
 #[test]
