@@ -7,6 +7,7 @@ mod decided;
 mod displaced;
 mod followed;
 mod jobs;
+mod kawasaki;
 mod krl;
 mod registers;
 mod rows;
