@@ -221,6 +221,27 @@ fn numbers_are_those_that_calls_give_and_programs_bring_back() {
 }
 
 #[test]
+fn a_frame_of_a_program_of_its_own_is_not_the_one_of_the_project() {
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let local =
+        "<Locals><Local name=\"fA\" type=\"frame\" xsi:type=\"array\" size=\"1\" /></Locals>";
+    let code = "movel(compose(pA,fA,trA),tA,m)";
+    for (declared, is_followed) in [("", true), (local, false)] {
+        let files = [
+            ("m/m.dtx", dtx(&all)),
+            ("m/start.pgx", pgx("start", declared, code)),
+        ];
+        let program = read_files(&files).expect("a project");
+        let found = &program.moves[0].displacement;
+        assert_eq!(
+            matches!(found, Displacement::By(_)),
+            is_followed,
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
 fn arrays_that_are_moved_about_are_refused() {
     let points = data(
         "pC",
