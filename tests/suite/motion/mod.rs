@@ -9,6 +9,7 @@ mod displaced;
 mod followed;
 mod given;
 mod jobs;
+mod kawasaki;
 mod krl;
 mod listings;
 mod registers;

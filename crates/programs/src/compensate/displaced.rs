@@ -2,7 +2,7 @@
 //! along; here is found how far from their own wanted poses they land: with the tool, in the work
 //! frame and where external axes stand at the move to them.
 
-use super::approach::Approach;
+use super::approach::{Approach, stays};
 use super::{Job, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
@@ -10,7 +10,7 @@ use crate::geometry::{Pose, Separation, norm};
 use crate::inverse::Branch;
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
-use crate::program::{Displacement, Move, SOMEHOW_M, Shift};
+use crate::program::{Displacement, Move, SOMEHOW_M, Shape, Shift, TargetId};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::f64::consts::TAU;
 
@@ -56,11 +56,20 @@ pub(super) fn check(
     let ground = &job.ground;
     let mut judged = Judged::default();
     let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
+    let mut of_joints = BTreeSet::new();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
             continue;
         };
+        if stays(job, target) {
+            // what is blocked has a finding of its own
+            let shape = ground.program.targets[target].layout.shape;
+            if shape == Shape::Joints && of_joints.insert((motion.file, motion.offset, target)) {
+                findings.push(uncorrected(job, motion, target));
+            }
+            continue;
+        }
         let first = approaches.partition_point(|approach| (approach.target as usize) < target);
         let approach = approaches
             .get(first)
@@ -107,6 +116,19 @@ pub(super) fn check(
                 Some(ground.at_move(worst.id, worst.severity, motion, message, hint))
             }),
     );
+}
+
+/// Of a point that is derived from joints which stay as they are: it is a pose all the same, and
+/// nothing corrects it.
+fn uncorrected(job: &Job, motion: &Move, target: TargetId) -> Finding {
+    let message = format!(
+        "a point derived from {}, which stays as it is, is not corrected",
+        job.ground.name_of(target)
+    );
+    let hint = "go to a target of its own if it must be exact, or correct joints, too \
+        (--joint-targets correct)";
+    let ground = &job.ground;
+    ground.at_move("displaced-target", Severity::Warning, motion, message, hint)
 }
 
 /// What is found of a displacement.

@@ -85,7 +85,7 @@ pub const TABLE: &[Kind] = &[
     row("clearance", Error, "the real arm comes nearer to a body than is allowed", "move the target or the body, or give the pair another clearance in the cell", &["check"], &[]),
     row("clearance-uncertified", Warning, "the clearance along the move is bounded at samples only", "lead the path around the singularity", &["check"], &[]),
     row("collision", Error, "the real arm touches a body; a warning of `plan`, of its own program", "move the target or the body", &["check", "plan"], &[]),
-    row("columns-not-read", Note, "columns of a table that nothing is read from: their names are none of the format", "name what they are with --columns", &["calibrate", "validate", "diagnose"], &[]),
+    row("columns-not-read", Note, "columns of a table that nothing is read from: their names are none of the format, or of its measurements alone", "name what they are with --columns; in tables that are compensated rename them", &["calibrate", "validate", "diagnose", "compensate", "check"], &[]),
     row("computed-target", Error, "a move goes to a position that only the running program knows", "move to a target that the files declare with numbers", &["compensate", "check"], &[]),
     row(
         "configuration-ambiguous",
@@ -153,7 +153,7 @@ pub const TABLE: &[Kind] = &[
     row("library-at-run-time", Warning, "a library is loaded while the program runs: its data are taken to be those of the files", "give the project that is loaded too, or keep its points out of the path", &["compensate", "check"], &["val3"]),
     row("little-variety", Warning, "the rows are of too few configurations to fit base and tool", "validate on more configurations", &["validate"], &[]),
     row("load-beyond-payload", Error, "the load of a tool is more than robot.payload_kg of the profile; a warning of `check`", "masses are in kg; correct the load, or robot.payload_kg", &["compensate", "check"], &[]),
-    row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers; in KRL choose an entry of LOAD_DATA", &["compensate", "check"], &["krl", "rapid", "urscript", "fanuc"]),
+    row("load-chosen-at-run-time", Warning, "only the running program knows the load that the robot carries; that of the tool is taken", "write the load with numbers; in KRL choose an entry of LOAD_DATA", &["compensate", "check"], &["krl", "rapid", "urscript", "fanuc", "kawasaki"]),
     row("load-unknown", Warning, "a tool counts as 0 kg, while the profile has masses of tools of other names and effects that depend on them", "call the tool in the profile as the program does", &["compensate", "check"], &[]),
     row("long-line", Warning, "new numbers may make the line longer than the controller takes", "break the line before compensating, or use fewer decimals", &["compensate", "check"], &["krl"]),
     row("mesh-unit", Error, "a mesh in a format without units is a hundred times smaller than another body or the arm, if its unit is a millimetre", "write `scale: 1000` next to `mesh` if the file is in metres, `scale: 1` if it is in millimetres", &["check"], &[]),

@@ -214,7 +214,7 @@ pub(super) fn angle_too_large(
 }
 
 /// A load that the text does not say.
-pub(super) fn load_chosen(id: &'static str, hint: &'static str) -> Remark {
+pub(super) const fn load_chosen(id: &'static str, hint: &'static str) -> Remark {
     Remark::warning(
         id,
         "only the running program knows the load that is set here; moves are taken with that of \

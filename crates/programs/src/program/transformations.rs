@@ -257,10 +257,11 @@ impl<'a> Entries<'a> {
     /// counter something else writes run any number of times.
     pub(super) fn finish(&mut self) {
         let mut open = std::mem::take(&mut self.handed);
+        let counted: HashSet<u32> = self.counters.iter().map(|(own, _)| *own).collect();
         loop {
-            let (written, others): (Vec<_>, Vec<_>) = open
-                .into_iter()
-                .partition(|(own, _)| self.assigned.contains(own));
+            let is_written = |own: &u32| self.assigned.contains(own) || counted.contains(own);
+            let (written, others): (Vec<_>, Vec<_>) =
+                open.into_iter().partition(|(own, _)| is_written(own));
             if written.is_empty() {
                 break;
             }

@@ -28,8 +28,56 @@ pub(super) struct Header {
     pub frame: Option<usize>,
     pub id: Option<usize>,
     pub external: Vec<Axis>,
+    /// Columns that nothing is read from: those that may well matter, and others.
+    pub unread: [Vec<usize>; 2],
     /// How many there are.
     pub count: usize,
+}
+
+/// What columns are called that are none of the format, in letters alone; whether they have numbers;
+/// what is meant.
+const MEANT: [(&str, bool, &str); 4] = [
+    (
+        "frame framename workobject wobj workframe userframe uframe base",
+        false,
+        "the column `frame`",
+    ),
+    (
+        "tool toolname tooldata toolframe utool tcp",
+        false,
+        "the column `tool`",
+    ),
+    (
+        "near neardeg nearrad",
+        true,
+        "one of the columns `near1_deg` … `near6_deg`",
+    ),
+    (
+        "e emm em edeg erad ext extax eax",
+        true,
+        "a column `e1_mm` or `e1_deg`",
+    ),
+];
+/// What columns of measurements are called, and others that say how the arm stands at a row, likewise
+/// in letters alone.
+const MAY_MATTER: &str = "dir dire move movedeg fx fy fz fxn fyn fzn temperature temperaturec times \
+    on point px py pz pxmm pymm pzmm config configuration";
+
+/// Whether the letters of a name, in lower case, are one of these words.
+fn is_one_of(name: &[u8], words: &str) -> bool {
+    let letters = name.iter().filter(|b| b.is_ascii_alphabetic());
+    let letters: Vec<u8> = letters.map(u8::to_ascii_lowercase).collect();
+    let mut words = words.split_ascii_whitespace();
+    words.any(|word| word.as_bytes() == letters)
+}
+
+/// What a column that is none of the format is meant as.
+fn meant(name: &[u8]) -> Option<&'static str> {
+    let has_number = name.iter().any(u8::is_ascii_digit);
+    let is_it = |(words, numbered, _): &&(&str, bool, &str)| {
+        (has_number || !numbered) && is_one_of(name, words)
+    };
+    MEANT.iter().find(is_it).map(|(.., what)| *what)
 }
 
 /// The column of an external axis: `e1_mm`, `e2_deg`.
@@ -43,6 +91,7 @@ pub(super) struct Axis {
 
 impl Axis {
     fn of((column, name): (usize, &&[u8])) -> Option<Self> {
+        let name = name.to_ascii_lowercase();
         let name = name.strip_prefix(b"e")?;
         let (digits, is_linear) = match name.strip_suffix(b"_mm") {
             Some(digits) => (digits, true),
@@ -70,8 +119,8 @@ pub(super) enum Wrong {
     Near,
     /// `branch` next to these.
     Branch(usize),
-    /// The column of this index is one in other letters.
-    Letters(usize),
+    /// The column of this index is one of the format under another name.
+    Meant(usize, &'static str),
     /// Cells are separated by something else.
     Separator,
     /// This column alone, or with others, is missing.
@@ -79,9 +128,13 @@ pub(super) enum Wrong {
 }
 
 impl Header {
-    /// The columns that names tell.
+    /// The columns that names tell, in small letters or capitals.
     pub(super) fn of(names: &[&[u8]]) -> Result<Self, Wrong> {
-        let find = |name: &[u8]| names.iter().position(|found| *found == name);
+        let find = |name: &[u8]| {
+            names
+                .iter()
+                .position(|found| found.eq_ignore_ascii_case(name))
+        };
         let pose: Option<Vec<usize>> = POSE.into_iter().map(find).collect();
         let joints: Option<Vec<usize>> = JOINTS.into_iter().map(find).collect();
         let (shape, numbers) = match (pose, joints) {
@@ -96,7 +149,7 @@ impl Header {
             0 => None,
             _ => Some(near.try_into().map_err(|_| Wrong::Near)?),
         };
-        let header = Self {
+        let mut header = Self {
             shape,
             numbers,
             near,
@@ -105,6 +158,7 @@ impl Header {
             frame: find(b"frame"),
             id: find(b"id"),
             external: names.iter().enumerate().filter_map(Axis::of).collect(),
+            unread: [Vec::new(), Vec::new()],
             count: names.len(),
         };
         let singles = [header.branch, header.tool, header.frame, header.id];
@@ -116,11 +170,20 @@ impl Header {
                 return Err(Wrong::Twice(again.column));
             }
         }
-        let used = used.copied().chain(singles.into_iter().flatten());
-        for column in used {
-            let again = names[column + 1..].iter().position(|n| *n == names[column]);
-            if let Some(again) = again {
+        let used: Vec<usize> = used.copied().chain(singles.into_iter().flatten()).collect();
+        for &column in &used {
+            let is_same = |name: &&[u8]| name.eq_ignore_ascii_case(names[column]);
+            if let Some(again) = names[column + 1..].iter().position(is_same) {
                 return Err(Wrong::Twice(column + 1 + again));
+            }
+        }
+        let is_axis = |column: usize| axes.clone().any(|axis| axis.column == column);
+        let unread = (0..names.len()).filter(|at| !used.contains(at) && !is_axis(*at));
+        let (may_matter, others) = unread.partition(|at| is_one_of(names[*at], MAY_MATTER));
+        header.unread = [may_matter, others];
+        for &at in header.unread.iter().flatten() {
+            if let Some(what) = meant(names[at]) {
+                return Err(Wrong::Meant(at, what));
             }
         }
         match header.branch.filter(|_| header.near.is_some()) {
@@ -140,22 +203,17 @@ impl Header {
 
 /// What is nearly right where neither all columns of poses nor all of joints are there.
 fn missing(names: &[&[u8]]) -> Wrong {
-    let of_tables = || POSE.iter().chain(&JOINTS);
-    let is_other = |name: &&[u8]| of_tables().any(|known| known.eq_ignore_ascii_case(name));
-    let is_known = |name: &&[u8]| of_tables().any(|known| known == name);
-    if let Some(at) = names
-        .iter()
-        .position(|name| is_other(name) && !is_known(name))
-    {
-        return Wrong::Letters(at);
-    }
+    let is_known = |name: &&[u8]| {
+        let mut of_tables = POSE.iter().chain(&JOINTS);
+        of_tables.any(|known| known.eq_ignore_ascii_case(name))
+    };
     let parts = names
         .iter()
         .flat_map(|name| name.split(|b| matches!(b, b';' | b'\t')));
-    if parts.filter(|name| is_other(&name.trim_ascii())).count() > names.len() {
+    if parts.filter(|name| is_known(&name.trim_ascii())).count() > names.len() {
         return Wrong::Separator;
     }
-    let has = |column: &&[u8]| names.contains(column);
+    let has = |column: &&[u8]| names.iter().any(|name| name.eq_ignore_ascii_case(column));
     let orientation = POSE[3..].iter().any(&has);
     let found: &[&'static [u8]] = if orientation {
         &POSE
@@ -177,7 +235,7 @@ pub(super) fn recognises(source: &Source) -> bool {
         && Records::of(&source.bytes).next(&mut cells) == Ok(true)
         && matches!(
             Header::of(&names(source, &cells)),
-            Ok(_) | Err(Wrong::Branch(_))
+            Ok(_) | Err(Wrong::Branch(_) | Wrong::Meant(..))
         )
 }
 

@@ -16,7 +16,8 @@
 //! Without `frame`, or where its cell is empty, poses are in the frame that `--frame` gives, and in
 //! the world without it.
 //!
-//! Other columns are kept. `#` starts a comment line.
+//! Names of columns may have capitals. Other columns are kept, and named once a file; those that are
+//! one of the format by another name (`wobj`, `ext1`) are refused. `#` starts a comment line.
 //!
 //! # Limits
 //! Cells are separated by commas, and numbers have a point. `GOTO` lines of APT and CL files are
@@ -67,6 +68,8 @@ static ABOUT: About = About {
 
 /// The frame that poses are in which name none, unless the command line gives another.
 const WORLD: &str = "world";
+/// So many columns are named that nothing is read from.
+const MOST_NAMED: usize = 8;
 /// Farther from 1 the length of a quaternion is a mistake.
 const LENGTH: std::ops::RangeInclusive<f64> = 0.99..=1.01;
 
@@ -157,6 +160,7 @@ impl Reader {
             return Err(not_this_language(&ABOUT, source));
         }
         let header = read_header(source, &cells)?;
+        self.say_unread(source, &header, &cells);
         // one line a row: lists that grow leave holes in the memory
         let rows = memchr::memchr_iter(b'\n', &source.bytes).count();
         let script = &mut self.builder.script;
@@ -171,6 +175,23 @@ impl Reader {
             self.row(source, file, &header, &cells)?;
         }
         Ok(())
+    }
+
+    /// Names the columns that nothing is read from.
+    fn say_unread(&mut self, source: &Source, header: &Header, cells: &[Cell]) {
+        let remarks = [not_counted, not_of_format];
+        for (columns, remark) in header.unread.iter().zip(remarks) {
+            let Some(&first) = columns.first() else {
+                continue;
+            };
+            let shown = |at: &usize| format!("`{}`", cell_text(source, cells[*at]));
+            let mut names: Vec<String> = columns.iter().take(MOST_NAMED).map(shown).collect();
+            if let Some(more) = columns.len().checked_sub(MOST_NAMED + 1) {
+                names.push(format!("{} more", more + 1));
+            }
+            let found = remark(&names.join(", ")).found_in(source, short(cells[first].start));
+            self.builder.script.findings.push(found);
+        }
     }
 
     fn row(
@@ -324,6 +345,27 @@ impl Reader {
     }
 }
 
+/// Columns that say of measurements how the arm came to stand there, or the like.
+fn not_counted(columns: &str) -> Remark {
+    Remark::warning_about(
+        "columns-not-read",
+        format!(
+            "{columns}: no correction follows from these columns; the robot is taken to come from \
+             the row before, and to carry the load of its tool"
+        ),
+        "leave them out where that is meant",
+    )
+}
+
+/// Columns of other names.
+fn not_of_format(columns: &str) -> Remark {
+    Remark::note_about(
+        "columns-not-read",
+        format!("no columns of the format: {columns}"),
+        "where one is, call it as docs/formats.md does",
+    )
+}
+
 fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
     Header::of(&header::names(source, cells)).map_err(|wrong| {
         let shown = |cell: Cell| format!("`{}`", cell_text(source, cell));
@@ -343,8 +385,7 @@ fn read_header(source: &Source, cells: &[Cell]) -> Result<Header, ReadError> {
                 let expected = "one of the two, which both choose the solution,";
                 unexpected(source, cells[at].start, found, expected)
             }
-            Wrong::Letters(at) => {
-                let expected = "the name of a column in small letters";
+            Wrong::Meant(at, expected) => {
                 unexpected(source, cells[at].start, shown(cells[at]), expected)
             }
             Wrong::Separator => {

@@ -1,6 +1,7 @@
 //! Tables of poses and joints.
 
 use super::*;
+use crate::finding::Severity;
 use crate::program::{Posture, Program};
 
 fn read(text: &str) -> Result<Program, ReadError> {
@@ -161,9 +162,34 @@ fn broken_tables_are_reported_with_line_and_column() {
             "`branch` next to near1_deg",
         ),
         (
-            "id,X_MM,Y_MM,Z_MM,QW,QX,QY,QZ\n".into(),
-            (1, 4),
-            "found `X_MM`, where the name of a column in small letters",
+            format!("{head},wobj\n"),
+            (1, 28),
+            "found `wobj`, where the column `frame` belongs",
+        ),
+        (
+            format!("{head},Tool Name\n"),
+            (1, 28),
+            "where the column `tool` belongs",
+        ),
+        (
+            format!("{head},ext1\n"),
+            (1, 28),
+            "where a column `e1_mm` or `e1_deg` belongs",
+        ),
+        (
+            format!("{head},near_1\n"),
+            (1, 28),
+            "where one of the columns `near1_deg`",
+        ),
+        (
+            format!("{head},tool,Tool\n"),
+            (1, 33),
+            "found `Tool` once more",
+        ),
+        (
+            format!("{head},e1_mm,E1_MM\n"),
+            (1, 34),
+            "found `E1_MM` once more",
         ),
         (
             "id;x_mm;y_mm;z_mm;qw;qx;qy;qz\n".into(),
@@ -202,6 +228,58 @@ fn broken_tables_are_reported_with_line_and_column() {
         assert!(error.to_string().contains(message), "{error}");
     }
     assert!(matches!(read("x_mm\0"), Err(ReadError::Binary { .. })));
+}
+
+#[test]
+fn names_of_columns_may_have_capitals() {
+    let text = "ID,X_MM,Y_mm,Z_mm,QW,QX,QY,QZ,FRAME,Tool,Near1_deg,NEAR2_DEG,near3_deg,near4_deg,\
+                near5_deg,near6_deg,E1_mm\na,1,2,3,1,0,0,0,nest,gun,90,0,0,0,0,-180,500\n";
+    let program = read(text).expect("a table");
+    assert_eq!(values(&program, 0)[..3], [1.0, 2.0, 3.0]);
+    assert_eq!(program.frames[0].name, "nest");
+    assert_eq!(program.tools[0].name, "gun");
+    let near = program.near(&program.moves[0]).expect("joints");
+    assert!((near[0] - 90.0 * DEG).abs() < 1e-12 && (near[5] + 180.0 * DEG).abs() < 1e-12);
+    let ids: Vec<_> = program.findings.iter().map(|found| found.id).collect();
+    assert_eq!(ids, ["external-axis-unknown"]);
+    assert!(Csv.recognises(&Source::new("x", text.as_bytes().to_vec())));
+}
+
+#[test]
+fn columns_that_nothing_is_read_from_are_named_once_a_file() {
+    let found = |columns: &str, cells: &str| {
+        let row = format!("1,2,3,1,0,0,0,{cells}\n");
+        let text = format!("x_mm,y_mm,z_mm,qw,qx,qy,qz,{columns}\n{row}{row}");
+        let program = read(&text).expect("a table");
+        let each = program.findings.into_iter();
+        let each = each.map(|f| (f.id, f.severity, f.line, f.column, f.message));
+        each.collect::<Vec<_>>()
+    };
+    let all = found(
+        "speed,dir1,fz_n,Temperature_C,operator",
+        "100,1,-200,20,ann",
+    );
+    let [other, (id, severity, line, column, message)] = &all[..] else {
+        panic!("{all:?}");
+    };
+    assert_eq!(
+        (*id, *severity, *line, *column),
+        ("columns-not-read", Severity::Warning, 1, 34)
+    );
+    assert!(
+        message.starts_with("`dir1`, `fz_n`, `Temperature_C`:"),
+        "{message}"
+    );
+    let (id, severity, line, column, message) = other;
+    assert_eq!(
+        (*id, *severity, *line, *column),
+        ("columns-not-read", Severity::Note, 1, 28)
+    );
+    assert!(message.ends_with(": `speed`, `operator`"), "{message}");
+    let many: Vec<String> = (0..11).map(|at| format!("c{at}")).collect();
+    let all = found(&many.join(","), "0,0,0,0,0,0,0,0,0,0,0");
+    assert!(all[0].4.ends_with("`c7`, 3 more"), "{all:?}");
+    assert_eq!(found("id,tool,frame,branch", "a,t,f,0"), []);
 }
 
 #[test]

@@ -10,7 +10,7 @@ const KEYWORDS: &str = "LMove JMove SPeed ACCUracy JOINT LINEAR LIN2 CIR1 CIR2 P
     IF ENd CAll HMove C1move C2move LAppro JAppro LDepart JDepart DRAw TDraw Xmove DRIve ALign \
     HOme HEre GOto ELse ELSEIF CASE SCASE VALUE SVALUE ANY WHile FOR DO UNtil RETurn RETURNE \
     STOp HAlt HSENSE SCAll EXtcall JUMP SJUMP PCEXecute ON ONI ONE IGnore MVWAIT DELay STAble ACCEl \
-    DECEl LEfty RIghty ABove BElow UWrist DWrist";
+    DECEl LEfty RIghty ABove BElow UWrist DWrist WEight";
 
 /// Whether a text is a keyword, in any case, cut short to its capitals at most.
 fn is_short(text: &[u8], keyword: &str) -> bool {

@@ -214,6 +214,7 @@ impl<'a> Reader<'a> {
         Modal {
             tool: Expr::Variable(self.tool),
             frame: Expr::Variable(to.on.map_or(self.base, |(frame, _)| frame)),
+            load: Expr::Variable(self.load),
             configured,
             guards: self.switches,
             speed_zone: self.here.next.take().unwrap_or(self.here.always),

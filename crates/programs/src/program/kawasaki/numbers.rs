@@ -74,7 +74,6 @@ const READING: &[&[u8]] = &[
     b"closei",
     b"relax",
     b"relaxi",
-    b"weight",
     b"cp",
     b"send",
     b"runmask",

@@ -6,11 +6,12 @@ use super::keywords::find;
 use super::moves::{Verb, is_joints};
 use super::numbers::Known;
 use super::plates::Plates;
-use super::remarks::{ARC_CHAIN, COMPUTED, SAVED, SWITCHED};
+use super::remarks::{ARC_CHAIN, COMPUTED, LOAD, SAVED, SWITCHED, declared_again};
 use super::sections::{Entry, Program, Sections, Statement};
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
+use crate::geometry::units::m_from_mm;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
@@ -18,7 +19,7 @@ use crate::program::script::{
     VariableId, Written, short,
 };
 use crate::program::words::Words;
-use crate::program::{Number, Source, SpeedZone, TargetId};
+use crate::program::{Load, Number, Source, SpeedZone, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::cell::{OnceCell, RefCell};
 
@@ -73,6 +74,10 @@ pub(super) struct Reader<'a> {
     pub any: Vec<(Any, RoutineId)>,
     pub tool: VariableId,
     pub base: VariableId,
+    /// What `WEIGHT` says that the flange carries.
+    pub load: VariableId,
+    /// The loads that it said: what is one load is one value.
+    loads: Vec<(Load, Expr)>,
     /// Hold a reason while tool and base are as they were when the controller was saved.
     saved: [VariableId; 2],
     /// Holds a reason where the arm's configuration was switched, and the index of that in the
@@ -100,6 +105,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         let made = Variable::new(name, Place::NOWHERE, declared);
         builder.script.variable(made)
     };
+    let load = state(&mut builder, "load", Expr::Absent);
     let switched = state(&mut builder, "configuration", off);
     let chained = state(&mut builder, "arc", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));
@@ -118,10 +124,12 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     let mut reader = Reader {
         sources,
         sections,
-        switches: builder.script.guard([switched, saved[0], saved[1]]),
+        switches: builder.script.guard([switched, saved[0], saved[1], load]),
         chains: builder
             .script
-            .guard([chained, switched, saved[0], saved[1]]),
+            .guard([chained, switched, saved[0], saved[1], load]),
+        load,
+        loads: Vec::new(),
         saved,
         builder,
         switched,
@@ -156,11 +164,21 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     for entry in &sections.entries {
         reader.declare(entry);
     }
-    for program in &sections.programs {
+    for (routine, program) in (0..).zip(&sections.programs) {
         let name = Source::text(program.name);
-        let routine = (reader.builder).declare(name, program.place, Start::Called);
-        let name = program.name.to_ascii_lowercase();
-        reader.programs.entry(name).or_default().push(routine);
+        let key = program.name.to_ascii_lowercase();
+        // the controller runs it where it is switched on
+        let start = if key.starts_with(b"autostart") && key.ends_with(b".pc") {
+            Start::Concurrent
+        } else {
+            Start::Called
+        };
+        let ones = reader.programs.entry(key).or_default();
+        if !ones.is_empty() {
+            let remark = declared_again(&name);
+            reader.builder.script.say(sources, program.place, remark);
+        }
+        ones.push(reader.builder.declare(name, program.place, start));
         reader.parameters.push(program.parameters.clone());
         reader.note_assigned(program, routine, &mut handed);
     }
@@ -234,12 +252,16 @@ impl<'a> Reader<'a> {
         names.map(owned).collect()
     }
 
-    /// Notes the names whose numbers `FRAME(a,b,c,d)` and `DECOMPOSE x[0]=a` read.
+    /// Notes the names whose numbers `FRAME(a,b,c,d)`, `DECOMPOSE x[0]=a` and `TRANS(DX(a),…)` read.
     fn note_apart(&mut self, part: Words, place: Place, routine: RoutineId) {
         let decomposed = find(part, "DECompose").map(|_| part.behind(part.before(b'=').len() + 1));
         let frame = part.find(b"FRAME").filter(|at| part.is(at + 1, b'('));
         let framed = frame.map(|at| part.inside(at + 1).0);
-        for read in decomposed.into_iter().chain(framed) {
+        let is_part = |at: &usize| PARTS.iter().any(|part_of| part.is_word(*at, part_of));
+        let parts = (0..part.len()).filter(|at| is_part(at) && part.is(at + 1, b'('));
+        let parts = parts.filter(|_| part.find(b"TRANS").is_some());
+        let parts = parts.map(|at| part.inside(at + 1).0);
+        for read in decomposed.into_iter().chain(framed).chain(parts) {
             for name in self.names_in(read, routine) {
                 self.apart.entry(name).or_insert(place);
             }
@@ -368,6 +390,7 @@ impl<'a> Reader<'a> {
                     self.call(part.behind(at + 1), true);
                 }
             }
+            "WEight" => self.weight(rest),
             "LEfty" | "RIghty" | "ABove" | "BElow" | "UWrist" | "DWrist" => self.switch(false),
             _ => {}
         }
@@ -381,6 +404,36 @@ impl<'a> Reader<'a> {
         // of where the robot stands the text tells no target with the new one
         self.here.last = None;
         value
+    }
+
+    /// `WEIGHT mass,x,y,z`, kg and mm: what the flange carries, in its axes; moments of inertia may
+    /// follow.
+    ///
+    /// # Source
+    /// Kawasaki AS Language Reference Manual (90209-1022DED): the mass of tool and workpiece
+    /// together. *Not verified on a controller*: that the centre counts from the flange.
+    fn weight(&mut self, words: Words<'a, '_>) {
+        let list = words.list();
+        let said = list.iter().take(4).filter(|part| !part.is_empty());
+        let said: Vec<f64> = said.filter_map(|one| self.quantity(*one).exact()).collect();
+        let load = match said[..] {
+            [mass_kg, x, y, z] if mass_kg >= 0.0 => {
+                let cog_m = [x, y, z].map(m_from_mm);
+                self.held_load(Load { mass_kg, cog_m })
+            }
+            _ => self.unknown(LOAD),
+        };
+        self.write(Written::One(self.load), How::Whole(load));
+    }
+
+    fn held_load(&mut self, load: Load) -> Expr {
+        let known = self.loads.iter().find(|(known, _)| *known == load);
+        if let Some((_, held)) = known {
+            return *held;
+        }
+        let held = self.builder.script.held(Held::Load(Some(load)));
+        self.loads.push((load, held));
+        held
     }
 
     /// The arm's configuration is switched, or known again.
@@ -502,6 +555,9 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Functions that read numbers of a position.
+const PARTS: [&[u8]; 3] = [b"DX", b"DY", b"DZ"];
+
 /// Whether a line may be one that writes a name, reads it, or hands one to a program.
 fn may_write(line: &[u8]) -> bool {
     let has = |first: u8, other: u8, word: &[u8]| {
@@ -518,6 +574,7 @@ fn may_write(line: &[u8]) -> bool {
         || has(b'C', b'c', b"CA")
         || has(b'F', b'f', b"FRAME")
         || has(b'D', b'd', b"DEC")
+        || has(b'T', b't', b"TRANS") && PARTS.iter().any(|part| has(b'D', b'd', part))
 }
 
 /// The joints that `HSENSE number result,status,#joints,error,left` writes.

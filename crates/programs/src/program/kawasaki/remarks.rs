@@ -70,6 +70,12 @@ pub(super) const ARC_CHAIN: Remark = Remark::error(
     "end each arc with C2MOVE",
 );
 
+/// A load that the text does not say.
+pub(super) const LOAD: Remark = kit::load_chosen(
+    "load-chosen-at-run-time",
+    "write mass and centre of gravity with numbers: WEIGHT 6,0,0,100",
+);
+
 /// A configuration that is switched.
 pub(super) const SWITCHED: Remark = Remark::error(
     "configuration-not-understood",
@@ -85,6 +91,15 @@ pub(super) const SAVED: Remark = Remark::warning(
                  when the controller was saved (.SYSDATA)",
     "set TOOL and BASE in the program, or compare them with the pendant",
 );
+
+/// A program of a name that another has.
+pub(super) fn declared_again(name: &str) -> Remark {
+    Remark::warning_about(
+        "target-name-ambiguous",
+        format!("another program is called {name}, too: either may be the one that runs"),
+        "pass only the one that was loaded last",
+    )
+}
 
 /// A target that the files do not have.
 pub(super) fn not_in_files(name: &str) -> Remark {
@@ -112,7 +127,7 @@ pub(super) fn taken_apart(file: &str, line: usize) -> Remark {
     Remark::error_about(
         "target-used-as-frame",
         format!(
-            "FRAME or DECOMPOSE reads the numbers of this target (see {file} line {line}), and \
+            "FRAME, DECOMPOSE or DX, DY, DZ read the numbers of this target (see {file} line {line}), and \
              what the program makes of corrected ones is not followed"
         ),
         "give what is read a name of its own in .TRANS",

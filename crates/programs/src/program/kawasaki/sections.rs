@@ -159,7 +159,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     let mut found = Vec::new();
     for line in lines(head, content_start(head)..head.len()) {
         opened |= opens(line.text, b".PROGRAM");
-        if opens(line.text, b".TRANS") || opens(line.text, b".JOINTS") {
+        let mut sections = [&b".TRANS"[..], b".JOINTS", b".REALS"].into_iter();
+        if sections.any(|section| opens(line.text, section)) {
             return true;
         }
         let words = line.words(head, &mut found);
@@ -204,7 +205,7 @@ impl<'a> Sections<'a> {
                     () => Open::Other,
                 };
                 opened_at = line.start;
-                is_one |= is_system;
+                is_one |= !matches!(open, Open::Other);
             } else if matches!(open, Open::System) {
                 if text.starts_with(b"TOOL ") || text.starts_with(b"BASE ") {
                     self.saved.extend(entry(line, file).ok().flatten());

@@ -4,7 +4,7 @@ use super::code::Reference;
 use super::data::{Element, Father, Kind};
 use super::reader::Reader;
 use super::remarks::{FRAME_CHOSEN, frame_assigned};
-use super::targets::pose_of;
+use super::targets::{Of, pose_of};
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
 use crate::program::kit;
@@ -39,6 +39,11 @@ impl<'a> Reader<'a> {
         by: Steps,
     ) -> DisplacementId {
         let name = Reference::whole(frame).and_then(|name| Some((name, name.key?)));
+        // what a program's own frame is, is not followed
+        let name = name.filter(|(name, _)| {
+            let known = self.meaning(name);
+            known.is_none_or(|known| matches!(known.of, Of::Project(_)))
+        });
         if by.is_unknown() {
             return DISPLACED_SOMEHOW;
         }

@@ -148,8 +148,10 @@ impl<'a> Reader<'a> {
     /// Notes what a statement changes, whenever it runs.
     fn note_assigned(&mut self, line: Words<'a, '_>) {
         self.tell(line);
-        if let Some(target) = Reference::of(line)
-            && line.is(target.words, b'=')
+        // `for n=0 to 3` writes what it counts with
+        let set = line.behind(usize::from(line.text(0) == b"for"));
+        if let Some(target) = Reference::of(set)
+            && set.is(target.words, b'=')
         {
             self.note(&target);
         }

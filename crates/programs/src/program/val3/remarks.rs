@@ -39,7 +39,10 @@ pub(super) const REORDERED: Remark = Remark::error(
 pub(super) fn not_taught(name: &str) -> Remark {
     Remark::error_about(
         "target-uninitialised",
-        format!("{name} has no numbers in the .dtx: it was never taught"),
+        format!(
+            "{name} has no numbers in the .dtx: it was never taught, and what the program writes into \
+             parts of it is not followed"
+        ),
         "teach the point, or leave the move out",
     )
 }

@@ -87,6 +87,16 @@ fn what_may_be_several_is_judged_as_each() {
 }
 
 #[test]
+fn what_a_loop_of_another_program_counts_comes_back() {
+    // 300 of .REALS, or what the other program makes of it
+    let other = ".PROGRAM go(.n)\nFOR .n = 0 TO 4\nEND\n.END\n";
+    let found = by("CALL go(up)\nLAPPRO p1,up", other);
+    assert_eq!(found, Displacement::Unbounded);
+    let kept = by("CALL go(up+1)\nLAPPRO p1,up", other);
+    assert_eq!(kept, in_tool([0.0, 0.0, -0.3]));
+}
+
+#[test]
 fn only_what_no_text_tells_is_taken_for_a_sensor() {
     for (code, wanted) in [
         ("LMOVE p1+cam", Displacement::Unknown),

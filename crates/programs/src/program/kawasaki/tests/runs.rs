@@ -286,3 +286,54 @@ fn what_is_added_to_a_plate_is_a_target_on_it() {
         assert!(matches!(displacement, Displacement::By(_)), "{code}");
     }
 }
+
+#[test]
+fn the_program_that_the_controller_starts_by_itself_runs_at_any_time() {
+    let program = read_two("LMOVE p1", "AutoStart2.pc\nPOINT p1 = p[2]");
+    assert_eq!(targets(&program), ["p1", "p[2]"]);
+    assert!(!ids(&program).contains(&"write-not-called"));
+    let program = read_two("LMOVE p1", "other.pc\nPOINT p1 = p[2]");
+    assert!(ids(&program).contains(&"write-not-called"));
+}
+
+#[test]
+fn programs_of_one_name_are_reported_and_both_are_followed() {
+    let other = ".PROGRAM GO\nLMOVE p[2]\n.END\n";
+    let main = format!(
+        ".PROGRAM main()\nTOOL grip\nBASE NULL\nCALL go\n.END\n.PROGRAM go()\nLMOVE p1\n.END\n\
+         {POINTS}"
+    );
+    let program = read_files(&[&main, other]).expect("programs");
+    assert_eq!(targets(&program), ["p1", "p[2]"]);
+    let found = program.findings.iter();
+    let mut found = found.filter(|found| found.id == "target-name-ambiguous");
+    let only = found.next().expect("a warning");
+    let place = (only.severity, only.file.as_str(), only.line);
+    assert_eq!(place, (Severity::Warning, "1.as", 1));
+    assert!(found.next().is_none());
+}
+
+#[test]
+fn a_file_may_have_reals_alone() {
+    let reals = ".REALS\nup = 30\n.END\n";
+    assert!(Kawasaki.recognises(&Source::new("b.as", reals.as_bytes().to_vec())));
+    let main = format!(".PROGRAM main()\nTOOL grip\nBASE NULL\nLAPPRO p1,up\n.END\n{POINTS}");
+    let program = read_files(&[&main, reals]).expect("programs");
+    let Displacement::By(by) = &program.moves[0].displacement else {
+        panic!("{:?}", program.moves[0].displacement);
+    };
+    assert_eq!(by.in_tool.translation, [0.0, 0.0, -0.03]);
+}
+
+#[test]
+fn a_target_of_whose_numbers_another_is_built_is_not_corrected() {
+    for code in [
+        "POINT x = TRANS(DX(p1)+50,DY(p1),DZ(p1),0,180,0)\nLMOVE x\nLMOVE p1",
+        "LMOVE p1\nLMOVE TRANS(dx(p1),0,0,0,180,0)",
+    ] {
+        let program = read(&format!("TOOL grip\nBASE NULL\n{code}"));
+        assert!(ids(&program).contains(&"target-used-as-frame"), "{code}");
+    }
+    let program = read("TOOL grip\nBASE NULL\nLMOVE p1\n.h = DZ(p1)\nTYPE DX(p1)");
+    assert_eq!(ids(&program), [""; 0]);
+}

@@ -87,6 +87,71 @@ fn what_a_program_writes_into_a_transformation_counts() {
     assert!(matches!(composed, Displacement::Within(_)), "{composed:?}");
 }
 
+/// How far along x or z steps lead at most, with the last of them, mm.
+fn at_most(found: &Displacement) -> f64 {
+    let Displacement::Within(strides) = found else {
+        panic!("{found:?}");
+    };
+    let each = strides.iter().map(|stride| match stride {
+        Stride::By { shift, most } => {
+            let [x, _, z] = shift.in_tool.translation;
+            (x + z).abs() * f64::from(most.expect("counted"))
+        }
+        Stride::Turned(_) => panic!("it turns nothing"),
+    });
+    each.sum::<f64>() * 1e3
+}
+
+#[test]
+fn a_counter_that_the_data_give_a_value_is_what_its_loop_counts() {
+    // from 200, as declared, to 4, which it is behind the loop, one by one
+    let go = "movel(appro(pA,{nUp*30,0,0,0,0,0}),tA,m)";
+    for code in [
+        format!("for nUp=0 to 3\n{go}\nendFor"),
+        format!("for nUp=3 to 0 step -1\n{go}\nendFor"),
+        format!("for nUp=0 to 3\nendFor\n{go}"),
+        format!("{go}\nfor nUp=0 to 3\nendFor"),
+        format!("for nUp=0 to 3\ntOff.x=nUp*30\nmovel(appro(pA,tOff),tA,m)\nendFor"),
+    ] {
+        let reach = at_most(&by(&code));
+        assert!(reach >= 90.0 - 1e-9, "{code}: {reach}");
+    }
+    for code in [
+        "for nUp=0 to 3\npX=compose(pB,fA,{nUp*30,0,0,0,0,0})\nmovel(pX,tA,m)\nendFor",
+        "for nUp=0 to 3\npB=pA\npB.trsf.x=pA.trsf.x+nUp*30\nmovel(pB,tA,m)\nendFor",
+    ] {
+        let found = by(code);
+        assert!(
+            matches!(found, Displacement::Within(_)),
+            "{code}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_counter_in_a_program_that_is_given_it_or_in_a_task_counts() {
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let parameter = "<Parameters><Parameter name=\"x\" type=\"num\" use=\"reference\" \
+        xsi:type=\"element\" /></Parameters>";
+    let go = "movel(appro(pA,{nUp*30,0,0,0,0,0}),tA,m)";
+    for (start, declared, sub) in [
+        ("call sub(nUp)\n", parameter, "for x=0 to 3\nendFor"),
+        ("call sub()\n", "", "for nUp=0 to 3\nendFor"),
+        ("taskCreate \"t\",10,sub()\n", "", "for nUp=0 to 3\nendFor"),
+    ] {
+        let files = [
+            ("m/m.dtx", dtx(&all)),
+            ("m/start.pgx", pgx("start", "", &format!("{start}{go}"))),
+            ("m/sub.pgx", pgx("sub", declared, sub)),
+        ];
+        let program = read_files(&files).expect("a project");
+        let found = &program.moves[0].displacement;
+        // what comes back may be what was given
+        let is_judged = *found == Displacement::Unbounded || at_most(found) >= 90.0 - 1e-9;
+        assert!(is_judged, "{start}: {found:?}");
+    }
+}
+
 #[test]
 fn only_what_no_text_tells_is_taken_for_a_sensor() {
     for (code, wanted) in [
@@ -153,6 +218,27 @@ fn numbers_are_those_that_calls_give_and_programs_bring_back() {
         "x=300",
     );
     assert_eq!(back, Displacement::Unbounded);
+}
+
+#[test]
+fn a_frame_of_a_program_of_its_own_is_not_the_one_of_the_project() {
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let local =
+        "<Locals><Local name=\"fA\" type=\"frame\" xsi:type=\"array\" size=\"1\" /></Locals>";
+    let code = "movel(compose(pA,fA,trA),tA,m)";
+    for (declared, is_followed) in [("", true), (local, false)] {
+        let files = [
+            ("m/m.dtx", dtx(&all)),
+            ("m/start.pgx", pgx("start", declared, code)),
+        ];
+        let program = read_files(&files).expect("a project");
+        let found = &program.moves[0].displacement;
+        assert_eq!(
+            matches!(found, Displacement::By(_)),
+            is_followed,
+            "{found:?}"
+        );
+    }
 }
 
 #[test]
