@@ -6,6 +6,7 @@ mod bounds;
 mod decided;
 mod displaced;
 mod followed;
+mod foreign;
 mod jobs;
 mod krl;
 mod registers;
