@@ -1,7 +1,7 @@
 //! What routines of KRL write through parameters, what calls do to the side from which joints come, and
 //! corrections across half a rotation.
 
-use super::{PLAIN, done, errors};
+use super::{P, PLAIN, done, errors};
 use poseshift::compensate::Compensation;
 use poseshift::model::Conditions;
 use poseshift::model::profile::Mounted;
@@ -246,5 +246,39 @@ fn a_correction_across_half_a_rotation_from_where_a_joint_stands_is_reported() {
                 "{found:?}"
             );
         }
+    }
+}
+
+#[test]
+fn a_search_that_stops_leaves_the_robot_on_its_way() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    for (switch, call, expected) in [
+        ("\\Stop,", "", 1),
+        ("\\SStop,", "", 1),
+        ("", "", 0),
+        ("", "rHome;\n", 1),
+        ("", "TPWrite \"x\";\n", 0),
+    ] {
+        let data = format!(
+            "CONST robtarget a := [[330,10,420],{P};\nCONST robtarget b := [[330,10,380],{P};\nCONST \
+             robtarget c := [[330,10,330],{P};\nVAR robtarget f;"
+        );
+        let body = format!(
+            "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveL \
+             a,v100,fine,tool0;\nSearchL{} di1,f,b,v100,tool0;\n{call}MoveL c,v100,fine,tool0;",
+            switch.trim_end_matches(',')
+        );
+        let body = body.replace("Stop di1", "Stop,di1");
+        let done = done(&[backlash], &[("t.mod", &super::rapid(&data, &body))]);
+        let found = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "direction-uncertain");
+        assert_eq!(
+            found.count(),
+            expected,
+            "{switch} {call} {:?}",
+            done.findings
+        );
     }
 }

@@ -7,6 +7,7 @@ mod calls;
 mod decided;
 mod displaced;
 mod followed;
+mod foreign;
 mod given;
 mod jobs;
 mod kawasaki;

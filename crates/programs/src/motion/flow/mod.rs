@@ -140,6 +140,8 @@ pub(super) struct Flow<'a> {
     made_parts: HashMap<(ValueId, u32, u32), Option<ValueId>>,
     /// Records that writes of parts made, by what is in them: what comes round again is the same.
     made_records: HashMap<Content, ValueId>,
+    /// Positions of the robot itself: what holds the tool and the work frame of each.
+    reads: Vec<(ValueId, [Holding; 2])>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -206,6 +208,7 @@ impl<'a> Flow<'a> {
             more_parts: Vec::new(),
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
+            reads: Vec::new(),
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),

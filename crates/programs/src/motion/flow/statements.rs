@@ -299,6 +299,11 @@ impl<'a> Flow<'a> {
         let first = script.routines[of.routine as usize].instructions.start;
         let stop = of.first_stop + (at - first);
         let target = match instruction.target {
+            Expr::Value(value)
+                if matches!(script.values[value as usize], Held::ActualWith { .. }) =>
+            {
+                Some(self.evaluate(state, instruction.target, site))
+            }
             Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => None,
             other if self.is_choice(other) => {
                 if !self.is_fixed(other) {

@@ -1,9 +1,10 @@
 //! What variables hold: which are followed, and the value of an expression.
 
-use super::{Flow, MOST_WRITES, State};
+use super::{Flow, MOST_WRITES, Modes, State};
+use crate::motion::before::Stop;
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
-    Expr, Held, How, NOT_DISPLACED, Statement, TableId, VariableId, Written, short,
+    Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId, VariableId, Written, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
@@ -140,7 +141,16 @@ impl Flow<'_> {
                 };
                 self.holdings.one(atom, site)
             }
-            Expr::Value(value) => self.holdings.one(Atom::Value(value), site),
+            Expr::Value(value) => {
+                let value = match script.values.get(value as usize) {
+                    Some(Held::ActualWith { tool, frame }) => {
+                        let with = [*tool, *frame].map(|of| of_variable(self, of));
+                        self.read_with(with)
+                    }
+                    _ => value,
+                };
+                self.holdings.one(Atom::Value(value), site)
+            }
             Expr::Unknown(remark) => self.holdings.one(Atom::Unknown(remark), site),
             Expr::Any { first, end } => {
                 let mut all = NOTHING;
@@ -172,7 +182,12 @@ impl Flow<'_> {
                             }));
                         }
                         // except where the robot itself was, nothing is as it is
-                        Atom::Value(value) if *self.value(value) == Held::Actual => {
+                        Atom::Value(value)
+                            if matches!(
+                                self.value(value),
+                                Held::Actual | Held::ActualWith { .. }
+                            ) =>
+                        {
                             displaced.push((Atom::Anything, of));
                         }
                         other => displaced.push((other, of)),
@@ -211,6 +226,46 @@ impl Flow<'_> {
                 all
             }
         }
+    }
+
+    /// The value of where the robot is, with what holds its tool and its work frame.
+    fn read_with(&mut self, with: [Holding; 2]) -> ValueId {
+        let with = with.map(|of| {
+            let atoms = self.holdings.of(of).iter();
+            let atoms = atoms.map(|(atom, _)| (*atom, DECLARED)).collect();
+            self.holdings.intern(atoms)
+        });
+        if let Some((value, _)) = self.reads.iter().find(|(_, known)| *known == with) {
+            return *value;
+        }
+        self.made.push(Held::Actual);
+        let value = short(self.script.values.len() + self.made.len() - 1);
+        self.reads.push((value, with));
+        value
+    }
+
+    /// Whether a move to where the robot was has the tool and the work frame of that position.
+    pub(in crate::motion) fn is_as_read(&self, value: ValueId, stop: Stop) -> bool {
+        let Some((_, with)) = self.reads.iter().find(|(of, _)| *of == value) else {
+            return *self.value(value) == Held::Actual;
+        };
+        let Some(reached) = self.reached[stop as usize] else {
+            return false;
+        };
+        let one = |holding: Holding| {
+            let atoms = self.holdings.of(holding).iter().map(|(atom, _)| *atom);
+            let mut atoms = atoms.filter(|atom| *atom != Atom::Uncertain);
+            let first = atoms.next().filter(|atom| matches!(atom, Atom::Value(_)));
+            first.filter(|_| atoms.next().is_none())
+        };
+        let of = |modes: &Modes| [modes.tool, modes.frame].map(one);
+        let own = of(&self.modes[reached.modes as usize]);
+        (0..2).all(|at| match with[at] {
+            _ if own[at].is_none() => false,
+            // that of the move before
+            NOTHING => self.modes.iter().all(|modes| of(modes)[at] == own[at]),
+            read => one(read) == own[at],
+        })
     }
 
     pub(super) fn variable(&mut self, state: &State, variable: VariableId) -> Holding {

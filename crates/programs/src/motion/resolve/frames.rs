@@ -44,6 +44,7 @@ impl Resolver<'_, '_> {
                 }),
                 Held::Remark(remark) => Err(Refused::Said(remark)),
                 Held::Actual
+                | Held::ActualWith { .. }
                 | Held::Load(_)
                 | Held::Flag(_)
                 | Held::ExternalOffset(_)

@@ -88,14 +88,10 @@ impl Resolver<'_, '_> {
             Atom::Value(ValueId::MAX) | Atom::Uncertain => self.go_nowhere(listed),
             Atom::Value(value) => {
                 match self.flow.value(value) {
-                    Held::Actual if displacement == NOT_DISPLACED => self.report.say(
-                        "run-time-position",
-                        Severity::Note,
-                        listed.instruction.place,
-                        "this move goes to where the robot itself was; that is right as it is"
-                            .into(),
-                        "",
-                    ),
+                    Held::Actual | Held::ActualWith { .. } if displacement == NOT_DISPLACED => {
+                        let is_as_read = self.flow.is_as_read(value, listed.stop);
+                        self.at_robot(is_as_read, listed.instruction.place);
+                    }
                     Held::Remark(remark) => {
                         let remark = &script.remarks[*remark as usize];
                         self.report.say_once(remark, listed.instruction.place);
@@ -114,6 +110,21 @@ impl Resolver<'_, '_> {
                 self.go_nowhere(listed);
             }
         }
+    }
+
+    /// A move to where the robot itself was.
+    fn at_robot(&mut self, is_as_read: bool, place: Place) {
+        let (id, severity, message, hint) = if is_as_read {
+            let message = "this move goes to where the robot itself was; that is right as it is";
+            ("run-time-position", Severity::Note, message, "")
+        } else {
+            let message = "this move goes to where the robot itself was, as a pose of another tool or \
+                in another work frame, or of one that only the running program knows: with this \
+                move's own it is not corrected";
+            let hint = "read the position with the tool and the work frame of the move";
+            ("computed-target", Severity::Warning, message, hint)
+        };
+        self.report.say(id, severity, place, message.into(), hint);
     }
 
     pub(super) fn computed(&mut self, place: Place) {

@@ -2,13 +2,16 @@
 //! arguments.
 
 use super::builtins::Known;
-use super::resolved::{Callees, Entity, named};
-use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
+use super::moves::plain;
+use super::resolved::{Callees, Entity, Resolved, named};
+use super::syntax::{
+    Argument, Base, Callee, Datum, Expression, Index, Part, Path, Storage, Type, Verb, indices,
+};
 use super::translate::Translator;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{self, Call, Expr, Held, How, Place, VariableId, Written, short};
+use crate::program::script::{self, Call, Expr, Held, How, Remark, VariableId, Written};
 
-/// An instruction that is not known but has a target and a tool moves like the ones that are.
+/// How a routine that is not in the files is taken to move.
 const UNKNOWN_MOVE: Verb = Verb::Move {
     path: Path::Linear,
     first: 0,
@@ -20,7 +23,14 @@ impl Translator<'_> {
     pub(super) fn call(&mut self, callee: Callee, verb: Verb, arguments: Part, end: u32) {
         let resolved = self.resolved;
         let all = &resolved.parsed.arguments[indices(arguments)];
-        match self.meant(callee, verb, arguments) {
+        let meant = self.meant(callee, verb, arguments);
+        if meant != verb
+            && matches!(meant, Verb::Move { .. })
+            && let Callee::Named(name) = callee
+        {
+            self.assume_move(name);
+        }
+        match meant {
             Verb::Mode(mode, set) => self.mode(mode, set, arguments),
             Verb::Wander { back } => self.wander(back, end),
             Verb::GripLoad => self.grip_load(arguments),
@@ -37,7 +47,7 @@ impl Translator<'_> {
                     }
                 }
             }
-            Verb::WritesNamed => self.writes_named(all),
+            Verb::WritesNamed => self.writes_named(arguments),
             verb @ Verb::Move { .. } => self.go(verb, arguments, end),
             Verb::CallByVar => {
                 let callees = match all.first().map(|argument| argument.expression) {
@@ -48,7 +58,7 @@ impl Translator<'_> {
                     }
                     _ => resolved.any_routine((0, 0), ""),
                 };
-                self.goes_to(&callees, &[], "CallByVar".into());
+                self.goes_to(&callees, &[], "CallByVar".into(), true);
             }
             Verb::Harmless | Verb::Other => {
                 let callees = resolved.callees(callee, arguments, self.context, self.here.file);
@@ -56,7 +66,7 @@ impl Translator<'_> {
                     Callee::Named(name) => resolved.spelling(name).into(),
                     Callee::Text(..) | Callee::Late => "a late-bound call".into(),
                 };
-                self.goes_to(&callees, all, name);
+                self.goes_to(&callees, all, name, matches!(verb, Verb::Other));
             }
         }
     }
@@ -73,13 +83,53 @@ impl Translator<'_> {
         }
     }
 
+    /// Whether arguments are those of a move, in their order: one target, speed and what else is no
+    /// position, one tool, and no other tool or work object than `\WObj`.
     fn is_like_move(&self, arguments: Part) -> bool {
         let all = &self.resolved.parsed.arguments[indices(arguments)];
-        let wobj = self.words.wobj;
-        let is_frame = |argument: &Argument| {
-            wobj.is_some() && argument.option == wobj || self.is_tool(argument)
+        let (options, positional): (Vec<_>, Vec<_>) =
+            all.iter().partition(|argument| argument.option.is_some());
+        let [target, between @ .., tool] = &positional[..] else {
+            return false;
         };
-        all.iter().any(is_frame) && all.iter().any(|argument| self.leads_to_target(argument))
+        let is_wobj = |argument: &&&Argument| argument.option == self.words.wobj;
+        let has_wobj = options.iter().any(|argument| is_wobj(&argument));
+        let is_undeclared =
+            || plain(tool).is_some_and(|name| self.resolved.kind(name, self.context).is_none());
+        let others = options.iter().filter(|argument| !is_wobj(argument));
+        let mut others = others.chain(between);
+        !between.is_empty()
+            && self.leads_to_target(target)
+            && (self.is_tool(tool) || has_wobj && is_undeclared())
+            && !others.any(|other| self.leads_to_target(other) || self.frame_given(other).is_some())
+    }
+
+    /// The tool or work object that an argument is, or a part of which it is.
+    fn frame_given(&self, argument: &Argument) -> Option<(Symbol, Index)> {
+        let (name, index) = self.resolved.place_of(&argument.expression)?;
+        let kind = self.resolved.kind(name, self.context);
+        let kind = kind.or_else(|| self.wanted.get(&name).copied())?;
+        kind.is_frame().then_some((name, index))
+    }
+
+    /// Says once of a routine that is not in the files that its calls are taken for moves.
+    fn assume_move(&mut self, name: Symbol) {
+        if self.remarks.contains_key(&("move-assumed", name)) {
+            return;
+        }
+        let remark = self.remark(name, |name| {
+            Remark::warning_about(
+                "move-assumed",
+                format!(
+                    "{name} is not in the files: it is taken to move straight to the target that it \
+                     is given, with the tool and the work object of the call (wobj0 where it names \
+                     none), to go nowhere else and to change nothing"
+                ),
+                "give the module that declares it, too",
+            )
+        });
+        let remark = self.builder.script.remarks[remark as usize].clone();
+        self.say(remark);
     }
 
     /// Whether an argument gives a target away.
@@ -150,7 +200,7 @@ impl Translator<'_> {
         }
         let callee = Callee::Named(of.name);
         let callees = resolved.callees(callee, of.arguments, self.context, self.here.file);
-        self.goes_to(&callees, all, resolved.spelling(of.name).into());
+        self.goes_to(&callees, all, resolved.spelling(of.name).into(), false);
         // the next call of it writes over what it gives
         if !is_last && let Some(result) = self.result_of(function) {
             let apart = self.temporary(resolved.spelling(of.name), Expr::Absent);
@@ -178,24 +228,28 @@ impl Translator<'_> {
     }
 
     /// A call of routines with arguments.
-    fn goes_to(&mut self, callees: &Callees, all: &[Argument], name: Box<str>) {
+    fn goes_to(&mut self, callees: &Callees, all: &[Argument], name: Box<str>, leads: bool) {
         let mut given = Vec::new();
         for &routine in &callees.routines {
             self.bind(routine, all, &mut given);
         }
         if callees.foreign {
             self.give_away(all, &mut given);
-            // a routine that is not in the files and gets nothing changes nothing that is known
-            if callees.routines.is_empty() && given.is_empty() {
-                return;
-            }
+        }
+        let is_foreign = callees.routines.is_empty();
+        if is_foreign {
+            self.frames_unknown(&name, all);
+        }
+        // a routine that is not in the files and gets nothing changes nothing that is known
+        if is_foreign && given.is_empty() && !leads {
+            return;
         }
         let arguments = self.builder.script.give(given);
         self.emit_call(Call {
             place: self.here,
             callees: callees.routines.clone().into(),
             foreign: callees.foreign,
-            leads: false,
+            leads: leads && is_foreign,
             name,
             arguments,
         });
@@ -279,41 +333,40 @@ impl Translator<'_> {
         }
     }
 
-    /// What a routine gets that is not in the files.
+    /// The positions that a routine gets that is not in the files.
     fn give_away(&mut self, all: &[Argument], given: &mut Vec<script::Argument>) {
         for argument in all {
-            let frame = match argument.expression {
-                Expression::Point {
-                    base: Base::Named { name, index },
-                    steps: (a, b),
-                } if a == b
-                    && self
-                        .resolved
-                        .kind(name, self.context)
-                        .or_else(|| self.wanted.get(&name).copied())
-                        .is_some_and(Type::is_frame) =>
-                {
-                    Some(self.frame(name, self.resolved.parsed.index(index)))
+            if !self.leads_to_target(argument) {
+                continue;
+            }
+            let value = match argument.expression {
+                Expression::Member { name, index } => {
+                    let index = self.resolved.parsed.index(index);
+                    self.position(name, index, Type::Robtarget)
                 }
-                _ => None,
+                expression => self.position_from(expression, Type::Robtarget),
             };
-            let value = match frame {
-                Some(value) => value,
-                None if self.leads_to_target(argument) => match argument.expression {
-                    Expression::Member { name, index } => {
-                        let index = self.resolved.parsed.index(index);
-                        self.position(name, index, Type::Robtarget)
-                    }
-                    expression => self.position_from(expression, Type::Robtarget),
-                },
-                None => continue,
+            given.push(script::Argument::new(None, value, value.variable()));
+        }
+    }
+
+    /// A routine that is not in the files may write the tools and work objects that it is given, or
+    /// parts of which it is given.
+    fn frames_unknown(&mut self, routine: &str, all: &[Argument]) {
+        for argument in all {
+            let Some((name, index)) = self.frame_given(argument) else {
+                continue;
             };
-            let back = match value {
-                Expr::Variable(variable) => Some(variable),
-                _ => None,
-            };
-            if frame.is_none() || back.is_some() {
-                given.push(script::Argument::new(None, value, back));
+            let value = self.builder.script.unknown(Remark::error_about(
+                "frame-chosen-at-run-time",
+                format!(
+                    "{routine}, which is not in the files, is given {} and may write it",
+                    self.resolved.spelling(name)
+                ),
+                "give the module that declares it, too, or give it a copy",
+            ));
+            for variable in self.written(name, index) {
+                self.emit_write(self.here, variable, How::Whole(value));
             }
         }
     }
@@ -378,47 +431,48 @@ impl Translator<'_> {
     }
 
     /// `SetDataVal`, `SetAllDataVal`: writes data whose names or types it is given.
-    fn writes_named(&mut self, all: &[Argument]) {
-        let resolved = self.resolved;
-        let text = all.iter().find_map(|argument| match argument.expression {
-            Expression::Text(start, end) => Some((start as usize, end as usize)),
-            _ => None,
-        });
-        let bytes = &resolved.sources[self.here.file as usize].bytes;
-        let text = text.map(|(start, end)| bytes[start..end].to_ascii_lowercase());
-        for at in 0..short(resolved.parsed.data.len()) {
-            let datum = resolved.datum(at);
-            if !resolved.is_written(Entity::Declared(at)) || datum.context.routine.is_some() {
+    fn writes_named(&mut self, arguments: Part) {
+        for datum in self.resolved.set_by_name(arguments, self.here.file) {
+            if self.resolved.datum(datum).kind == Type::Loaddata {
                 continue;
             }
-            let name = resolved
-                .spelling(datum.name)
-                .as_bytes()
-                .to_ascii_lowercase();
-            let names_type = text
-                .as_ref()
-                .is_some_and(|text| Type::named(text) != Type::Other);
-            let meant = match &text {
-                Some(text) if names_type => Type::named(text) == datum.kind,
-                Some(text) => *text == name,
-                None => true,
-            };
-            if !meant {
-                continue;
-            }
-            let value = if datum.kind.is_target() {
-                self.position_of_datum(at, Index::Whole)
-            } else {
-                continue;
-            };
-            let how = How::PartSomehow(self.changed());
-            let variable = match value {
+            let variable = match self.held_by(datum) {
                 Expr::Variable(variable) => Written::One(variable),
-                Expr::Any { .. } => Written::AnyOf(self.table(Entity::Declared(at))),
+                Expr::Any { .. } => Written::AnyOf(self.table(Entity::Declared(datum))),
                 _ => continue,
             };
-            let place: Place = self.here;
-            self.emit_write(place, variable, how);
+            let how = How::PartSomehow(self.changed());
+            self.emit_write(self.here, variable, how);
         }
+    }
+}
+
+impl Resolved<'_> {
+    /// The data of modules that `SetDataVal` or `SetAllDataVal` may write: of the name or the type
+    /// that is its first argument, of any where only the running program knows that.
+    pub(super) fn set_by_name(&self, arguments: Part, file: u32) -> Vec<u32> {
+        let mut all = self.parsed.arguments[indices(arguments)].iter();
+        let text = match all.find(|of| of.option.is_none()).map(|of| of.expression) {
+            Some(Expression::Text(start, end)) => {
+                let bytes = &self.sources[file as usize].bytes;
+                Some(bytes[indices((start, end))].to_ascii_lowercase())
+            }
+            _ => None,
+        };
+        let kind = text.as_deref().map(Type::named);
+        let is_meant = |datum: &Datum| match (&text, kind) {
+            (Some(text), Some(Type::Other)) => self
+                .spelling(datum.name)
+                .as_bytes()
+                .eq_ignore_ascii_case(text),
+            (_, Some(kind)) => kind == datum.kind,
+            _ => true,
+        };
+        let data = (0..).zip(&self.parsed.data);
+        let meant = data.filter(|(_, datum)| {
+            let is_kept = datum.storage != Storage::Constant && datum.context.routine.is_none();
+            is_kept && datum.kind.is_of_moves() && is_meant(datum)
+        });
+        meant.map(|(at, _)| at).collect()
     }
 }

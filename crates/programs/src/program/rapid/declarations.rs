@@ -341,6 +341,14 @@ impl Reader<'_> {
             let offset = self.token.start;
             let mentions = short(self.parsed.mentions.len());
             let leaves = match self.aggregate(template) {
+                // of one that stands elsewhere in the text these leaves are looked for there
+                Ok(leaves)
+                    if matches!(component, Component::Leaves(..))
+                        && leaves.as_slice().iter().all(|of| *of == Leaf::Computed) =>
+                {
+                    self.rewind(mark);
+                    continue;
+                }
                 Ok(leaves) if self.token.is(b';') || template.len() > 1 => leaves,
                 Ok(_) | Err(Fault::Unexpected { .. }) => {
                     self.rewind(mark);
@@ -395,7 +403,7 @@ impl Reader<'_> {
 }
 
 /// The part of a tool or frame that a word names inside another part: its leaves and template.
-fn part(inside: Component, word: &[u8]) -> Option<(Component, &'static [u8])> {
+pub(super) fn part(inside: Component, word: &[u8]) -> Option<(Component, &'static [u8])> {
     let inside = match inside {
         Component::Whole => None,
         Component::Leaves(first, _) => Some(first),

@@ -88,9 +88,10 @@ impl Translator<'_> {
             return;
         };
         let holds = self.held_load(own);
-        let place = Place::NOWHERE;
-        let held = Variable::new("GripLoad", place, holds);
-        let held = self.builder.script.variable(held);
+        let held = self.builder.script.variable(Variable {
+            kept: true,
+            ..Variable::new("GripLoad", Place::NOWHERE, holds)
+        });
         let tool = Tool {
             flange_from_tool,
             own,

@@ -97,23 +97,27 @@ impl Modes {
             "pass only the modules of one task, or make the data LOCAL",
         ));
         let ambiguous = script.value(Held::Remark(remark));
-        let mut mode = |name: &str, holds: ValueId| {
-            script.variable(Variable::new(name, Place::NOWHERE, Expr::Value(holds)))
-        };
-        let (conf_j, conf_l) = (mode("ConfJ", on), mode("ConfL", on));
-        let wrist = mode("SingArea", off);
-        let circle = mode("CirPathMode", off);
-        let program_displacement = mode("PDispOn", off);
-        let external_offset = mode("EOffsOn", unshifted);
-        let ambiguous = mode("", ambiguous);
-        let units: Vec<(String, VariableId, ValueId)> = units
-            .into_iter()
-            .map(|(name, axes)| {
-                let follows = Variable::new(name.as_str(), Place::NOWHERE, Expr::Value(on));
-                let follows = script.variable(follows);
-                let off = script.value(Held::AxesOff(axes));
-                (name, follows, off)
+        // a program displacement lasts over the end of a cycle
+        let mut mode = |name: &str, holds: ValueId, kept: bool| {
+            script.variable(Variable {
+                kept,
+                ..Variable::new(name, Place::NOWHERE, Expr::Value(holds))
             })
+        };
+        let (conf_j, conf_l) = (mode("ConfJ", on, false), mode("ConfL", on, false));
+        let wrist = mode("SingArea", off, false);
+        let circle = mode("CirPathMode", off, false);
+        let program_displacement = mode("PDispOn", off, true);
+        let external_offset = mode("EOffsOn", unshifted, false);
+        let ambiguous = mode("", ambiguous, false);
+        let follows: Vec<VariableId> = units
+            .iter()
+            .map(|(name, _)| mode(name, on, false))
+            .collect();
+        let units: Vec<(String, VariableId, ValueId)> = follows
+            .into_iter()
+            .zip(units)
+            .map(|(follows, (name, axes))| (name, follows, script.value(Held::AxesOff(axes))))
             .collect();
         let mut guard = |own: &[VariableId]| {
             let all = own.iter().copied().chain(units.iter().map(|unit| unit.1));
@@ -157,6 +161,14 @@ impl Translator<'_> {
         };
         let (modes, words) = (&self.modes, &self.words);
         let flag = |on: bool| if on { modes.on } else { modes.off };
+        if mode == Mode::Wrist && has(words.lock_axis_4) {
+            let text = "axis 4 stays at 0 or 180 degrees from here on (SingArea\\LockAxis4): what a \
+                correction turns it by is not reached";
+            let hint = "see how far the robot is from the target there, or use SingArea\\Wrist";
+            self.say(Remark::warning("axis-locked", text, hint));
+            let (wrist, off) = (self.modes.wrist, self.modes.off);
+            return self.set(wrist, Expr::Value(off));
+        }
         let (variable, value) = match mode {
             Mode::ConfJ => (modes.conf_j, flag(!has(words.off))),
             Mode::ConfL => (modes.conf_l, flag(!has(words.off))),

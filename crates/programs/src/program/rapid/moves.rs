@@ -6,7 +6,7 @@ use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, i
 use super::translate::Translator;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
-use crate::program::script::{Expr, How, Instruction, Modal, Remark, Span, Written};
+use crate::program::script::{Call, Expr, Held, How, Instruction, Modal, Remark, Span, Written};
 use crate::program::{Motion, Source, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
@@ -327,7 +327,24 @@ impl Translator<'_> {
             self.emit_move(instruction, modal);
         }
         if first == 2 {
-            self.found(all);
+            self.found(all, tool, frame);
+            self.stop_on_the_way(all);
+        }
+    }
+
+    /// A search that stops at the signal: anywhere on its path.
+    fn stop_on_the_way(&mut self, all: &[Argument]) {
+        let is_stop = |argument: &Argument| {
+            let spelling = argument.option.map(|name| self.resolved.spelling(name));
+            let stops = ["Stop", "PStop", "SStop"];
+            spelling.is_some_and(|of| stops.iter().any(|stop| of.eq_ignore_ascii_case(stop)))
+        };
+        if all.iter().any(is_stop) {
+            self.emit_call(Call {
+                foreign: false,
+                leads: true,
+                ..Call::of(self.here, [].into(), "a search that stops", 0..0)
+            });
         }
     }
 
@@ -347,10 +364,10 @@ impl Translator<'_> {
     }
 
     /// A search writes where the robot was when the signal came.
-    fn found(&mut self, all: &[Argument]) {
+    fn found(&mut self, all: &[Argument], tool: Expr, frame: Expr) {
         let mut found = all.iter().filter(|argument| argument.option.is_none());
         if let Some(argument) = found.nth(1) {
-            let actual = Expr::Value(self.actual);
+            let actual = self.builder.script.held(Held::ActualWith { tool, frame });
             self.write_argument(argument, How::Whole(actual));
         }
     }

@@ -7,11 +7,11 @@
 use super::blocks::is_block_word;
 use super::expressions::OpenCall;
 use super::syntax::{
-    Argument, Called, Callee, Component, Lengths, Parsed, Routine, Statement, StatementKind,
-    Storage, Type, Verb,
+    Argument, Called, Callee, Component, Expression, Lengths, Parsed, Routine, Statement,
+    StatementKind, Storage, Type, Verb,
 };
 use super::tokens::{Fault, Kind, Scanner, Token};
-use super::verbs::Verbs;
+use super::verbs::{self, Verbs};
 use crate::program::Source;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Place, short};
@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
                 start: 0,
                 end: 0,
             },
-            context: outside(parsed),
+            context: outside(parsed, None),
             behind: 0,
             parsed,
             verbs,
@@ -260,11 +260,11 @@ impl<'a> Reader<'a> {
         }
         self.module = Some(self.token.start);
         self.advance()?;
-        self.name("the name of a module")?;
+        let name = self.name("the name of a module")?;
         if self.token.is(b'(') {
             self.expression()?;
         }
-        self.context = outside(self.parsed);
+        self.context = outside(self.parsed, Some(name));
         self.text_begins(self.token.start);
         self.recognised = true;
         Ok(())
@@ -277,7 +277,7 @@ impl<'a> Reader<'a> {
         if self.module.take().is_none() {
             return Err(self.unexpected("a statement"));
         }
-        self.context = outside(self.parsed);
+        self.context = outside(self.parsed, None);
         self.text_begins(self.token.end);
         self.advance()
     }
@@ -390,9 +390,33 @@ impl<'a> Reader<'a> {
                 let module = self.context.module;
                 let verb = self.verbs.of(name, self.text(first), module);
                 self.recognised |= matches!(verb, Verb::Move { .. } | Verb::Mode(..));
-                self.call(first.start, Callee::Named(name), verb)
+                self.call(first.start, Callee::Named(name), verb)?;
+                if matches!(verb, Verb::Move { .. }) && verbs::calls(self.text(first)) {
+                    self.called_on_the_way(first.start);
+                }
+                Ok(())
             }
         }
+    }
+
+    /// The procedure that the last argument of `MoveLSync` names: it is called in the corner, and may
+    /// have run or not where the next statement does.
+    fn called_on_the_way(&mut self, start: u32) {
+        let name = self.parsed.arguments.last().map(|last| last.expression);
+        let callee = match name {
+            Some(Expression::Text(from, to)) => Callee::Text(from, to),
+            _ => Callee::Late,
+        };
+        let end = short(self.parsed.arguments.len());
+        let called = Called {
+            callee,
+            verb: Verb::Other,
+            arguments: (end, end),
+            end: self.behind,
+        };
+        self.note(start, StatementKind::If(None));
+        self.note(start, StatementKind::Call(called));
+        self.note(start, StatementKind::EndChoice);
     }
 
     pub(super) fn note(&mut self, offset: u32, kind: StatementKind) {
@@ -424,10 +448,10 @@ impl<'a> Reader<'a> {
 }
 
 /// A context outside routines, of its own.
-fn outside(parsed: &mut Parsed) -> Context {
-    parsed.modules += 1;
+fn outside(parsed: &mut Parsed, name: Option<Symbol>) -> Context {
+    parsed.modules.push(name);
     Context {
-        module: parsed.modules - 1,
+        module: short(parsed.modules.len() - 1),
         routine: None,
     }
 }

@@ -42,6 +42,8 @@ pub(super) struct Resolved<'a> {
     pub(super) coordinates: Coordinates,
     /// The group of each datum that tasks share, and whether its declarations are alike.
     shared: HashMap<u32, (usize, bool)>,
+    /// Routines whose names stand in late-bound calls.
+    late_bound: HashSet<u32>,
 }
 
 /// Data: a declaration, or a name that the files do not declare.
@@ -115,6 +117,7 @@ impl<'a> Resolved<'a> {
             numbers: Numbers::default(),
             coordinates: Coordinates::default(),
             shared,
+            late_bound: HashSet::new(),
         };
         resolved.find_written();
         resolved.find_numbers();
@@ -268,8 +271,14 @@ impl<'a> Resolved<'a> {
             Callee::Named(name) => named(Some(name)),
             Callee::Text(start, end) => {
                 let text = &self.sources[file as usize].bytes[start as usize..end as usize];
-                let name = text.rsplit(|b| *b == b':').next().unwrap_or_default();
-                named(self.parsed.symbols.find(&name.to_ascii_lowercase()))
+                let mut names = text
+                    .rsplit(|b| *b == b':')
+                    .map(|name| self.parsed.symbols.find(name));
+                let name = names.next().flatten();
+                match names.next() {
+                    Some(module) => self.of_module(module, name),
+                    None => named(name),
+                }
             }
             Callee::Late => return self.any_routine(arguments, ""),
         };
@@ -277,6 +286,26 @@ impl<'a> Resolved<'a> {
             foreign: routines.is_empty(),
             routines,
         }
+    }
+
+    /// The procedures of this name in the modules of another, local ones too.
+    fn of_module(&self, module: Option<Symbol>, name: Option<Symbol>) -> Vec<u32> {
+        let (Some(module), Some(name)) = (module, name) else {
+            return Vec::new();
+        };
+        let routines = (0..).zip(&self.parsed.routines);
+        let named = routines.filter(|(_, of)| {
+            let own = self.parsed.modules[of.module as usize];
+            of.is_procedure && of.name == name && own == Some(module)
+        });
+        named.map(|(routine, _)| routine).collect()
+    }
+
+    /// Whether the controller starts a routine: of several called `main` not one that another calls
+    /// by its name.
+    pub(super) fn is_main(&self, routine: u32) -> bool {
+        let name = self.spelling(self.parsed.routines[routine as usize].name);
+        name.eq_ignore_ascii_case("main") && !self.late_bound.contains(&routine)
     }
 
     /// Every procedure whose name begins so and that takes so many arguments, and others.
@@ -439,6 +468,9 @@ impl<'a> Resolved<'a> {
                 break;
             }
         }
+        if !(0..short(self.parsed.routines.len())).any(|routine| self.is_main(routine)) {
+            self.late_bound.clear();
+        }
     }
 
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
@@ -457,16 +489,18 @@ impl<'a> Resolved<'a> {
                 }
             }
             Verb::WritesNamed => {
-                for at in 0..self.parsed.data.len() {
-                    let datum = self.parsed.data[at];
-                    let matters = datum.kind.is_target() || datum.kind.is_frame();
-                    self.written[at] |= matters && datum.storage != Storage::Constant;
+                for datum in self.set_by_name(given.arguments, given.file) {
+                    self.written[datum as usize] = true;
                 }
             }
             _ => {}
         }
         if matches!(verb, Verb::Other | Verb::CallByVar) {
             calls.push(given);
+        }
+        if matches!(given.callee, Callee::Text(..)) {
+            let named = self.callees(given.callee, given.arguments, given.context, given.file);
+            self.late_bound.extend(named.routines);
         }
     }
 
@@ -517,7 +551,7 @@ impl<'a> Resolved<'a> {
             places.extend(own.filter(|(name, _)| {
                 // of what the files do not declare, the moves say later what it is
                 self.kind(*name, given.context)
-                    .is_none_or(|kind| kind.is_target() || kind.is_frame())
+                    .is_none_or(Type::is_of_moves)
             }));
         }
         let mut changed = false;

@@ -186,10 +186,7 @@ impl Resolved<'_> {
             return Vec::new();
         }
         let routines = &self.parsed.routines;
-        let is_main = |at: &usize| {
-            self.spelling(routines[*at].name)
-                .eq_ignore_ascii_case("main")
-        };
+        let is_main = |at: &usize| self.is_main(short(*at));
         let mains: Vec<usize> = (0..routines.len()).filter(is_main).collect();
         let mut calls: Vec<Vec<u32>> = vec![Vec::new(); routines.len()];
         let mut moves = vec![false; routines.len()];

@@ -13,8 +13,8 @@ use std::ops::Range;
 pub(super) struct Parsed {
     /// Names.
     pub symbols: Symbols,
-    /// How many modules there are; text between modules counts as one.
-    pub modules: u32,
+    /// The names of modules; text between modules counts as one, without a name.
+    pub modules: Vec<Option<Symbol>>,
     /// Routines.
     pub routines: Vec<Routine>,
     /// Declarations and parameters.
@@ -258,6 +258,11 @@ impl Type {
     /// Whether it is a tool or a work object.
     pub(super) fn is_frame(self) -> bool {
         matches!(self, Self::Tooldata | Self::Wobjdata)
+    }
+
+    /// Whether moves depend on it.
+    pub(super) fn is_of_moves(self) -> bool {
+        self.is_target() || self.is_frame() || self == Self::Loaddata
     }
 }
 

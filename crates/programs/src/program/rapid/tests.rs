@@ -3,6 +3,7 @@
 mod arrays;
 mod calls;
 mod derived;
+mod foreign;
 mod frames;
 mod grips;
 mod loads;
@@ -231,7 +232,7 @@ fn odd_instructions_find_their_arguments() {
         .map(|m| program.tools[m.tool].name.as_str())
         .collect();
     assert_eq!(tools, ["t2", "t", "t", "t", "laser", "t", "t"]);
-    assert_eq!(ids(&program), ["sync-move"]);
+    assert_eq!(ids(&program), ["sync-move", "move-assumed"]);
 }
 
 #[test]
@@ -310,7 +311,7 @@ fn targets_that_code_changes_are_blocked() {
 fn positions_that_the_robot_reported_are_right_as_they_are() {
     for statement in [
         "p3 := CRobT();",
-        "p3 := CRobT(\\Tool:=t \\WObj:=w);",
+        "p3 := CRobT(\\Tool:=t \\WObj:=wobj0);",
         "SearchL \\Stop, di1, p3, p1, v5, t;",
     ] {
         let program = path(&format!("{statement}\nMoveL p3,v5,z5,t;"));

@@ -6,7 +6,7 @@ use super::grips::Grips;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
-use super::syntax::{Index, StatementKind, Storage, Type};
+use super::syntax::{StatementKind, Storage, Type};
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
@@ -19,6 +19,7 @@ use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 #[derive(Debug, Default)]
 pub(super) struct Words {
     pub wobj: Option<Symbol>,
+    pub tool: Option<Symbol>,
     pub v: Option<Symbol>,
     pub t: Option<Symbol>,
     pub z: Option<Symbol>,
@@ -29,6 +30,7 @@ pub(super) struct Words {
     pub noeoffs: Option<Symbol>,
     pub off: Option<Symbol>,
     pub wrist: Option<Symbol>,
+    pub lock_axis_4: Option<Symbol>,
     pub path_frame: Option<Symbol>,
 }
 
@@ -89,11 +91,11 @@ pub(super) fn translate(
 ) -> Script {
     let mut builder = Builder::default();
     builder.script = script;
-    for routine in &resolved.parsed.routines {
+    for (at, routine) in (0..).zip(&resolved.parsed.routines) {
         let name = resolved.spelling(routine.name);
         let start = if routine.is_trap {
             Start::Concurrent
-        } else if name.eq_ignore_ascii_case("main") {
+        } else if resolved.is_main(at) {
             Start::Main
         } else {
             Start::Called
@@ -115,6 +117,7 @@ pub(super) fn translate(
         handlers: Handlers::default(),
         words: Words {
             wobj: find(b"wobj"),
+            tool: find(b"tool"),
             v: find(b"v"),
             t: find(b"t"),
             z: find(b"z"),
@@ -125,6 +128,7 @@ pub(super) fn translate(
             track: find(b"track"),
             off: find(b"off"),
             wrist: find(b"wrist"),
+            lock_axis_4: find(b"lockaxis4"),
             path_frame: find(b"pathframe"),
         },
         modes,
@@ -341,12 +345,7 @@ impl Translator<'_> {
     }
 
     fn begin_own(&mut self, datum: u32) {
-        let value = if self.resolved.datum(datum).kind.is_target() {
-            self.position_of_datum(datum, Index::Whole)
-        } else {
-            self.frame(self.resolved.datum(datum).name, Index::Whole)
-        };
-        if let Expr::Variable(variable) = value {
+        if let Expr::Variable(variable) = self.held_by(datum) {
             let declared = self.builder.script.variables[variable as usize].declared;
             self.set(variable, declared);
         }

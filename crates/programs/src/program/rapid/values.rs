@@ -29,7 +29,7 @@ impl Translator<'_> {
     // ---- remarks
 
     /// A remark about a name, the same for every use of it.
-    fn remark(&mut self, name: Symbol, make: impl FnOnce(&str) -> Remark) -> RemarkId {
+    pub(super) fn remark(&mut self, name: Symbol, make: impl FnOnce(&str) -> Remark) -> RemarkId {
         let remark = make(self.resolved.spelling(name));
         let key = (remark.id, name);
         if let Some(&known) = self.remarks.get(&key) {
@@ -198,7 +198,7 @@ impl Translator<'_> {
                     Base::Function(function) => self.given_by(function, wanted),
                 };
                 let by = self.displacement(steps);
-                if by != NOT_DISPLACED && base == Expr::Value(self.actual) {
+                if by != NOT_DISPLACED && self.is_of_robot(base) {
                     return self.computed();
                 }
                 self.builder.script.displaced(base, by)
@@ -213,15 +213,15 @@ impl Translator<'_> {
 
     /// The position that a function gives.
     fn given_by(&mut self, function: u32, wanted: Type) -> Expr {
-        let of = self.resolved.parsed.functions[function as usize];
-        if self.resolved.known(&of, self.context) != Known::Actual {
+        let called = self.resolved.parsed.functions[function as usize];
+        if self.resolved.known(&called, self.context) != Known::Actual {
             return match self.result_of(function) {
                 Some(result) => Expr::Variable(result),
                 None => self.computed(),
             };
         }
         let resolved = self.resolved;
-        let given = &resolved.parsed.given[indices(of.arguments)];
+        let given = &resolved.parsed.given[indices(called.arguments)];
         if given
             .iter()
             .any(|argument| self.is_constant_joints(argument))
@@ -248,11 +248,37 @@ impl Translator<'_> {
                 _ => {}
             }
         }
-        if near.is_empty() {
-            Expr::Value(self.actual)
-        } else {
-            self.builder.script.any(near)
+        if !near.is_empty() {
+            return self.builder.script.any(near);
         }
+        if wanted == Type::Jointtarget {
+            return Expr::Value(self.actual);
+        }
+        let option = |word: Option<Symbol>| {
+            let mut all = given.iter();
+            all.find(|of| of.option.is_some() && of.option == word)
+        };
+        let frame = option(self.words.wobj);
+        let tool = option(self.words.tool).or_else(|| given.iter().find(|of| self.is_tool(of)));
+        let is_of_joints = resolved
+            .spelling(called.name)
+            .eq_ignore_ascii_case("calcrobt");
+        let tool = tool.map_or(Expr::Absent, |of| self.frame_from(of.expression));
+        let frame = match frame {
+            Some(of) => self.frame_from(of.expression),
+            None if is_of_joints => Expr::Value(self.wobj0),
+            None => Expr::Absent,
+        };
+        self.builder.script.held(Held::ActualWith { tool, frame })
+    }
+
+    /// Whether a position is where the robot itself is.
+    fn is_of_robot(&self, position: Expr) -> bool {
+        let held = match position {
+            Expr::Value(value) => &self.builder.script.values[value as usize],
+            _ => return false,
+        };
+        matches!(held, Held::Actual | Held::ActualWith { .. })
     }
 
     /// Whether an argument of `CalcRobT` is joints that nothing writes, or that are written out.
@@ -313,11 +339,23 @@ impl Translator<'_> {
         };
         let is_written = self.resolved.is_written(entity);
         match index {
-            Index::Variable => return self.frame_chosen(),
-            Index::At(_) if is_written => return self.frame_assigned(),
-            Index::At(place) => return self.frame_element(entity, name, place),
-            Index::Whole => {}
+            Index::Variable => self.frame_chosen(),
+            Index::At(_) if is_written => self.frame_assigned(),
+            Index::At(place) => self.frame_element(entity, name, place),
+            Index::Whole => self.whole_frame(entity),
         }
+    }
+
+    /// What data hold that are a target, a tool or a work object.
+    pub(super) fn held_by(&mut self, datum: u32) -> Expr {
+        if self.resolved.datum(datum).kind.is_target() {
+            self.position_of_datum(datum, Index::Whole)
+        } else {
+            self.whole_frame(Entity::Declared(datum))
+        }
+    }
+
+    fn whole_frame(&mut self, entity: Entity) -> Expr {
         if let Entity::Declared(datum) = entity
             && matches!(
                 self.resolved.datum(datum).storage,
@@ -326,6 +364,13 @@ impl Translator<'_> {
         {
             let chosen = self.frame_chosen();
             return Expr::Variable(self.variable(entity, 0, chosen));
+        }
+        let is_written = self.resolved.is_written(entity);
+        if let Entity::Undeclared(name) = entity
+            && !is_written
+            && self.resolved.spelling(name).eq_ignore_ascii_case("wobj0")
+        {
+            return Expr::Value(self.wobj0);
         }
         let declared = self.record(entity);
         if is_written {

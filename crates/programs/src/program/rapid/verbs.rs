@@ -6,10 +6,30 @@ use crate::program::Source;
 use crate::program::names::Symbol;
 use foldhash::HashSet;
 
-/// First parts of the names of instructions that move; J, L, C or `AbsJ` follows.
-const MOVING: [&[u8]; 16] = [
-    b"move", b"arc", b"trigg", b"search", b"egmmove", b"cap", b"disp", b"spot", b"paint", b"cut",
-    b"laser", b"clad", b"weld", b"glue", b"seal", b"process",
+/// First parts of the names of instructions that move; J, L, C or `AbsJ` follows. What another one
+/// begins with stands behind that.
+const MOVING: [&[u8]; 21] = [
+    b"move",
+    b"arc",
+    b"trigg",
+    b"search",
+    b"egmmove",
+    b"cap",
+    b"disp",
+    b"spotm",
+    b"spot",
+    b"paint",
+    b"cut",
+    b"laser",
+    b"clad",
+    b"weld",
+    b"glue",
+    b"seal",
+    b"process",
+    b"contact",
+    b"fcpress1",
+    b"fcpress",
+    b"nut",
 ];
 
 /// Last parts of names of instructions that move.
@@ -124,6 +144,11 @@ pub(super) fn is_move(spelling: &[u8]) -> bool {
     moving(spelling, &spelling.to_ascii_lowercase()).is_some()
 }
 
+/// Whether an instruction that moves calls a procedure on its way (`MoveLSync`).
+pub(super) fn calls(spelling: &[u8]) -> bool {
+    spelling.to_ascii_lowercase().ends_with(b"sync")
+}
+
 fn moving(spelling: &[u8], lower: &[u8]) -> Option<Verb> {
     let first = MOVING.iter().find(|first| lower.starts_with(first))?;
     let rest = &lower[first.len()..];
@@ -180,6 +205,11 @@ mod tests {
             ("EGMMoveL", Some(Path::Linear)),
             ("MoveLDO", Some(Path::Linear)),
             ("MoveLClad", Some(Path::Linear)),
+            ("SpotML", Some(Path::Linear)),
+            ("FCPress1LStart", Some(Path::Linear)),
+            ("FCPressC", Some(Path::Arc)),
+            ("ContactL", Some(Path::Linear)),
+            ("NutJ", Some(Path::Joint)),
             ("MoveLift", None),
             ("MoveCalibrate", None),
             ("MoveExtJ", None),

@@ -243,6 +243,14 @@ pub enum Held {
     Remark(RemarkId),
     /// Where the robot is when the statement runs.
     Actual,
+    /// Likewise, as a pose of this tool in this work frame: moves with others go elsewhere. Absent
+    /// are those of the move before.
+    ActualWith {
+        /// The tool.
+        tool: Expr,
+        /// The work frame.
+        frame: Expr,
+    },
     /// What is added to external axes, in the units and the order of the language.
     ExternalOffset(Box<[f64; 6]>),
     /// As long as this holds these external axes, bit by bit as listed, stand elsewhere than

@@ -3,6 +3,44 @@
 use super::*;
 
 #[test]
+fn parts_of_frames_that_are_written_from_constants_are_their_numbers() {
+    let constants = "CONST pose u:=[[1, 2,3],[0.707107,0,0,0.707107]];\nCONST pos c:=[4,5,6];\nCONST num \
+                     h:=7;\nPERS wobjdata w2:=[FALSE,TRUE,\"\",[[8,9,1],[1,0,0,0]],[[0,0,2],[1,0,0,0]]];\n\
+                     PERS tooldata t2:=[TRUE,[[0,0,3],[1,0,0,0]],[2,[0,0,4],[1,0,0,0],0,0,0]];\nCONST \
+                     loaddata l:=[5,[0,0,6],[1,0,0,0],0,0,0];\nVAR pos v:=[1,2,3];\n";
+    for (written, numbers) in [
+        (
+            "w.uframe:=u;",
+            "w.uframe:=[[1,2,3],[0.707107,0,0,0.707107]];",
+        ),
+        ("w.uframe.trans:=c;", "w.uframe.trans:=[4,5,6];"),
+        ("w.oframe.trans.z:=h;", "w.oframe.trans.z:=7;"),
+        ("w.oframe:=w2.uframe;", "w.oframe:=[[8,9,1],[1,0,0,0]];"),
+        (
+            "w.oframe.trans.x:=w2.oframe.trans.z;",
+            "w.oframe.trans.x:=2;",
+        ),
+        ("t.tframe:=t2.tframe;", "t.tframe:=[[0,0,3],[1,0,0,0]];"),
+        ("t.tload:=l;", "t.tload:=[5,[0,0,6],[1,0,0,0],0,0,0];"),
+    ] {
+        let read = |write: &str| {
+            let program = path(&format!("{constants}{write}\nMoveL p1,v5,z5,t\\WObj:=w;"));
+            assert_eq!(ids(&program), [""; 0], "{write}");
+            (program.tools.clone(), program.frames.clone())
+        };
+        assert_eq!(read(written), read(numbers), "{written}");
+    }
+    for written in [
+        "w.uframe.trans:=v;",
+        "w.uframe.trans:=c2;",
+        "w.uframe.trans.z:=-h;",
+    ] {
+        let program = path(&format!("{constants}{written}\nMoveL p1,v5,z5,t\\WObj:=w;"));
+        assert_eq!(ids(&program), ["frame-assigned-at-run-time"], "{written}");
+    }
+}
+
+#[test]
 fn frames_assigned_once_or_alike_replace_the_declared_ones() {
     let program = path(
         "w.uframe := [[0,0,500],[1,0,0,0]];\nt.tframe.trans.z:=42;\nMoveL p1,v5,z5,t\\WObj:=w;\n\
