@@ -178,7 +178,9 @@ impl Header {
             }
         }
         let is_axis = |column: usize| axes.clone().any(|axis| axis.column == column);
-        let unread = (0..names.len()).filter(|at| !used.contains(at) && !is_axis(*at));
+        let is_unread = |at: &usize| !used.contains(at) && !is_axis(*at);
+        // lines may end with a comma
+        let unread = (0..names.len()).filter(|at| is_unread(at) && !names[*at].is_empty());
         let (may_matter, others) = unread.partition(|at| is_one_of(names[*at], MAY_MATTER));
         header.unread = [may_matter, others];
         for &at in header.unread.iter().flatten() {

@@ -279,7 +279,7 @@ fn columns_that_nothing_is_read_from_are_named_once_a_file() {
     let many: Vec<String> = (0..11).map(|at| format!("c{at}")).collect();
     let all = found(&many.join(","), "0,0,0,0,0,0,0,0,0,0,0");
     assert!(all[0].4.ends_with("`c7`, 3 more"), "{all:?}");
-    assert_eq!(found("id,tool,frame,branch", "a,t,f,0"), []);
+    assert_eq!(found("id,tool,frame,branch,", "a,t,f,0,"), []);
 }
 
 #[test]
