@@ -306,7 +306,7 @@ fn a_target_that_is_an_offset_elsewhere_is_an_error() {
     );
     assert_eq!(ids(&program), [""; 0]);
     let displacement = &program.moves[1].displacement;
-    let crate::program::Displacement::By(shift) = displacement else {
+    let Displacement::By(shift) = displacement else {
         panic!("{displacement:?}")
     };
     assert_eq!(shift.in_tool.translation, [1.0, 2.0, 3.1]);

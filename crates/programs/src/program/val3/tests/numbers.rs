@@ -111,7 +111,7 @@ fn a_counter_that_the_data_give_a_value_is_what_its_loop_counts() {
         format!("for nUp=3 to 0 step -1\n{go}\nendFor"),
         format!("for nUp=0 to 3\nendFor\n{go}"),
         format!("{go}\nfor nUp=0 to 3\nendFor"),
-        format!("for nUp=0 to 3\ntOff.x=nUp*30\nmovel(appro(pA,tOff),tA,m)\nendFor"),
+        "for nUp=0 to 3\ntOff.x=nUp*30\nmovel(appro(pA,tOff),tA,m)\nendFor".to_owned(),
     ] {
         let reach = at_most(&by(&code));
         assert!(reach >= 90.0 - 1e-9, "{code}: {reach}");
