@@ -282,3 +282,33 @@ fn a_search_that_stops_leaves_the_robot_on_its_way() {
         );
     }
 }
+
+#[test]
+fn resume_leaves_the_robot_anywhere_in_the_routine_that_is_interrupted() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let away = "LIN {X 340.0,Y 10.0,Z 420.0,A 160,B 20,C 180}\n";
+    let declared = "INTERRUPT DECL 4 WHEN $IN[1]==TRUE DO hit()\nINTERRUPT ON 4\n";
+    for (declared, ending, expected) in [
+        (declared, "RESUME\n", 1),
+        (declared, "", 0),
+        ("", "RESUME\n", 0),
+    ] {
+        let text = format!(
+            "DEF t()\n{START}{declared}{away}seek()\nLIN XP1\nEND\nDEF seek()\nLIN {{X 340.0,Y \
+             10.0,Z 440.0,A 160,B 20,C 180}}\nEND\nDEF hit()\nBRAKE\n{ending}END\n"
+        );
+        let done = done(
+            &[backlash],
+            &[("$config.dat", CONFIG), ("t.dat", DATA), ("t.src", &text)],
+        );
+        let led = |f: &&poseshift::finding::Finding| {
+            f.id == "direction-uncertain" && f.message.contains("`RESUME`")
+        };
+        assert_eq!(
+            done.findings.iter().filter(led).count(),
+            expected,
+            "{text}{:?}",
+            done.findings
+        );
+    }
+}

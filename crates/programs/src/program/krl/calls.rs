@@ -345,6 +345,14 @@ impl Reader {
             leads: callee.is_none() && is_statement,
             ..Call::of(place, callees, name, arguments)
         });
+        let caller = self.context().routine;
+        let is_interrupted = caller.is_some_and(|caller| self.names.interrupted.contains(&caller));
+        if callee.is_some() && is_statement && is_interrupted && self.names.resumes {
+            self.builder.call(Call {
+                foreign: false,
+                ..Call::of(place, [].into(), "RESUME", 0..0)
+            });
+        }
         changed(self);
         for variable in lost {
             let value = self.chosen();

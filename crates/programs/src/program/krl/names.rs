@@ -162,6 +162,10 @@ pub(super) struct Names {
     last: Vec<u32>,
     /// Names that statements write or hand to routines.
     pub touched: HashSet<Symbol>,
+    /// Whether a routine ends what runs by RESUME.
+    pub resumes: bool,
+    /// Routines that declare interrupts: RESUME goes on in them, behind their call.
+    pub interrupted: HashSet<u32>,
     /// Elements of arrays likewise.
     pub elements: BTreeSet<(Symbol, Index)>,
     /// What is written into numbers.

@@ -100,7 +100,13 @@ impl Reader {
                 }
                 return;
             }
-            b"INTERRUPT" | b"TRIGGER" => self.concurrent(cursor),
+            b"INTERRUPT" | b"TRIGGER" => {
+                let declares = cursor.text(cursor.peek()).eq_ignore_ascii_case(b"DECL");
+                let routine = self.context().routine.filter(|_| declares);
+                self.names.interrupted.extend(routine);
+                self.concurrent(cursor);
+            }
+            b"RESUME" => self.names.resumes = true,
             b"FOR" => {
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
