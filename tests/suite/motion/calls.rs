@@ -2,9 +2,8 @@
 //! as parameters and as results.
 
 use super::displaced::{misses, of_language, of_urscript};
-use super::{PLAIN, errors};
+use super::{PLAIN, errors, fakes};
 use poseshift::compensate::Compensation;
-use poseshift::geometry::Pose;
 
 const ARM: &str = "robots/universal_robots_ur5.yaml";
 const HOME: &str = "movej([0,-1.2,1.5,-1.8,-1.5,0])\n";
@@ -23,15 +22,6 @@ fn program(functions: &str, body: &str) -> String {
 
 fn of(functions: &str, body: &str) -> Compensation {
     read(&[("t.script", &program(functions, body))])
-}
-
-/// What is written instead of the targets that change.
-fn fakes(done: &Compensation) -> Vec<Pose> {
-    assert_eq!(errors(done), [""; 0], "{:?}", done.findings);
-    done.targets
-        .iter()
-        .filter_map(|target| target.fake)
-        .collect()
 }
 
 #[test]

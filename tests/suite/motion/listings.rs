@@ -1,9 +1,8 @@
 //! FANUC programs that may be meant by a call, and those of several controllers.
 
 use super::registers::{AT, listing, point, read_named};
-use super::{errors, message};
+use super::{errors, fakes, message};
 use poseshift::compensate::Compensation;
-use poseshift::geometry::Pose;
 
 const MOVES: &str = "UFRAME_NUM=0\nUTOOL_NUM=1\nJ P[1] 10% FINE\n";
 
@@ -22,14 +21,6 @@ fn tools(first: f64) -> String {
         tool(1, first),
         tool(2, 50.0)
     )
-}
-
-fn fakes(done: &Compensation) -> Vec<Pose> {
-    assert_eq!(errors(done), [""; 0], "{:?}", done.findings);
-    done.targets
-        .iter()
-        .filter_map(|target| target.fake)
-        .collect()
 }
 
 fn read(files: &[(&str, String)]) -> Compensation {

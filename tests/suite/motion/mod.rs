@@ -12,8 +12,10 @@ mod given;
 mod jobs;
 mod kawasaki;
 mod krl;
+mod led;
 mod listings;
 mod registers;
+mod rotations;
 mod rows;
 mod straight;
 
@@ -74,6 +76,15 @@ fn errors(done: &Compensation) -> Vec<&'static str> {
         .iter()
         .filter(|f| f.severity == Severity::Error);
     errors.map(|f| f.id).collect()
+}
+
+/// What is written instead of the targets that change.
+fn fakes(done: &Compensation) -> Vec<Pose> {
+    assert_eq!(errors(done), [""; 0], "{:?}", done.findings);
+    done.targets
+        .iter()
+        .filter_map(|target| target.fake)
+        .collect()
 }
 
 /// The message of an error, which must be there.

@@ -7,13 +7,13 @@
 mod above;
 mod forms;
 
+use super::given;
 use crate::physics::{Fault, Moment, Robot, matrix, tool_pose};
 use crate::support::repository;
 use forms::FORMS;
 use nalgebra::{UnitQuaternion, Vector3};
-use poseshift::compensate::{Given, Options, compensate};
-use poseshift::geometry::Pose;
-use poseshift::model::profile::{Mounted, Profile};
+use poseshift::compensate::compensate;
+use poseshift::model::profile::Profile;
 use poseshift::program::{self, Source};
 use rand::{RngExt, SeedableRng};
 use rs_opw_kinematics::glam::{DMat3, DQuat, DVec3};
@@ -53,6 +53,13 @@ fn faults() -> Vec<Fault> {
         Fault::Backlash(2, degrees(0.08)),
         Fault::Link(2, [0.0, 0.3e-3, 0.0, degrees(0.1), 0.0]),
     ]
+}
+
+/// The IRB 120 with these effects.
+fn profile() -> Profile {
+    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
+    let plain = &text[..text.find("calibration:").expect("a list of effects")];
+    Profile::from_yaml(&format!("{plain}{EFFECTS}")).expect("a profile")
 }
 
 /// The nominal IRB 120 in modified Denavit-Hartenberg rows (alpha, a, beta, theta, d), without
@@ -217,16 +224,8 @@ impl Case {
 
 #[test]
 fn straight_moves_land_in_every_language_walked_by_an_independent_inverse() {
-    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
-    let plain = &text[..text.find("calibration:").expect("a list of effects")];
-    let profile = Profile::from_yaml(&format!("{plain}{EFFECTS}")).expect("a profile");
-    let mut given = Given::default();
-    given.tools.insert(None, Mounted::flange());
-    given.frames.insert(None, Pose::identity());
-    let options = Options {
-        given,
-        ..Options::default()
-    };
+    let profile = profile();
+    let options = given();
     let (peer, robot, faults) = (Peer::new(), robot(), faults());
     let gap = peer.forward(&[0.1, 0.2, -0.3, 0.4, 0.5, 0.6]).position - {
         let m = tool_pose(
@@ -314,9 +313,7 @@ fn straight_moves_land_in_every_language_walked_by_an_independent_inverse() {
 #[test]
 fn bounds_hold_where_a_joint_turns_back_on_the_way() {
     // the bound of the path's error is for both sides from which a joint comes on it
-    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
-    let plain = &text[..text.find("calibration:").expect("a list of effects")];
-    let profile = Profile::from_yaml(&format!("{plain}{EFFECTS}")).expect("a profile");
+    let profile = profile();
     let (peer, robot, faults) = (Peer::new(), robot(), faults());
     let form = &FORMS[0];
     let mut random = rand::rngs::StdRng::seed_from_u64(7);
@@ -372,7 +369,7 @@ fn bounds_hold_where_a_joint_turns_back_on_the_way() {
             profile: &profile,
             scene: &scene,
         };
-        let options = super::given();
+        let options = given();
         let options = poseshift::check::Options {
             given: options.given,
             ..poseshift::check::Options::default()

@@ -1,11 +1,12 @@
-//! Calls of routines that are not in the files, which may lead the robot elsewhere before a move.
+//! Calls that may leave the robot elsewhere than the text says before a move: of routines that are
+//! not in the files, and searches that stop on their way.
 
 use super::Job;
 use super::approach::Approach;
 use super::solve::is_directed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A tool that the other sides of its joints put less off is not reported, metres.
 const LEAST_M: f64 = 2e-5;
@@ -13,8 +14,8 @@ const LEAST_M: f64 = 2e-5;
 /// The worst of what calls do to the moves behind them.
 pub(super) struct Led {
     is_directed: bool,
-    /// By the call: how far the tool is off, of which approach, at how many moves.
-    worst: BTreeMap<u32, (f64, Approach, usize)>,
+    /// By the call: how far the tool is off, metres, of which approach, and the moves behind it.
+    worst: BTreeMap<u32, (f64, Approach, BTreeSet<u32>)>,
 }
 
 impl Led {
@@ -55,8 +56,9 @@ impl Led {
         if off_m < LEAST_M {
             return;
         }
-        let (worst, of, count) = self.worst.entry(led[at].1).or_insert((0.0, *approach, 0));
-        *count += 1;
+        let new = || (0.0, *approach, BTreeSet::new());
+        let (worst, of, moves) = self.worst.entry(led[at].1).or_insert_with(new);
+        moves.insert(approach.motion);
         if off_m > *worst {
             (*worst, *of) = (off_m, *approach);
         }
@@ -65,7 +67,7 @@ impl Led {
     /// One finding a call.
     pub(super) fn report(self, job: &Job, findings: &mut Vec<Finding>) {
         let ground = &job.ground;
-        for (call, (off_m, approach, count)) in self.worst {
+        for (call, (off_m, approach, moves)) in self.worst {
             let (place, name) = &ground.program.calls[call as usize];
             let equipped = ground.arm_with(approach.tool as usize);
             let joints: Vec<String> = (0..6)
@@ -73,7 +75,7 @@ impl Led {
                 .map(|i| (i + 1).to_string())
                 .collect();
             let line = ground.line_of(&ground.program.moves[approach.motion as usize]);
-            let others = match count {
+            let others = match moves.len() {
                 1 => String::new(),
                 2 => ", and at another move".to_owned(),
                 count => format!(", and at {} other moves", count - 1),

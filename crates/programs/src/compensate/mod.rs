@@ -18,8 +18,9 @@
 //! the wrist's singularity), `shared` one set of numbers for all approaches, `limit` what a
 //! correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new
 //! targets between them, `displaced` says what a correction does to points that the program derives
-//! from a target, `led` what routines that are not in the files may do to the side from which joints come; `written` puts it all into the files and reads them again. `context` and
-//! `refused` say which files stay.
+//! from a target, `led` what calls that may leave the robot elsewhere do to the side from which
+//! joints come; `written` puts it all into the files and reads them again. `context` and `refused`
+//! say which files stay.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].

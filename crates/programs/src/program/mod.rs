@@ -408,11 +408,11 @@ pub struct Program {
     pub named: Vec<(TargetId, [f64; 6])>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,
-    /// Calls between a move and the ones before that may have led the robot elsewhere, since they
-    /// are of routines that are not in the files: index in [`Program::moves`], which are in order,
-    /// and in [`Program::calls`].
+    /// Calls between a move and the ones before that may have left the robot elsewhere: of routines
+    /// that are not in the files, and searches that stop. Indices in [`Program::moves`], which are
+    /// in order, and in [`Program::calls`].
     pub led: Vec<(u32, u32)>,
-    /// The place and the name of each call.
+    /// The place and the name of each call; empty where none of them is in [`Program::led`].
     pub calls: Vec<(Place, Box<str>)>,
     /// Where targets say that external axes stand, by target.
     pub externals: Vec<(TargetId, External)>,

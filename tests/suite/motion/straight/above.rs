@@ -1,14 +1,11 @@
 //! Approaches from a point above: a target that the program displaces by a known shift, and then the
 //! target itself. A joint that stands between the two comes from the side of the move before.
 
-use super::{At, CLEAR_RATE, Case, EFFECTS, Peer, TOLERANCE_M, faults, robot};
+use super::{At, CLEAR_RATE, Case, Peer, TOLERANCE_M, faults, given, profile, robot};
 use crate::physics::{Moment, tool_pose};
-use crate::support::repository;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use poseshift::compensate::{Given, Options, compensate};
+use poseshift::compensate::compensate;
 use poseshift::finding::Severity;
-use poseshift::geometry::Pose;
-use poseshift::model::profile::{Mounted, Profile};
 use poseshift::program::{self, Source};
 use rand::SeedableRng;
 use std::fmt::Write;
@@ -73,9 +70,7 @@ fn targets(text: &str) -> Vec<At> {
 
 #[test]
 fn targets_that_are_approached_from_above_land_walked_by_an_independent_inverse() {
-    let text = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
-    let plain = &text[..text.find("calibration:").expect("a list of effects")];
-    let profile = Profile::from_yaml(&format!("{plain}{EFFECTS}")).expect("a profile");
+    let profile = profile();
     let (peer, robot, faults) = (Peer::new(), robot(), faults());
     // the sides from which joints come to the target, and the joints there
     let arrive = |from: &At, to: &At, start: &[f64; 6]| {
@@ -109,13 +104,7 @@ fn targets_that_are_approached_from_above_land_walked_by_an_independent_inverse(
     let written = rapid(&cases);
     let sources = [Source::new("t.mod", written.clone().into_bytes())];
     let language = program::language_of(&sources[0]).expect("a language");
-    let mut given = Given::default();
-    given.tools.insert(None, Mounted::flange());
-    given.frames.insert(None, Pose::identity());
-    let options = Options {
-        given,
-        ..Options::default()
-    };
+    let options = given();
     let done = compensate(language, &sources, &profile, &options).expect("read");
     let severe = done
         .findings

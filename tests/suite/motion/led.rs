@@ -1,0 +1,120 @@
+//! Calls that may leave the robot elsewhere than the text says: the side from which joints with
+//! backlash come behind them.
+
+use super::given::{CONFIG, DATA, START};
+use super::{P, PLAIN, done};
+
+#[test]
+fn a_routine_that_may_lead_the_robot_elsewhere_makes_directions_uncertain() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let body = "LIN {X 340.0,Y 10.0,Z 420.0,A 160,B 20,C 180}\nhome()\nLIN XP1\nLIN {X 340.0,Y \
+        10.0,Z 300.0,A 160,B 20,C 180}\n";
+    let text = format!("DEF t()\n{START}{body}END\n");
+    let files = [
+        ("$config.dat", CONFIG),
+        ("t.dat", DATA),
+        ("t.src", text.as_str()),
+    ];
+    let line = text
+        .lines()
+        .position(|line| line == "home()")
+        .expect("the call")
+        + 1;
+    let reported = |effects: &[&str], files: &[(&str, &str)]| {
+        let done = done(effects, files);
+        let found = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "direction-uncertain");
+        found
+            .map(|f| (f.line, f.message.clone()))
+            .collect::<Vec<_>>()
+    };
+    let found = reported(&[backlash], &files);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, line);
+    assert!(
+        found[0].1.contains("`home`") && found[0].1.contains("joint 2"),
+        "{found:?}"
+    );
+    // a width of 0.1 deg at joint 2, half a metre from the tool: some 0.9 mm between the two sides
+    let off: f64 = found[0]
+        .1
+        .split(" mm off")
+        .next()
+        .and_then(|text| text.rsplit(' ').next())
+        .and_then(|text| text.parse().ok())
+        .expect("a number");
+    assert!((0.5..1.2).contains(&off), "{off}");
+    // without backlash, or with the routine in the files, nothing is uncertain
+    assert_eq!(reported(&[PLAIN], &files), []);
+    let whole = format!("{text}DEF home()\nEND\n");
+    assert_eq!(
+        reported(&[backlash], &[files[0], files[1], ("t.src", &whole)]),
+        []
+    );
+}
+
+#[test]
+fn a_search_that_stops_leaves_the_robot_on_its_way() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    for (switch, call, expected) in [
+        ("\\Stop,", "", 1),
+        ("\\SStop,", "", 1),
+        ("", "", 0),
+        ("", "rHome;\n", 1),
+        ("", "TPWrite \"x\";\n", 0),
+    ] {
+        let data = format!(
+            "CONST robtarget a := [[330,10,420],{P};\nCONST robtarget b := [[330,10,380],{P};\nCONST \
+             robtarget c := [[330,10,330],{P};\nVAR robtarget f;"
+        );
+        let body = format!(
+            "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveL \
+             a,v100,fine,tool0;\nSearchL{} di1,f,b,v100,tool0;\n{call}MoveL c,v100,fine,tool0;",
+            switch.trim_end_matches(',')
+        );
+        let body = body.replace("Stop di1", "Stop,di1");
+        let done = done(&[backlash], &[("t.mod", &super::rapid(&data, &body))]);
+        let found = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "direction-uncertain");
+        assert_eq!(
+            found.count(),
+            expected,
+            "{switch} {call} {:?}",
+            done.findings
+        );
+    }
+}
+
+#[test]
+fn resume_leaves_the_robot_anywhere_in_the_routine_that_is_interrupted() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let away = "LIN {X 340.0,Y 10.0,Z 420.0,A 160,B 20,C 180}\n";
+    let declared = "INTERRUPT DECL 4 WHEN $IN[1]==TRUE DO hit()\nINTERRUPT ON 4\n";
+    for (declared, ending, expected) in [
+        (declared, "RESUME\n", 1),
+        (declared, "", 0),
+        ("", "RESUME\n", 0),
+    ] {
+        let text = format!(
+            "DEF t()\n{START}{declared}{away}seek()\nLIN XP1\nEND\nDEF seek()\nLIN {{X 340.0,Y \
+             10.0,Z 440.0,A 160,B 20,C 180}}\nEND\nDEF hit()\nBRAKE\n{ending}END\n"
+        );
+        let done = done(
+            &[backlash],
+            &[("$config.dat", CONFIG), ("t.dat", DATA), ("t.src", &text)],
+        );
+        let led = |f: &&poseshift::finding::Finding| {
+            f.id == "direction-uncertain" && f.message.contains("`RESUME`")
+        };
+        assert_eq!(
+            done.findings.iter().filter(led).count(),
+            expected,
+            "{text}{:?}",
+            done.findings
+        );
+    }
+}
