@@ -222,3 +222,21 @@ fn poses_made_of_known_ones_are_worked_out() {
         assert_eq!(errors(&done), ["frame-chosen-at-run-time"], "{body}");
     }
 }
+
+#[test]
+fn what_neither_moves_nor_sets_anything_is_called_as_often_as_you_like() {
+    // followed call by call these would be sixteen million statements
+    let idle = "def a():\nx = 1\nsync()\nend\n".to_owned();
+    let chain = |idle: String, (inner, outer): (&str, &str)| {
+        let calls = format!("{inner}()\n").repeat(20);
+        format!("{idle}def {outer}():\n{calls}end\n")
+    };
+    let names = ["a", "b", "c", "d", "e"];
+    let functions = names
+        .windows(2)
+        .fold(idle, |idle, pair| chain(idle, (pair[0], pair[1])));
+    let busy = format!("def tool():\n{OTHER}end\n");
+    let body = format!("tool()\n{}{GO}", "e()\n".repeat(20));
+    let found = of(&format!("{functions}{busy}"), &body);
+    assert_eq!(fakes(&found), fakes(&of("", &format!("{OTHER}{GO}"))));
+}

@@ -67,7 +67,10 @@ fn a_routine_that_is_called_in_two_postures_is_judged_in_both() {
     );
     assert_eq!(errors(&done), ["target-shared"], "{:?}", done.findings);
     let reported = message(&done, "target-shared");
-    assert!(reported.contains("2 ways"), "{reported}");
+    assert!(
+        reported.contains("2 approaches that differ in posture"),
+        "{reported}"
+    );
 }
 
 /// How far the tool lands from where it is wanted without correction, mm, with a tool and load set

@@ -2,6 +2,7 @@
 //! tool holds.
 
 mod arcs;
+mod assumed;
 mod bounds;
 mod calls;
 mod decided;

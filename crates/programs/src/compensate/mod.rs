@@ -15,12 +15,12 @@
 //!
 //! Each step is one file. [`crate::motion`] says with what and in which posture the robot comes to
 //! each target; `approach` lists the approaches, `solve` finds the joints (`singular` at
-//! the wrist's singularity), `shared` one set of numbers for all approaches, `limit` what a
-//! correction may be; `rewrite` puts the new numbers in the place of the old ones, `added` new
-//! targets between them, `displaced` says what a correction does to points that the program derives
-//! from a target, `led` what calls that may leave the robot elsewhere do to the side from which
-//! joints come; `written` puts it all into the files and reads them again. `context` and `refused`
-//! say which files stay.
+//! the wrist's singularity), `shared` one set of numbers for all approaches (`differing` says why
+//! there is none), `limit` what a correction may be; `rewrite` puts the new numbers in the place of
+//! the old ones, `added` new targets between them, `displaced` says what a correction does to points
+//! that the program derives from a target, `led` what calls that may leave the robot elsewhere do to
+//! the side from which joints come; `written` puts it all into the files and reads them again.
+//! `context` and `refused` say which files stay.
 //!
 //! # Source
 //! A. Nubiola, I. A. Bonev (2014), see [`crate::inverse`].
@@ -46,6 +46,7 @@
 mod added;
 mod approach;
 mod context;
+mod differing;
 mod displaced;
 mod led;
 mod limit;

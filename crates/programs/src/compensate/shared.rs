@@ -2,22 +2,18 @@
 
 use super::approach::{Approach, Solved};
 use super::rewrite::largest;
-use super::{Job, displaced};
+use super::{Job, differing, displaced};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation, add, scale};
 use crate::model::Conditions;
-use crate::motion::walk::NOWHERE;
 use crate::program::{Shape, Value};
-use foldhash::HashSet;
 
 /// Numbers that differ by less serve all.
 const SAME: Separation = Separation {
     distance_m: 0.002 * MM,
     angle_rad: 0.002 * DEG,
 };
-/// Approaches that a message names.
-const MOST_NAMED: usize = 6;
 
 /// The fake target of one approach, or of several that agree.
 #[derive(Clone, Copy, Debug)]
@@ -161,70 +157,15 @@ fn mean(fakes: &[Fake]) -> Fake {
 
 /// What each approach misses with numbers that are meant for all.
 fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
-    let ground = &job.ground;
-    let target = group[0].approach.target as usize;
-    let mass_kg = |solved: &Solved| {
-        let tool = ground.setting.tools[solved.approach.tool as usize].as_ref();
-        tool.and_then(|tool| tool.load).map(|(mass_kg, _)| mass_kg)
-    };
-    let same_load = group
+    let misses: Vec<Separation> = group
         .iter()
-        .all(|solved| mass_kg(solved) == mass_kg(&group[0]));
-    let mut each: Vec<String> = group
-        .iter()
-        .map(|solved| {
-            let miss = landing(job, solved, mean);
-            let approach = solved.approach;
-            let by = format!(
-                "{:.3} mm, {:.3} deg",
-                mm_from_m(miss.distance_m),
-                miss.angle_rad / DEG
-            );
-            if approach.motion == NOWHERE {
-                return by;
-            }
-            let motion = &ground.program.moves[approach.motion as usize];
-            let file = &ground.sources[motion.file as usize].name;
-            let written = [
-                ("tool", motion.tool_written),
-                ("work frame", motion.frame_written),
-            ];
-            let set: String = written
-                .iter()
-                .filter_map(|(what, place)| {
-                    let place = (*place)?;
-                    let (line, _) =
-                        ground.sources[place.file as usize].line_column(place.offset as usize);
-                    Some(format!(" with the {what} of line {line}"))
-                })
-                .collect();
-            let load = match mass_kg(solved) {
-                _ if same_load => String::new(),
-                Some(mass_kg) => format!(" with a load of {mass_kg} kg"),
-                None => " without a load".into(),
-            };
-            format!("{file} line {}{set}{load}: {by}", ground.line_of(motion))
-        })
+        .map(|solved| landing(job, solved, mean))
         .collect();
-    let mut named = HashSet::default();
-    each.retain(|one| named.insert(one.clone()));
-    let more = each.len().saturating_sub(MOST_NAMED);
-    each.truncate(MOST_NAMED);
-    if more > 0 {
-        each.push(format!("and {more} more"));
-    }
-    let message = format!(
-        "the robot comes to {} in {} ways that one fake target cannot serve (another tool, load, \
-         work frame, posture, rotation on an arc, or side from which a joint comes); with the best common numbers each would miss by: {}",
-        ground.name_of(target),
-        group.len(),
-        each.join("; ")
-    );
-    ground.at_target(
+    job.ground.at_target(
         "target-shared",
         Severity::Error,
-        target,
-        message,
+        group[0].approach.target as usize,
+        differing::message(job, group, &misses),
         if job.options.split_targets {
             "give each use a target of its own: the text of one of these moves cannot hold one"
         } else {

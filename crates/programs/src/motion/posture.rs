@@ -38,8 +38,8 @@ pub(super) struct Asked<'a> {
     pub honoured: bool,
     /// The joints from which the robot comes, or from which its inverse starts.
     pub start: Option<[f64; 6]>,
-    /// Joints near which another move names its posture at this target: looked at where it is not
-    /// known from where the robot comes.
+    /// Joints near which another move names its posture at this target, or in which the robot stood
+    /// when that was last known: looked at where it is not known from where the robot comes.
     pub elsewhere: Option<[f64; 6]>,
 }
 

@@ -25,6 +25,7 @@ impl Walker<'_, '_> {
         wanted: &Pose,
         configuration: &Configuration,
         (start, via, ride): (Option<[f64; 6]>, Option<&Pose>, Option<Arc<Ride>>),
+        last_known: Option<[f64; 6]>,
     ) -> Option<Posture> {
         let ground = self.ground;
         let equipped = ground.arm_with(motion.tool);
@@ -54,7 +55,7 @@ impl Walker<'_, '_> {
             configuration: *configuration,
             honoured: motion.configured && near.is_none(),
             start: near.or(start),
-            elsewhere: self.named.get(&target).copied(),
+            elsewhere: self.named.get(&target).copied().or(last_known),
         };
         let posture = posture::choose(ground, &asked, self.findings)?;
         if near.is_some() {

@@ -24,6 +24,8 @@ const MOST_JOINT_RAD: f64 = 1e5 * DEG;
 const READABLE: f64 = 1e6;
 /// Arrivals at one move that are distinguished.
 const MOST_ARRIVALS: usize = 64;
+/// Moves to positions that only the running program knows that are gone back over.
+const MOST_UNKNOWN: usize = 256;
 /// Joints that differ by less are the same, radians.
 const SAME_RAD: f64 = 1e-7;
 
@@ -113,6 +115,17 @@ impl Arrivals {
             at = self.all.get(arrival.from as usize);
         }
         None
+    }
+
+    /// The joints in which the robot stood last, as far as that is known, else those of the move
+    /// that was looked at last: from a position that only the running program knows it most likely
+    /// goes on in the same posture.
+    fn last_known(&self, before: Option<Arrival>) -> Option<[f64; 6]> {
+        let back = |arrival: &Arrival| self.all.get(arrival.from as usize).copied();
+        let chain = std::iter::successors(before, back).take(MOST_UNKNOWN);
+        let others = self.all.iter().rev().copied().take(MOST_UNKNOWN);
+        let mut known = chain.chain(others).filter(|arrival| arrival.known);
+        known.next().map(|arrival| arrival.q)
     }
 
     fn add(&mut self, arrival: Arrival) {
@@ -391,6 +404,10 @@ impl Walker<'_, '_> {
             &wanted,
             &configuration,
             (start, via.as_ref(), ride.clone()),
+            start
+                .is_none()
+                .then(|| self.arrivals.last_known(before))
+                .flatten(),
         ) else {
             return nowhere;
         };

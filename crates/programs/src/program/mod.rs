@@ -404,7 +404,8 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// Speeds and corners by [`Instruction::modal`].
     pub speed_zones: Vec<SpeedZone>,
-    /// Joints, radians, near which moves that never run say that they come to a target.
+    /// Joints, radians, near which the text says elsewhere than at a move that the robot comes to a
+    /// target.
     pub named: Vec<(TargetId, [f64; 6])>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,

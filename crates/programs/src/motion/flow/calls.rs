@@ -3,7 +3,8 @@
 use super::{Flow, State};
 use crate::motion::before::ANYWHERE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::script::{Call, Expr, RoutineId, Statement, VariableId, short};
+use crate::program::script::{Call, Expr, RoutineId, Statement, VariableId, Written, short};
+use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
 
 impl Flow<'_> {
@@ -13,6 +14,43 @@ impl Flow<'_> {
             Some(Statement::Call(call)) => !self.script.calls[*call as usize].callees.is_empty(),
             _ => false,
         }
+    }
+
+    /// Finds the routines that change nothing that is tracked and move nothing, whatever they call.
+    pub(super) fn find_idle(&mut self) {
+        let script = self.script;
+        let mut idle = vec![true; script.routines.len()];
+        let mut callers: HashMap<RoutineId, Vec<RoutineId>> = HashMap::new();
+        let mut busy = Vec::new();
+        for (at, routine) in (0..).zip(&script.routines) {
+            let range = routine.statements.start as usize..routine.statements.end as usize;
+            let is_busy = script.statements[range]
+                .iter()
+                .any(|statement| match statement {
+                    Statement::Move(_) | Statement::Start(_) => true,
+                    Statement::Write(write) => match script.writes[*write as usize].variable {
+                        Written::One(variable) => self.slots[variable as usize].is_some(),
+                        Written::AnyOf(_) => true,
+                    },
+                    Statement::Call(call) => {
+                        let call = &script.calls[*call as usize];
+                        for callee in &*call.callees {
+                            callers.entry(*callee).or_default().push(at);
+                        }
+                        call.foreign || call.leads
+                    }
+                    _ => false,
+                });
+            if is_busy {
+                busy.push(at);
+            }
+        }
+        while let Some(routine) = busy.pop() {
+            if std::mem::replace(&mut idle[routine as usize], false) {
+                busy.extend(callers.get(&routine).into_iter().flatten());
+            }
+        }
+        self.idle = idle;
     }
 
     /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
@@ -57,6 +95,13 @@ impl Flow<'_> {
         let start = self.at_calls.get(&(instance, statement))?.clone();
         let mut behind = call.foreign.then(|| start.clone());
         for &routine in &*call.callees {
+            if self.idle[routine as usize] {
+                behind = Some(match behind {
+                    Some(other) => self.join(&other, &start),
+                    None => start.clone(),
+                });
+                continue;
+            }
             let callee = self.called(instance, statement, routine);
             let entry = self.entry_of(call, routine, statement, &start);
             let waiting = &mut self.instances[callee as usize].waiting;

@@ -156,6 +156,9 @@ pub(super) struct Flow<'a> {
     /// What routines that run at any time may write, by variable.
     anytime: HashMap<VariableId, Holding>,
     label_places: Vec<u32>,
+    /// Routines that change nothing that is tracked and move nothing: behind a call of one all is as
+    /// before.
+    idle: Vec<bool>,
     instances: Vec<Instance>,
     by_call: HashMap<(u32, u32, RoutineId), u32>,
     merged: HashMap<RoutineId, u32>,
@@ -216,6 +219,7 @@ impl<'a> Flow<'a> {
             loose: HashSet::new(),
             anytime: HashMap::new(),
             label_places,
+            idle: Vec::new(),
             instances: Vec::new(),
             by_call: HashMap::new(),
             merged: HashMap::new(),
@@ -238,6 +242,7 @@ impl<'a> Flow<'a> {
             dead: None,
         };
         flow.track();
+        flow.find_idle();
         for _ in 0..MOST_ROUNDS {
             let before = (
                 flow.started.clone(),

@@ -232,7 +232,8 @@ impl<'a> Flow<'a> {
                     if call.leads {
                         state.led = Some(number);
                     }
-                    if !call.callees.is_empty() {
+                    let is_idle = |routine: &RoutineId| self.idle[*routine as usize];
+                    if !call.callees.iter().all(is_idle) {
                         self.at_calls.insert((instance, at), state);
                         let before = self.behind_call(instance, at);
                         match before {

@@ -8,7 +8,7 @@
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId};
+use super::syntax::{Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId, Symbol};
 use super::tokens::{Kind, Token};
 use super::variables::{VarId, Variables};
 use super::verbs::{self, PoseCall};
@@ -150,14 +150,24 @@ impl Variables<'_, '_> {
         let parsed = self.parsed;
         let own = |coordinate: &Range<u32>| {
             let names = &parsed.composed[coordinate.start as usize..coordinate.end as usize];
-            let open = names.iter().filter_map(|name| {
-                let variable = self.meaning(*name, function);
-                variable.or_else(|| self.result_named(*name, function))
-            });
-            self.are_own_numbers(open.collect())
+            self.are_own_numbers(self.named(names, function))
         };
         let coordinates = parsed.coordinates.get(&id);
         coordinates.is_some_and(|all| all.iter().any(own))
+    }
+
+    /// Whether no number of a pose with expressions comes from a target or from where the robot is.
+    pub(super) fn is_made_of_numbers(&self, id: LiteralId, function: FunctionId) -> bool {
+        self.are_own_numbers(self.named(self.parsed.names_in(id), function))
+    }
+
+    /// The variables of these names, and what functions of these names return.
+    fn named(&self, names: &[Symbol], function: FunctionId) -> Vec<VarId> {
+        let variable = |name: &Symbol| {
+            let variable = self.meaning(*name, function);
+            variable.or_else(|| self.result_named(*name, function))
+        };
+        names.iter().filter_map(variable).collect()
     }
 
     /// Whether what is computed from variables has no number of a target, or of where the robot is.

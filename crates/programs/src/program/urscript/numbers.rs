@@ -172,6 +172,18 @@ impl Variables<'_, '_> {
         }
     }
 
+    /// The six numbers of a pose with expressions in it, where the text tells each, and none comes
+    /// from a position that moves go to or that the robot has.
+    pub(super) fn exactly(&self, id: LiteralId, function: FunctionId) -> Option<[f64; OF_POSE]> {
+        let literal = self.parsed.literal(id);
+        if literal.content != Content::Expressions || !self.is_made_of_numbers(id, function) {
+            return None;
+        }
+        let amounts = self.amounts_of(id, function)?;
+        let exact: Vec<f64> = amounts.iter().map_while(Quantity::exact).collect();
+        exact.try_into().ok()
+    }
+
     /// The position whose elements a pose has, and what is added to the first three of them.
     pub(super) fn grown(
         &self,

@@ -3,6 +3,7 @@
 mod dead;
 mod loads;
 mod parts;
+mod postures;
 
 use self::dead::Dead;
 use self::loads::Present;
@@ -31,6 +32,7 @@ pub(super) fn translate(
     let mut translator = Translator::new(builder, common, text, &variables);
     translator.list_targets();
     translator.declare_variables();
+    translator.name_waypoints();
     for function in 0..short(parsed.functions.len()) {
         translator.function(function);
     }
@@ -382,7 +384,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     self.goals.builder.back();
                 }
                 Event::Halt => builder.exit(),
-                Event::Step(step) => self.step(&parsed.steps[step as usize], function),
+                Event::Step(step) => {
+                    let step = &parsed.steps[step as usize];
+                    self.name_posture(step, function);
+                    self.step(step, function);
+                }
             }
         }
     }

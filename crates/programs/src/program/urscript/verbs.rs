@@ -185,10 +185,11 @@ const KNOWN: &str = "\
         set_input_actions_to_default \
     set_max_joint_speed set_max_payload set_safety_mode_transition_hardness set_vibration_damping \
         set_watchdog \
-    sign sin sleep sqrt stopj stopl str str_at str_cat str_empty str_find str_len str_sub struct \
+    sign sin size sleep sqrt stopj stopl str str_at str_cat str_empty str_find str_len str_sub struct \
         sync tan textmsg \
     time time_get_raw to_num to_str tool_contact tool_contact_examples tool_wrench_limit_disable \
-    tool_wrench_limit_set transpose unlock_protective_stop varmsg wrench_trans xmlrpc zero_wrench";
+    tool_wrench_limit_set transpose unlock_protective_stop varmsg wrench_trans xmlrpc \
+        zero_ftsensor zero_wrench";
 
 /// Calls whose values are looked into.
 pub(super) fn value_of(name: &[u8]) -> Option<PoseCall> {

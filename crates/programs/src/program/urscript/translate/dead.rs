@@ -1,7 +1,6 @@
 //! Text that never runs: behind `if (1 == 2)`, where `PolyScope` programs keep taught points.
 
-use super::Translator;
-use crate::program::urscript::syntax::{Event, Expr, FunctionId, Step};
+use crate::program::urscript::syntax::Event;
 
 /// The blocks around the present text that never run, from the outermost such `if` on.
 #[derive(Default)]
@@ -29,27 +28,6 @@ impl Dead {
                 *dead > 0
             }
             _ => *dead > 0,
-        }
-    }
-}
-
-impl Translator<'_, '_, '_> {
-    /// A move that never runs still says near which joints its target is.
-    pub(super) fn name_posture(&mut self, step: &Step, function: FunctionId) {
-        let goals = &mut self.goals;
-        let Some(target) = step.target else {
-            return;
-        };
-        if let Expr::Kinematics {
-            pose,
-            near: Some(near),
-            ..
-        } = goals.parsed.expression(target)
-            && let Some(joints) = goals.joints(near, function)
-            && let (Expr::Literal(literal), _) = goals.variables.follow(pose, function)
-            && let Some(target) = goals.targets[literal as usize]
-        {
-            goals.builder.script.named.push((target, joints));
         }
     }
 }
