@@ -3,7 +3,7 @@
 use super::{Flow, State};
 use crate::motion::before::ANYWHERE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::script::{Call, Expr, RoutineId, Statement, VariableId, Written, short};
+use crate::program::script::{Call, Expr, How, RoutineId, Statement, VariableId, Written, short};
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
 
@@ -74,15 +74,57 @@ impl Flow<'_> {
             }
         }
         let uncertain = self.holdings.one(Atom::Uncertain, site);
-        for variable in 0..self.script.variables.len() {
-            if self.script.variables[variable].shared
-                && let Some(slot) = self.slots[variable]
+        for at in 0..self.changing.len() {
+            let slot = self.changing[at] as usize;
+            let joined = self.holdings.join(state.holds[slot], uncertain);
+            Rc::make_mut(&mut state.holds)[slot] = joined;
+        }
+    }
+
+    /// Finds what is shared with routines that are not in the files and has another value somewhere
+    /// in them than its declared one: modes that the files leave as they are, others are taken to
+    /// leave, too.
+    pub(super) fn find_changing(&mut self) {
+        let script = self.script;
+        let mut written: HashMap<VariableId, Vec<Option<Expr>>> = HashMap::new();
+        for statement in &script.statements {
+            if let Statement::Write(write) = statement
+                && let Written::One(variable) = script.writes[*write as usize].variable
             {
-                let held = state.holds[slot as usize];
-                let joined = self.holdings.join(held, uncertain);
-                Rc::make_mut(&mut state.holds)[slot as usize] = joined;
+                let whole = match &script.writes[*write as usize].how {
+                    How::Whole(value) => Some(*value),
+                    _ => None,
+                };
+                written.entry(variable).or_default().push(whole);
             }
         }
+        for back in script.arguments.iter().filter_map(|argument| argument.back) {
+            written.entry(back).or_default().push(None);
+        }
+        let changes = |variable: VariableId| {
+            let declared = script.variables[variable as usize].declared;
+            let (mut seen, mut open) = (vec![variable], vec![variable]);
+            while let Some(of) = open.pop() {
+                for value in written.get(&of).into_iter().flatten() {
+                    match *value {
+                        Some(value) if value == declared => {}
+                        Some(Expr::Variable(from)) => {
+                            if !seen.contains(&from) {
+                                seen.push(from);
+                                open.push(from);
+                            }
+                        }
+                        _ => return true,
+                    }
+                }
+            }
+            false
+        };
+        let shared = (0..short(script.variables.len()))
+            .filter(|variable| script.variables[*variable as usize].shared && changes(*variable));
+        self.changing = shared
+            .filter_map(|variable| self.slots[variable as usize])
+            .collect();
     }
 
     /// The state behind a call, as far as the routines that it calls have come; `None` where none

@@ -205,7 +205,7 @@ impl Flow<'_> {
             && given.all(|argument| matches!(argument.value, Expr::Unknown(_)))
     }
 
-    /// Text that nothing reaches: its moves start from the declarations.
+    /// Text that nothing reaches: it starts from the declarations where it begins.
     pub(super) fn run_dead(&mut self) {
         for routine in 0..self.script.routines.len() {
             let of = &self.script.routines[routine];
@@ -228,7 +228,10 @@ impl Flow<'_> {
                     instance.unwrap_or_else(|| self.instance(short(routine), 0, NO_INSTANCE));
                 own = Some(Some(instance));
                 self.dead = Some(instance);
-                self.push(instance, at, From::Dead);
+                let before = (of.statements.start..at).rev();
+                let unreached = before.take_while(|at| !self.visited[*at as usize]);
+                let first = unreached.last().unwrap_or(at);
+                self.push(instance, first, From::Dead);
                 self.run_work();
             }
         }

@@ -159,6 +159,8 @@ pub(super) struct Flow<'a> {
     /// Routines that change nothing that is tracked and move nothing: behind a call of one all is as
     /// before.
     idle: Vec<bool>,
+    /// Slots of what routines that are not in the files may change.
+    changing: Vec<u32>,
     instances: Vec<Instance>,
     by_call: HashMap<(u32, u32, RoutineId), u32>,
     merged: HashMap<RoutineId, u32>,
@@ -220,6 +222,7 @@ impl<'a> Flow<'a> {
             anytime: HashMap::new(),
             label_places,
             idle: Vec::new(),
+            changing: Vec::new(),
             instances: Vec::new(),
             by_call: HashMap::new(),
             merged: HashMap::new(),
@@ -243,6 +246,7 @@ impl<'a> Flow<'a> {
         };
         flow.track();
         flow.find_idle();
+        flow.find_changing();
         for _ in 0..MOST_ROUNDS {
             let before = (
                 flow.started.clone(),

@@ -219,7 +219,11 @@ impl Flow<'_> {
                                 .map(|(atom, of)| (atom, if of == DECLARED { site } else { of }));
                             self.holdings.intern(placed.collect())
                         }
-                        None => self.holdings.one(atom, site),
+                        None => {
+                            let unknown = script.tables[table as usize].unknown;
+                            let unknown = unknown.filter(|_| atom != Atom::Uncertain);
+                            self.holdings.one(unknown.map_or(atom, Atom::Unknown), site)
+                        }
                     };
                     all = self.holdings.join(all, one);
                 }

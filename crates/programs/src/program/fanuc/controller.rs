@@ -6,11 +6,10 @@ use super::words::{LOCAL, words};
 use crate::finding::Severity;
 use crate::geometry::Pose;
 use crate::program::script::{
-    Expected, Expr, Held, Place, Remark, RemarkId, Script, Table, TableId, ValueId, Variable,
-    VariableId, short,
+    Expected, Expr, Held, Place, Remark, RemarkId, Script, TableId, ValueId, Variable, VariableId,
+    short,
 };
 use foldhash::{HashMap, HashMapExt};
-use std::collections::BTreeMap;
 
 /// The highest number of a tool or frame.
 const MOST_FRAMES: u32 = 255;
@@ -198,8 +197,8 @@ impl Controller {
             Numbered {
                 selected: variable(script, active, Expr::Value(declared), true, true),
                 active: variable(script, active, Expr::Value(declared), true, true),
-                all: table(script, name),
-                others: table(script, name),
+                all: script.table(name),
+                others: script.table(name),
                 what,
                 name,
                 shown,
@@ -229,7 +228,7 @@ impl Controller {
         let corrected = script.remark(Why::Corrected.remark());
         Self {
             kinds,
-            registers: table(script, "PR"),
+            registers: script.table("PR"),
             modes: ["Touch Offset", "Search", "Track", "MP Offset"]
                 .map(|name| variable(script, name, Expr::Absent, false, false)),
             refusals,
@@ -403,14 +402,6 @@ impl Controller {
         };
         Some((mode, self.modes[mode as usize], holds))
     }
-}
-
-fn table(script: &mut Script, name: &str) -> TableId {
-    script.tables.push(Table {
-        name: name.into(),
-        entries: BTreeMap::new(),
-    });
-    short(script.tables.len() - 1)
 }
 
 /// A variable that the files do not declare.

@@ -6,8 +6,7 @@ use super::job::{Letter, Origin, Positions};
 use super::remarks::Cause;
 use crate::geometry::Pose;
 use crate::program::script::{
-    Builder, Expr, Held, NamedFrame, Place, Remark, RoutineId, Table, TableId, Variable,
-    VariableId, short,
+    Builder, Expr, Held, NamedFrame, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
 };
 use crate::program::{BASE_UNIT, Load, TargetId};
 use foldhash::{HashMap, HashMapExt};
@@ -33,14 +32,6 @@ pub(super) struct Variables {
     /// Reasons against moves that always hold.
     reasons: HashMap<Cause, VariableId>,
     sets: HashMap<Box<[VariableId]>, u32>,
-}
-
-fn table(builder: &mut Builder, name: &str) -> TableId {
-    builder.script.tables.push(Table {
-        name: name.into(),
-        ..Table::default()
-    });
-    short(builder.script.tables.len() - 1)
 }
 
 /// An entry of a table; where there is none yet it is a variable of the controller, kept from run
@@ -82,9 +73,9 @@ impl Variables {
     ) -> Self {
         let mut variables = Self {
             shift: constant(builder, Held::Flag(false)),
-            positions: table(builder, "P"),
-            frames: table(builder, "UF#"),
-            tools: table(builder, "TL#"),
+            positions: builder.script.table("P"),
+            frames: builder.script.table("UF#"),
+            tools: builder.script.table("TL#"),
             of_headers: Vec::new(),
             locals: HashMap::new(),
             reasons: HashMap::new(),
@@ -188,7 +179,7 @@ impl Variables {
 
     /// `LP[…]` and the arguments of a job.
     pub(super) fn locals(&mut self, builder: &mut Builder, routine: RoutineId) -> [TableId; 2] {
-        let made = || [table(builder, "LP"), table(builder, "IARG#")];
+        let made = || [builder.script.table("LP"), builder.script.table("IARG#")];
         *self.locals.entry(routine).or_insert_with(made)
     }
 

@@ -3,7 +3,9 @@
 
 use super::names::{Fdat, Index, Stored};
 use super::reader::Reader;
-use super::remarks::{ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT};
+use super::remarks::{
+    ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
+};
 use super::targets::Owner;
 use crate::geometry::Pose;
 use crate::program::kit;
@@ -60,6 +62,8 @@ pub(super) struct Declared {
     pub of_others: std::collections::HashSet<u32>,
     /// `$ROBROOT` of machine data, and where.
     pub roots: Vec<(Place, Pose)>,
+    /// Some file speaks of tools that stand still.
+    pub has_fixed_tools: bool,
 }
 
 impl Declared {
@@ -242,11 +246,10 @@ impl States {
         let initial = ["$TOOL", "$BASE"].map(|name| record(script, name, &missing));
         let [on, off] = [true, false].map(|flag| script.value(Held::Flag(flag)));
         let tables = [Table::Tool, Table::Base, Table::Load].map(|table| {
-            script.tables.push(crate::program::script::Table {
-                name: table.name().into(),
-                ..Default::default()
-            });
-            short(script.tables.len() - 1)
+            let unknown = (table == Table::Load).then(|| script.remark(carried()));
+            let made = script.table(table.name());
+            script.tables[made as usize].unknown = unknown;
+            made
         });
         let chosen = script.remark(CHOSEN);
         let states = std::array::from_fn(|at| {

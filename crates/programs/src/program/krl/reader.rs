@@ -124,6 +124,10 @@ impl Reader {
     /// Where it is broken.
     pub(super) fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
         self.begin(source, file);
+        let names = [&b"#TCP"[..], b"#tcp", b"#Tcp"];
+        let mut names = names.iter();
+        self.declared.has_fixed_tools |=
+            names.any(|name| memchr::memmem::find(&source.bytes, name).is_some());
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {

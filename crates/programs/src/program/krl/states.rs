@@ -427,7 +427,12 @@ impl Reader {
             let value = self.number_of(number.map(Choice::Entry));
             self.set(place, state, value);
         }
-        let mode = self.mode_value(fdat.is_external);
+        // data that are not in the files are of a tool that the robot holds, as all that are
+        let is_external = match found {
+            None if !self.declared.has_fixed_tools => Some(false),
+            _ => fdat.is_external,
+        };
+        let mode = self.mode_value(is_external);
         self.set(place, State::FdatIpo, mode);
         Ok(())
     }

@@ -215,6 +215,9 @@ pub struct Table {
     pub name: Box<str>,
     /// By number.
     pub entries: BTreeMap<i64, VariableId>,
+    /// What is to be said where only the running program knows the number; that of the number itself
+    /// where there is none.
+    pub unknown: Option<RemarkId>,
 }
 
 /// What a variable may hold.
