@@ -5,7 +5,7 @@ usage: measure.py BINARY FOLDER [-o RESULTS.json] [--only LIST.txt] [--robots RO
 
 FOLDER holds one folder a language (rapid, krl, fanuc, urscript, inform, val3, kawasaki), and in it folders of program files as a controller or
 an offline system wrote them: files in one folder belong together. LIST.txt names files in it, one a line (default: all).
-A file counts where the text has poses with six numbers. docs/languages.md tells what is assumed.
+A file counts where the text has poses with six numbers. docs/languages/real-files.md says what is assumed.
 """
 import argparse
 import collections
@@ -257,7 +257,7 @@ def measure(runs, profiles, language, folder, name):
 
 
 def table(results):
-    """The table of docs/languages.md, and the causes."""
+    """The tables of docs/languages/real-files.md, and the causes."""
     print("| language | files with poses | through | refused for the assumed arm or place alone | targets | corrected |")
     print("|---|---|---|---|---|---|")
     causes, times = collections.Counter(), collections.Counter()

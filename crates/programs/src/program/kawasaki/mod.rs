@@ -12,7 +12,7 @@
 //!
 //! Zero of joint 1 points along y, and it counts clockwise from above; joint 3 is that of the
 //! profile: arms with parallel rods count it otherwise (`coupling`). *Not verified on a
-//! controller*; see docs/languages.md.
+//! controller*; see docs/languages/kawasaki.md.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
