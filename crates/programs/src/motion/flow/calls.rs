@@ -102,12 +102,18 @@ impl Flow<'_> {
             written.entry(back).or_default().push(None);
         }
         let changes = |variable: VariableId| {
-            let declared = script.variables[variable as usize].declared;
+            let declared = |of: VariableId| script.variables[of as usize].declared;
+            let own = declared(variable);
             let (mut seen, mut open) = (vec![variable], vec![variable]);
             while let Some(of) = open.pop() {
-                for value in written.get(&of).into_iter().flatten() {
+                let values = written.get(&of);
+                // what is written before it is read is not what was declared
+                if values.is_none() && of != variable && declared(of) != own {
+                    return true;
+                }
+                for value in values.into_iter().flatten() {
                     match *value {
-                        Some(value) if value == declared => {}
+                        Some(value) if value == own => {}
                         Some(Expr::Variable(from)) => {
                             if !seen.contains(&from) {
                                 seen.push(from);

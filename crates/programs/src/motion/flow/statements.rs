@@ -178,6 +178,7 @@ impl<'a> Flow<'a> {
                         continue;
                     };
                     *queued = false;
+                    self.visited[item.statement.0 as usize] = true;
                     (Some(state.clone()), item.statement.0 + 1)
                 }
                 From::Call => (
@@ -219,9 +220,11 @@ impl<'a> Flow<'a> {
         let range = script.routines[routine as usize].statements.clone();
         let mut visits = 1;
         while at < range.end {
-            self.visited[at as usize] = true;
             visits += 1;
-            match script.statements[at as usize] {
+            let statement = script.statements[at as usize];
+            // a label is visited where its state is gone on with
+            self.visited[at as usize] |= !matches!(statement, Statement::Label(_));
+            match statement {
                 Statement::Move(instruction) => self.go(instance, instruction, at, &mut state),
                 Statement::Write(write) => {
                     self.write(&script.writes[write as usize], at, &mut state);

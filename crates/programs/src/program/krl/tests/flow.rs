@@ -335,3 +335,68 @@ fn what_interrupts_and_triggers_hand_to_routines_is_followed() {
     found.dedup();
     assert_eq!(found, ["XP1", "XP2"]);
 }
+
+/// The tool and base of the move to a position.
+fn of<'p>(program: &'p Program, target: &str) -> (&'p str, &'p str) {
+    let mut moves = program.moves.iter();
+    let found = moves.find(|m| {
+        let target_of = m.target.map(|of| &program.targets[of]);
+        target_of.is_some_and(|of| of.name.as_deref() == Some(target))
+    });
+    let m = found.unwrap_or_else(|| panic!("no move to {target}: {:?}", to(program)));
+    (&program.tools[m.tool].name, &program.frames[m.frame].name)
+}
+
+#[test]
+fn points_behind_a_jump_have_the_tool_and_base_that_are_set_in_front_of_them() {
+    let shown = "FDAT_ACT=FP1\nBAS(#FRAMES)\nLIN XP2";
+    for text in [
+        format!("GOTO done\n{shown}\ndone:"),
+        format!("LOOP\nLIN XP1\nENDLOOP\n{shown}"),
+        format!("RETURN\n{shown}"),
+    ] {
+        let text = format!("DEF M()\nBAS(#TOOL,5)\nBAS(#BASE,6)\nLIN XP3\n{text}\nEND\n");
+        let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+        assert_eq!(
+            of(&program, "XP2"),
+            ("TOOL_DATA[1]", "BASE_DATA[2]"),
+            "{text}"
+        );
+        assert_eq!(reported(&program), [""; 0], "{text}");
+    }
+    // routines that call each other, and that nothing else calls
+    let text = format!("DEF a()\n{shown}\nb()\nEND\nDEF b()\na()\nEND\nDEF c()\nEND\n");
+    let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+    assert_eq!(of(&program, "XP2"), ("TOOL_DATA[1]", "BASE_DATA[2]"));
+}
+
+#[test]
+fn what_is_set_behind_something_unknown_is_known() {
+    for unknown in [
+        "other()\nFDAT_ACT=FP1\nBAS(#FRAMES)\nLIN XP1",
+        "FDAT_ACT=FHOME\nBAS(#PTP_PARAMS,100)\nPTP XHOME",
+    ] {
+        let set = format!("{unknown}\n$TOOL=TOOL_DATA[4]\n$BASE=BASE_DATA[3]\nLIN XP2");
+        let read = |rest: &str| {
+            let text = format!("DEF M()\n{set}\nEND\n{rest}");
+            read_files(&[("m.src", &text), ("m.dat", DATA)])
+        };
+        let program = read("");
+        assert_eq!(
+            of(&program, "XP2"),
+            ("TOOL_DATA[4]", "BASE_DATA[3]"),
+            "{set}"
+        );
+        assert!(
+            !reported(&program).contains(&"frame-chosen-at-run-time"),
+            "{set}"
+        );
+        // somewhere the robot holds the work piece: with data that are not in the files it may, too
+        let held = read("DEF s()\n$IPO_MODE=#TCP\nLIN XP3\nEND\n");
+        let is_unknown = reported(&held).contains(&"frame-chosen-at-run-time");
+        assert_eq!(is_unknown, unknown.contains("FHOME"), "{set}");
+    }
+    let loads =
+        path("FDAT_ACT=FHOME\nBAS(#FRAMES)\n$TOOL=TOOL_DATA[4]\n$BASE=BASE_DATA[3]\nLIN XP2");
+    assert_eq!(reported(&loads), ["load-chosen-at-run-time"]);
+}
