@@ -348,7 +348,8 @@ fn add_unused(
         if used[target] || stays(job, target) || ground.is_joints(target) {
             continue;
         }
-        let Some(equipped) = ground.equipped(tool) else {
+        let equipped = ground.equipped(tool);
+        let Some(equipped) = equipped.filter(|_| !ground.language.has_framed_positions()) else {
             findings.push(unused(job, target));
             continue;
         };
@@ -386,12 +387,21 @@ fn add_unused(
 }
 
 fn unused(job: &Job, target: TargetId) -> Finding {
-    let message = format!(
-        "no move in these files uses {}: its tool and work frame are unknown",
-        job.ground.name_of(target)
-    );
-    let hint = "give the files that use it together, or --tool and --frame for it, or --keep-going \
-        to leave it as it is";
+    let name = job.ground.name_of(target);
+    let (message, hint) = if job.ground.language.has_framed_positions() {
+        (
+            format!(
+                "no move in these files uses {name}: with which tool and how the robot comes there is unknown"
+            ),
+            "give the files that use it together, or --keep-going to leave it as it is",
+        )
+    } else {
+        (
+            format!("no move in these files uses {name}: its tool and work frame are unknown"),
+            "give the files that use it together, or --tool and --frame for it, or --keep-going to \
+             leave it as it is",
+        )
+    };
     job.ground
         .at_target("target-unused", Severity::Error, target, message, hint)
 }

@@ -88,6 +88,12 @@ pub trait Language: Sync {
         1e5
     }
 
+    /// Whether positions say in which work frame they are: then none is given to those that no move
+    /// goes to.
+    fn has_framed_positions(&self) -> bool {
+        false
+    }
+
     /// Whether the controller takes up the orientation that is written for the point in the middle
     /// of an arc; else it rotates the tool from the beginning of the arc to its end and looks at the
     /// point's position alone.

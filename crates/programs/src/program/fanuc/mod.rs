@@ -138,6 +138,10 @@ impl Language for Fanuc {
         }
     }
 
+    fn has_framed_positions(&self) -> bool {
+        true
+    }
+
     fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
         notation::pose_of_angles(std::array::from_fn(|i| numbers[i]))
     }

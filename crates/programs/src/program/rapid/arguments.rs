@@ -150,7 +150,14 @@ impl Reader<'_> {
             self.advance()?;
             *amount = self.amount()?;
         }
-        while relative && self.token.is(b'\\') {
+        while relative {
+            // a comma may stand before each
+            if self.token.is(b',') {
+                self.advance()?;
+            }
+            if !self.token.is(b'\\') {
+                break;
+            }
             self.advance()?;
             let axis = match self.text(self.token).to_ascii_lowercase().as_slice() {
                 b"rx" => 3,

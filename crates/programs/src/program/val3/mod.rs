@@ -103,6 +103,10 @@ impl Language for Val3 {
         &notation::WITH_ANGLES[..6 + stated(layout).count()]
     }
 
+    fn has_framed_positions(&self) -> bool {
+        true
+    }
+
     fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {
         pose_of(std::array::from_fn(|i| numbers[i]))
     }
