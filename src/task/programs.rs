@@ -376,6 +376,10 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             Failure::with_hint(format!("--wobj: {error}"), error.hint())
         }
         CompensateError::Given(error) => Failure::with_hint(error.to_string(), error.hint()),
+        CompensateError::OutOfBounds(error) => Failure::with_hint(
+            error.to_string(),
+            "is it in the unit of the language (metres in URScript, else millimetres; kg)?",
+        ),
         CompensateError::Arm(unsupported) => Failure::new(unsupported.to_string()),
         CompensateError::NothingToCorrect => Failure::with_hint(
             error.to_string(),

@@ -194,6 +194,49 @@ fn the_limit_of_shifts_is_ten_times_what_the_effects_do_in_95_of_100_postures() 
 }
 
 #[test]
+fn what_no_arm_has_is_refused_before_anything_is_followed() {
+    let heavy = changed(DEBURR, "[1.4,[0,0,60]", "[1e12,[0,0,60]");
+    let far_frame = changed(BRACKET, "p[-0.125000", "p[-1e308");
+    for (name, program, profile, words) in [
+        ("a.mod", &heavy, THESIS, ["a.mod:", "1e12 kg", "10000 kg"]),
+        (
+            "a.script",
+            &far_frame,
+            UR,
+            ["a.script:", "`bracket`", "1000000 mm"],
+        ),
+    ] {
+        let (status, said, written) = compensated(name, program, &text(profile), &[]);
+        assert!(status == 2 && written.is_none(), "{said}");
+        let folder = scratch();
+        std::fs::write(folder.path().join(name), program).expect("scratch");
+        std::fs::write(folder.path().join("robot.yaml"), text(profile)).expect("scratch");
+        let checked = run_in(folder.path(), &["check", name, "--profile", "robot.yaml"]);
+        assert_eq!(checked.0, 2, "{}", checked.1);
+        for word in words {
+            assert!(
+                said.contains(word) && checked.1.contains(word),
+                "{word}: {said}"
+            );
+        }
+    }
+    let far = changed(BRACKET, "p[0.238979,", "p[1e290,");
+    let (status, said, written) = compensated("a.script", &far, &text(UR), &[]);
+    assert!(status == 1 && written.is_none(), "{said}");
+    assert!(
+        said.contains("out-of-reach") && said.contains("1000000 mm"),
+        "{said}"
+    );
+    let tiny = changed(
+        BRACKET,
+        "p[0.012500,-0.030000,0.145000",
+        "p[0.0000125,-0.00003,0.000145",
+    );
+    let (status, said, _) = compensated("a.script", &tiny, &text(UR), &[]);
+    assert!(status == 1 && said.contains("tool-unit"), "{said}");
+}
+
+#[test]
 fn other_units_are_questioned() {
     let thesis = text(THESIS);
     let tiny = changed(
@@ -314,7 +357,7 @@ fn loads_beyond_the_payload_are_errors() {
     );
     assert!(said.contains("2.8 kg") && said.contains("2.7 kg"), "{said}");
     // however heavy, with a limit or without
-    let heaviest = changed(DEBURR, "[1.4,[0,0,60]", "[1e7,[0,0,60]");
+    let heaviest = changed(DEBURR, "[1.4,[0,0,60]", "[9e3,[0,0,60]");
     let (status, said, _) = compensated("a.mod", &heaviest, &limited, &[]);
     assert!(
         status == 1 && said.contains("load-beyond-payload"),

@@ -189,6 +189,7 @@ impl Walk {
             &options.given,
             has_numbers,
         )?;
+        plausibility::bounds(&ground)?;
         plausibility::units(&ground, Severity::Warning, &mut findings);
         plausibility::names(&ground, &mut findings);
         plausibility::models(&ground, &mut findings);

@@ -175,6 +175,9 @@ pub enum CompensateError {
     /// A tool or work frame is given that none is needed for.
     #[error(transparent)]
     Given(#[from] GivenError),
+    /// A tool, load or work frame is out of all bounds.
+    #[error(transparent)]
+    OutOfBounds(#[from] plausibility::OutOfBounds),
     /// The arm has no closed-form inverse.
     #[error(transparent)]
     Arm(#[from] Unsupported),
@@ -359,6 +362,7 @@ fn with(
             findings.extend(remarks::staying(&ground));
         }
     }
+    plausibility::bounds(&ground)?;
     plausibility::units(&ground, Severity::Error, &mut findings);
     plausibility::names(&ground, &mut findings);
     plausibility::models(&ground, &mut findings);

@@ -3,6 +3,7 @@
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
+use crate::geometry::Vector;
 use crate::geometry::units::mm_from_m;
 use crate::model::Conditions;
 use crate::model::effects::{Effect, same_tool};
@@ -13,6 +14,98 @@ use crate::program::Move;
 /// The way out where a number is not finite.
 pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in the effects, masses \
     and frames of the profile and in the tool";
+
+/// No arm carries more, kg.
+const MOST_LOAD_KG: f64 = 1e4;
+/// No tool, work frame or target is farther away, metres.
+pub(super) const FARTHEST_M: f64 = 1e3;
+
+/// A tool, load or work frame that no arm can have.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}:{line}: {what} is {value:e} {unit}; the limit is {limit} {unit}")]
+pub struct OutOfBounds {
+    /// The file of the first move that has it.
+    pub file: String,
+    /// The line of the move.
+    pub line: usize,
+    /// What it is.
+    pub what: String,
+    /// Its size.
+    pub value: f64,
+    /// The most that is taken.
+    pub limit: f64,
+    /// The unit of both.
+    pub unit: &'static str,
+}
+
+/// The largest coordinate of a point; infinite where one is no number.
+pub(super) fn farthest(point: &Vector) -> f64 {
+    let sizes = point
+        .iter()
+        .map(|m| if m.is_nan() { f64::INFINITY } else { m.abs() });
+    sizes.fold(0.0, f64::max)
+}
+
+/// Refuses tools, loads and work frames of moves that no arm can have: nothing is bounded with them.
+///
+/// # Errors
+/// The first of them.
+pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
+    let mut seen = vec![false; ground.program.tools.len()];
+    let mut seen_frames = vec![false; ground.program.frames.len()];
+    for motion in &ground.program.moves {
+        let beyond = |what: String, value: f64, limit: f64, unit: &'static str| {
+            // also what is no number
+            if value <= limit {
+                return Ok(());
+            }
+            Err(OutOfBounds {
+                file: ground.sources[motion.file as usize].name.clone(),
+                line: ground.line_of(motion),
+                what,
+                value,
+                limit,
+                unit,
+            })
+        };
+        let far = |what: String, point: &Vector| {
+            beyond(
+                what,
+                mm_from_m(farthest(point)),
+                mm_from_m(FARTHEST_M),
+                "mm",
+            )
+        };
+        if !std::mem::replace(&mut seen[motion.tool], true)
+            && let Some(tool) = &ground.setting.tools[motion.tool]
+        {
+            let name = &ground.program.tools[motion.tool].name;
+            far(
+                format!("the distance of tool `{name}` from the flange"),
+                &tool.flange_from_tool.translation,
+            )?;
+            if let Some((mass_kg, cog_m)) = tool.load {
+                beyond(
+                    format!("the load of tool `{name}`"),
+                    mass_kg,
+                    MOST_LOAD_KG,
+                    "kg",
+                )?;
+                far(format!("the centre of gravity of tool `{name}`"), &cog_m)?;
+            }
+        }
+        if !std::mem::replace(&mut seen_frames[motion.frame], true)
+            && let Some(frame) = &ground.setting.frames[motion.frame]
+        {
+            let name = &ground.program.frames[motion.frame].name;
+            far(
+                format!("the distance of work frame `{name}`"),
+                &frame.nominal.translation,
+            )?;
+        }
+    }
+    Ok(())
+}
 
 /// Checks the units of the tools that moves have, each at the first move that has it.
 pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Finding>) {
@@ -30,17 +123,19 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
         } else {
             format!("tool `{name}`")
         };
-        // who writes metres into the text has not taken them for millimetres
         let of_text = ground.program.tools[motion.tool].flange_from_tool.is_some();
-        let may_be_metres = !(of_text && ground.language.is_in_metres());
-        if may_be_metres && is_tiny(&tool.flange_from_tool.translation) {
+        let in_metres = of_text && ground.language.is_in_metres();
+        if is_tiny(&tool.flange_from_tool.translation) {
             let off = tool.flange_from_tool.translation;
             let largest = off.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
             let message = format!(
-                "{named} is {} mm from the flange at most in each coordinate; below 1 mm the limit \
-                 is reached where metres are \
-                 taken for millimetres",
-                (mm_from_m(largest) * 1e6).round() / 1e6
+                "{named} is {} mm from the flange at most in each coordinate; below 1 mm {}",
+                (mm_from_m(largest) * 1e6).round() / 1e6,
+                if in_metres {
+                    "no tool is meant: the language is in metres"
+                } else {
+                    "metres are taken for millimetres"
+                }
             );
             findings.push(ground.at_move(
                 "tool-unit",

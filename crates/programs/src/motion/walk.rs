@@ -8,9 +8,10 @@
 use super::course::ToolRotation;
 use super::follow::{arrival_direction, course, turned};
 use super::ground::Ground;
-use super::middle;
+use super::posture::OUT_OF_REACH;
+use super::{middle, plausibility};
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::DEG;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
@@ -376,6 +377,10 @@ impl Walker<'_, '_> {
             return nowhere;
         }
         let mut wanted = ground.meant(&goal.value, motion.tool, frame);
+        if plausibility::farthest(&wanted.translation) > plausibility::FARTHEST_M {
+            self.say_far(target, &wanted);
+            return nowhere;
+        }
         let middle = before.filter(|before| before.known).and_then(|before| {
             let (at, walk_options) = (at as usize, self.walk_options);
             middle::middle(ground, walk_options, at, &before, &wanted, self.findings)
@@ -471,6 +476,22 @@ impl Walker<'_, '_> {
         let mut angles = numbers.filter(|(_, role)| **role == Role::Orientation);
         let limit = self.ground.language.most_orientation(target.layout);
         angles.find_map(|(number, _)| Some(number.value).filter(|angle| angle.abs() > limit))
+    }
+
+    fn say_far(&mut self, target: TargetId, wanted: &Pose) {
+        let ground = self.ground;
+        self.findings.push(ground.at_target(
+            OUT_OF_REACH,
+            Severity::Error,
+            target,
+            format!(
+                "the robot would go {:e} mm away to {}; the limit is {} mm",
+                mm_from_m(plausibility::farthest(&wanted.translation)),
+                ground.name_of(target),
+                mm_from_m(plausibility::FARTHEST_M)
+            ),
+            "is it in the unit of the language (metres in URScript, else millimetres)?",
+        ));
     }
 
     fn say_endless(&mut self, target: TargetId, (what, angle, limit): (&str, f64, f64)) {

@@ -209,21 +209,18 @@ impl Flow<'_> {
                         },
                         _ => None,
                     };
-                    let one = match entry {
-                        Some(variable) => {
-                            let held = of_variable(self, Expr::Variable(variable));
-                            // the selection is what a message names
-                            let atoms = self.holdings.of(held).to_vec();
-                            let placed = atoms
-                                .into_iter()
-                                .map(|(atom, of)| (atom, if of == DECLARED { site } else { of }));
-                            self.holdings.intern(placed.collect())
-                        }
-                        None => {
-                            let unknown = script.tables[table as usize].unknown;
-                            let unknown = unknown.filter(|_| atom != Atom::Uncertain);
-                            self.holdings.one(unknown.map_or(atom, Atom::Unknown), site)
-                        }
+                    let one = if let Some(variable) = entry {
+                        let held = of_variable(self, Expr::Variable(variable));
+                        // the selection is what a message names
+                        let atoms = self.holdings.of(held).to_vec();
+                        let placed = atoms
+                            .into_iter()
+                            .map(|(atom, of)| (atom, if of == DECLARED { site } else { of }));
+                        self.holdings.intern(placed.collect())
+                    } else {
+                        let unknown = script.tables[table as usize].unknown;
+                        let unknown = unknown.filter(|_| atom != Atom::Uncertain);
+                        self.holdings.one(unknown.map_or(atom, Atom::Unknown), site)
                     };
                     all = self.holdings.join(all, one);
                 }

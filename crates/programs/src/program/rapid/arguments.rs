@@ -150,13 +150,13 @@ impl Reader<'_> {
             self.advance()?;
             *amount = self.amount()?;
         }
-        while relative {
+        while relative && matches!(self.token.kind, Kind::Sign(b',' | b'\\')) {
             // a comma may stand before each
             if self.token.is(b',') {
                 self.advance()?;
             }
             if !self.token.is(b'\\') {
-                break;
+                return Ok(None);
             }
             self.advance()?;
             let axis = match self.text(self.token).to_ascii_lowercase().as_slice() {
