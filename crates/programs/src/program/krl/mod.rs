@@ -158,6 +158,14 @@ impl Language for Krl {
         insert::MANNER.insert(into)
     }
 
+    fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
+        (insert::MANNER.forbids)(text)
+    }
+
+    fn is_in_form(&self, bytes: &[u8], at: usize) -> bool {
+        insert::is_in_form(bytes, at)
+    }
+
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
     }

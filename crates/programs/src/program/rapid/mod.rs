@@ -155,6 +155,10 @@ impl Language for Rapid {
         insert::MANNER.insert(into)
     }
 
+    fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
+        (insert::MANNER.forbids)(text)
+    }
+
     fn external_names(&self) -> [&'static str; 6] {
         EXTERNAL
     }
