@@ -505,10 +505,14 @@ fn rapid_repeats_plain_moves_alone() {
   ENDPROC
 ENDMODULE
 ";
-    for (line, status) in [
-        ("MoveL p2,v100,z10,artifact;", 0),
-        ("MoveLDO p2,v100,z10,artifact,do1,1;", 1),
-        ("TriggL p2,v100,trig1,z10,artifact;", 1),
+    for (line, status, because) in [
+        ("MoveL p2,v100,z10,artifact;", 0, ""),
+        ("MoveL p2,v100\\V:=90,z10,artifact\\TLoad:=l;", 0, ""),
+        ("MoveLDO p2,v100,z10,artifact,do1,1;", 1, "does more"),
+        ("TriggL p2,v100,trig1,z10,artifact;", 1, "does more"),
+        ("MoveL p2,v100\\T:=5,z10,artifact;", 1, "\\T"),
+        ("MoveL p2 \\ID:=10,v100,z10,artifact;", 1, "\\ID"),
+        ("MoveL\\Conc,p2,v100,z10,artifact;", 1, "\\Conc"),
     ] {
         let folder = scratch();
         let (input, out) = (folder.path().join("t.mod"), folder.path().join("o.mod"));
@@ -533,5 +537,60 @@ ENDMODULE
             status == 1,
             "{reported}"
         );
+        assert!(reported.contains(because), "{line}: {reported}");
+    }
+}
+
+/// Where moves end in an exact stop their pieces do so, too.
+#[test]
+fn stops_that_come_in_are_told_once_a_file() {
+    // what ends in a corner then, and what marks lines that stop the robot
+    let cases: [(&Case, [&str; 2], &[&str]); 3] = [
+        (
+            &KRL,
+            ["C 180.0001}\nEND", "C 180.0001} C_DIS\nEND"],
+            KRL.arc,
+        ),
+        (&FANUC, ["100mm/sec FINE", "100mm/sec CNT50"], FANUC.arc),
+        (
+            &URSCRIPT,
+            ["0.25,0.0,0)\nend", "0.25,0.01,0)\nend"],
+            URSCRIPT.arc,
+        ),
+    ];
+    for (case, [from, to], stopping) in cases {
+        let refined = |text: &str| {
+            let folder = scratch();
+            let files = case.write(folder.path());
+            std::fs::write(&files[0], text).expect("a writable folder");
+            let out = folder.path().join("out");
+            let options = ["--max-path-error", "0.04", "--json", "--keep-going"];
+            let (_, report) = case.compensate(folder.path(), &out, &options);
+            let report: Value =
+                serde_json::from_str(&report).unwrap_or_else(|_| panic!("{report}"));
+            let written = std::fs::read_to_string(out.join(case.files[0].0)).expect("a file");
+            let found = |id: &str| -> Vec<String> {
+                let all = report["findings"].as_array().expect("findings").iter();
+                let of = all.filter(|finding| finding["id"] == id);
+                of.map(|finding| finding["message"].to_string()).collect()
+            };
+            (written, found("stops-inserted"), found("form-overwritten"))
+        };
+        // straight moves of URScript stop anyway
+        let text = case.files[0].1.replace("v=0.1)", "v=0.1, r=0.01)");
+        let (written, stops, forms) = refined(&text);
+        let added = lines_with(&written, stopping).len() - lines_with(&text, stopping).len();
+        assert_eq!(stops.len(), 1, "{}{stops:?}", case.language);
+        assert!(
+            added > 0 && stops[0].contains(&format!("{added} ")),
+            "{added}{stops:?}"
+        );
+        assert_eq!(
+            forms.len(),
+            usize::from(case.language == "krl"),
+            "{forms:?}"
+        );
+        let (_, stops, _) = refined(&text.replace(from, to));
+        assert_eq!(stops, [""; 0], "{}", case.language);
     }
 }

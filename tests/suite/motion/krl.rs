@@ -56,6 +56,48 @@ fn a_called_routine_begins_in_the_posture_of_its_caller_and_gives_its_own_back()
 }
 
 #[test]
+fn axes_that_turn_from_where_the_robot_is_carry_its_posture() {
+    for (body, side) in [
+        (format!("{FLIPPED}PTP {{A4 -30,A5 70,A6 -60}}\n{BOTH}"), 1.0),
+        (format!("{UP}PTP {{A1 5}}\n{BOTH}"), 1.0),
+        (format!("{FLIPPED}PTP_REL {{A1 5}}\n{BOTH}"), -1.0),
+        (
+            format!("{FLIPPED}SPTP_REL {{A4 -180,A5 140,A6 -180}}\n{BOTH}"),
+            1.0,
+        ),
+        (
+            format!("{UP}PTP_REL {{A4 90}}\nPTP_REL {{A4 90,A5 -140,A6 180}}\n{BOTH}"),
+            -1.0,
+        ),
+    ] {
+        let done = plain(&body);
+        assert_eq!(errors(&done), [""; 0], "{body}{:?}", done.findings);
+        assert_eq!(sides(&done), [side], "{body}");
+    }
+    // on and on
+    let done = plain(&format!("{UP}LOOP\nPTP_REL {{A6 0.5}}\nENDLOOP\n"));
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    // the others are not known
+    for body in [
+        format!("PTP {{A4 -30,A5 70,A6 -60}}\n{BOTH}"),
+        format!("{UP}away()\nPTP {{A1 5}}\n{BOTH}"),
+        format!("{UP}PTP_REL off\n{BOTH}"),
+    ] {
+        let done = plain(&body);
+        assert_ne!(
+            done.findings
+                .iter()
+                .filter(|f| f.severity >= Severity::Warning)
+                .count(),
+            0
+        );
+        let ids: Vec<_> = done.findings.iter().map(|finding| finding.id).collect();
+        let is_said = ids.contains(&"posture-assumed") || ids.contains(&"configuration-unknown");
+        assert!(is_said, "{body}{ids:?}");
+    }
+}
+
+#[test]
 fn a_routine_that_is_called_in_two_postures_is_judged_in_both() {
     // row f
     let done = done(

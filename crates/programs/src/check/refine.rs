@@ -19,7 +19,7 @@ use crate::motion::external;
 use crate::motion::leg::Leg;
 use crate::program::number::{Fraction, Style};
 use crate::program::{
-    Between, Displacement, FrameId, Insertion, Motion, Posture, Role, Settings, Value,
+    Between, Displacement, FrameId, Insertion, Motion, Move, Posture, Role, Settings, Value,
 };
 use rayon::prelude::*;
 
@@ -71,9 +71,12 @@ pub fn refine(
     let refusals: Vec<Option<Finding>> = changes
         .iter()
         .map(|change| {
-            let why = "the text of this move cannot be repeated";
             let insertion = change.insertion.as_ref()?;
-            Some(job.failed(insertion.motion, change.whole_m, why))
+            let mut why = "the text of this move cannot be repeated".to_owned();
+            if let Some(because) = job.forbidden(insertion.motion) {
+                why = format!("{why}: {because}");
+            }
+            Some(job.failed(insertion.motion, change.whole_m, &why))
         })
         .collect();
     for file in 0..subject.sources.len() {
@@ -89,12 +92,49 @@ pub fn refine(
         }
         let (language, sources) = (subject.language, subject.sources);
         let done = compensation.insert(language, sources, &walk.program, file, &insertions);
+        let inserted = insertions.iter().zip(&done).filter(|(_, done)| **done);
+        let stops = stops(subject, &walk, inserted.map(|(insertion, _)| insertion));
+        compensation.findings.extend(stops);
         let failed = done.iter().zip(refused).filter(|(done, _)| !**done);
         compensation
             .findings
             .extend(failed.map(|(_, refusal)| refusal));
     }
     Ok(())
+}
+
+/// What is said of a file where moves that end in an exact stop were repeated: the robot stops at
+/// each of the new targets.
+fn stops<'a>(
+    subject: &Subject,
+    walk: &Walk,
+    inserted: impl Iterator<Item = &'a Insertion>,
+) -> Option<Finding> {
+    let program = &walk.program;
+    let mut first: Option<&Move> = None;
+    let mut count = 0;
+    for insertion in inserted {
+        let motion = &program.moves[insertion.motion];
+        let speed_zone = program.speed_zone(motion);
+        if speed_zone.zone_m != Some(0.0) || speed_zone.cuts_corner() {
+            continue;
+        }
+        // the last part of an arc is the arc itself
+        count += insertion.between.len() - usize::from(insertion.is_arc());
+        let before = first.filter(|first| first.offset <= motion.offset);
+        first = before.or(Some(motion));
+    }
+    let first = first.filter(|_| count > 0)?;
+    let message = if count == 1 {
+        "the target that comes in before this move stops the robot as the move itself does".into()
+    } else {
+        format!(
+            "{count} of the targets that come in stop the robot as the moves do that they are on \
+             the way of, the first before this one"
+        )
+    };
+    let hint = "let a move that must not stop on its way end in a corner (zone, C_DIS, CNT, PL, r)";
+    Some(subject.finding(first, "stops-inserted", Severity::Note, message, hint))
 }
 
 /// What a move needs.
@@ -348,6 +388,15 @@ impl Job<'_> {
                 )
             })
         })
+    }
+
+    /// What of its text forbids to repeat a move.
+    fn forbidden(&self, motion: usize) -> Option<&'static str> {
+        let program = &self.walk.program;
+        let motion = &program.moves[motion];
+        let span = program.instructions[motion.instruction as usize].span();
+        let bytes = &self.subject.sources[motion.file as usize].bytes;
+        self.subject.language.forbids_repeating(&bytes[span])
     }
 
     /// No targets can be inserted where they are needed.

@@ -2,6 +2,7 @@
 
 use super::written::without_configuration;
 use super::{Added, Compensation};
+use crate::finding::Severity;
 use crate::program::{
     Edits, Insertion, Insertions, Language, Program, Replacements, Source, number,
 };
@@ -76,6 +77,7 @@ impl Compensation {
             self.put_together(file);
             self.compensated[file] |= done.contains(&true);
         }
+        self.tell_forms(language, &sources[file], program, &wanted);
         self.inserted.retain(|motion, _| !of_file(motion));
         self.inserted.extend(wanted);
         self.added = Added::default();
@@ -84,6 +86,39 @@ impl Compensation {
             self.inserted.insert(insertion.motion, insertion);
         }
         done
+    }
+
+    /// Lines of forms that were written over: once a file.
+    fn tell_forms(
+        &mut self,
+        language: &dyn Language,
+        source: &Source,
+        program: &Program,
+        written: &BTreeMap<usize, Insertion>,
+    ) {
+        let id = "form-overwritten";
+        self.findings
+            .retain(|finding| finding.id != id || finding.file != source.name);
+        let moves = written.keys().map(|motion| &program.moves[*motion]);
+        let mut forms: Vec<usize> = moves
+            .map(|motion| motion.offset as usize)
+            .filter(|at| language.is_in_form(&source.bytes, *at))
+            .collect();
+        forms.sort_unstable();
+        let Some(first) = forms.first() else {
+            return;
+        };
+        let message = format!(
+            "targets were written into {} of this file (the first is here): Change on the pendant \
+             writes the old lines again, and Touch-Up teaches a point that they no longer go to",
+            match forms.len() {
+                1 => "one inline form".to_owned(),
+                count => format!("{count} inline forms"),
+            }
+        );
+        let hint = "change and teach these points in the original program, and compensate it again";
+        let finding = source.finding(*first, id, Severity::Note, message, hint);
+        self.findings.push(finding);
     }
 
     /// The files that what is inserted for a file concerns.

@@ -10,7 +10,7 @@ use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::motion::follow;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
-use crate::program::script::short;
+use crate::program::script::{Turn, short};
 use crate::program::{Displacement, Motion, Shape, Shift, Value};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -224,8 +224,9 @@ fn changed_directions(
             continue;
         };
         let motion = &ground.program.moves[arrival.motion as usize];
-        if ground.program.is_arm_still(motion) {
-            directions[at] = directions[arrival.from as usize];
+        if ground.program.turned(motion).is_some() {
+            let from = arrival.from as usize;
+            directions[at] = follow::turned(&fakes[from], &fakes[at], directions[from]);
             continue;
         }
         let Some(equipped) = ground.equipped(motion.tool) else {
@@ -339,9 +340,18 @@ fn fake_joints(
     approaches: &[Approach],
     outcomes: &[Option<Outcome>],
 ) -> Vec<[f64; 6]> {
-    let fake = |arrival: &Arrival| fake_of(job, approaches, outcomes, arrival);
-    let of = |arrival: &Arrival| fake(arrival).unwrap_or(arrival.q);
-    arrivals.all.iter().map(of).collect()
+    let program = job.ground.program;
+    // predecessors come first in the list
+    let mut fakes: Vec<[f64; 6]> = Vec::with_capacity(arrivals.all.len());
+    for arrival in &arrivals.all {
+        let turned = program.turned(&program.moves[arrival.motion as usize]);
+        let from = fakes.get(arrival.from as usize);
+        fakes.push(match turned.filter(|_| arrival.known).zip(from) {
+            Some((turned, from)) => Turn::apply(turned, from),
+            None => fake_of(job, approaches, outcomes, arrival).unwrap_or(arrival.q),
+        });
+    }
+    fakes
 }
 
 /// The controller's joints at an arrival of the compensated program; `None` where they are as they

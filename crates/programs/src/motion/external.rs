@@ -149,7 +149,7 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
     for (motion, slots) in program.moves.iter().zip(own.chunks_mut(axes.len().max(1))) {
         let of_target = match motion.target {
             Some(target) => part_of(&program.externals, target),
-            None if program.is_arm_still(motion) => &[],
+            None if program.turned(motion).is_some() => &[],
             None => {
                 slots.fill(Some(f64::NAN));
                 continue;

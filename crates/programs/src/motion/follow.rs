@@ -34,7 +34,7 @@ const SINGULAR_M: f64 = 1e-4;
 const BEYOND_SINGULAR: f64 = 0.02;
 
 /// Directions after a move of the joints at constant rates.
-pub(super) fn turned(from: &[f64; 6], to: &[f64; 6], before: [i8; 6]) -> [i8; 6] {
+pub(crate) fn turned(from: &[f64; 6], to: &[f64; 6], before: [i8; 6]) -> [i8; 6] {
     std::array::from_fn(|i| sign(to[i] - from[i], STANDSTILL_RAD).unwrap_or(before[i]))
 }
 

@@ -15,6 +15,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
+use crate::program::script::Turn;
 use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -27,6 +28,8 @@ const READABLE: f64 = 1e6;
 const MOST_ARRIVALS: usize = 64;
 /// Moves to positions that only the running program knows that are gone back over.
 const MOST_UNKNOWN: usize = 256;
+/// Likewise at one that turns joints from where they are.
+const MOST_TURNS: usize = 16;
 /// Joints that differ by less are the same, radians.
 const SAME_RAD: f64 = 1e-7;
 
@@ -322,26 +325,38 @@ impl Walker<'_, '_> {
             honoured,
             middle: None,
         };
-        let Some(target) = motion.target else {
-            // its joints stand while external axes go
-            let still = before.filter(|_| ground.program.is_arm_still(motion));
-            return match still {
-                Some(before) => Arrival {
-                    branch: before.branch,
-                    direction: before.direction,
-                    known: before.known,
-                    ..nowhere
-                },
-                None => nowhere,
-            };
-        };
-        let Some(goal) = ground.goal(motion) else {
-            return nowhere;
-        };
         // where the robot goes from a point that only the running program knows, no side is known
         let starts_unknown = self.arrivals.unknown_start(ground.program, from).is_some();
         let carried = before.filter(|_| !starts_unknown);
         let direction = carried.map_or([0; 6], |before| before.direction);
+        let in_joints = |q: [f64; 6], displaced: bool| {
+            let arm = ground.arms.iter().flatten().next();
+            Arrival {
+                q,
+                branch: arm.map_or(Branch::ALL[0], |equipped| equipped.arm.posture(&q).0),
+                direction: start
+                    .filter(|_| !starts_unknown)
+                    .map_or([0; 6], |start| turned(&start, &q, direction)),
+                known: true,
+                displaced,
+                ..nowhere
+            }
+        };
+        let Some(target) = motion.target else {
+            // a call that may have led the robot elsewhere leaves the other joints unknown, and so
+            // does a move that turns them on, again and again
+            let is_led = ground.program.led.binary_search_by_key(&at, |led| led.0);
+            let is_many = self.arrivals.at(at as usize).nth(MOST_TURNS).is_some();
+            let turns_on = |turn: &Turn| matches!(turn, Turn::By(_)) && is_many;
+            let turned = ground.program.turned(motion);
+            let turned = turned.filter(|turned| is_led.is_err() && !turned.iter().any(turns_on));
+            return turned.zip(start).map_or(nowhere, |(turned, start)| {
+                in_joints(Turn::apply(turned, &start), starts_unknown)
+            });
+        };
+        let Some(goal) = ground.goal(motion) else {
+            return nowhere;
+        };
         if let Value::Joints(q) = goal.value {
             if let Some(angle) = q.iter().find(|angle| angle.abs() > MOST_JOINT_RAD) {
                 self.say_endless(target, ("a joint", angle / DEG, MOST_JOINT_RAD / DEG));
@@ -350,17 +365,7 @@ impl Walker<'_, '_> {
             if self.stands_beyond(target, &q) {
                 return nowhere;
             }
-            let arm = ground.arms.iter().flatten().next();
-            return Arrival {
-                q,
-                branch: arm.map_or(Branch::ALL[0], |equipped| equipped.arm.posture(&q).0),
-                direction: start
-                    .filter(|_| !starts_unknown)
-                    .map_or([0; 6], |start| turned(&start, &q, direction)),
-                known: true,
-                displaced: goal.is_near,
-                ..nowhere
-            };
+            return in_joints(q, goal.is_near);
         }
         let frame = ground.frame_of(motion);
         let is_known = ground.equipped(motion.tool).is_some()

@@ -137,8 +137,9 @@ pub(super) type External = fn(&[Source], &Program, &Target) -> Option<Vec<u8>>;
 
 /// How the moves of a language are written again where their targets stand in them.
 pub(super) struct Manner {
-    /// Whether an instruction, as the text has it, does nothing but go to its target.
-    pub repeats: fn(&[u8]) -> bool,
+    /// Why an instruction, as the text has it, cannot be written again: what it does besides going
+    /// to its target.
+    pub forbids: fn(&[u8]) -> Option<&'static str>,
     /// The external axes of a target; nothing where the language has none.
     pub external: Option<External>,
     /// The longest line of the language in bytes.
@@ -161,7 +162,7 @@ impl Manner {
         let repeated = Repeated::of(into, insertion, self.longest)?;
         if !insertion.is_split() {
             let line = &repeated.lines[0];
-            if !(self.repeats)(&repeated.source.bytes[line.span.clone()]) {
+            if (self.forbids)(&repeated.source.bytes[line.span.clone()]).is_some() {
                 return None;
             }
             let mut from = before(program, motion)?;
@@ -211,6 +212,10 @@ fn via(program: &Program, end: u32) -> Option<&Instruction> {
     let is_one = via.place == program.instructions[end as usize].place;
     (via.motion == Motion::ArcVia && is_one).then_some(via)
 }
+
+/// What speaks against a move that begins with another word than moves that only go to their
+/// target.
+pub(super) const DOES_MORE: &str = "it does more than go to its target";
 
 /// Whether a text starts with one of these words, in any case.
 pub(super) fn starts_with_word(text: &[u8], words: &[&str]) -> bool {

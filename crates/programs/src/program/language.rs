@@ -232,6 +232,18 @@ pub trait Language: Sync {
         Inserted::none(into.list)
     }
 
+    /// Why the text of a move cannot be repeated, where the language tells.
+    fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
+        let _ = text;
+        None
+    }
+
+    /// Whether a byte stands in lines that the pendant writes again from what it has in a form.
+    fn is_in_form(&self, bytes: &[u8], at: usize) -> bool {
+        let _ = (bytes, at);
+        false
+    }
+
     /// The names of external axes in the order of their offsets, see
     /// [`crate::program::ExternalState::offset`].
     fn external_names(&self) -> [&'static str; 6] {

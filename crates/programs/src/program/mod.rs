@@ -462,13 +462,11 @@ impl Target {
 }
 
 impl Program {
-    /// Whether only external axes go, and the arm stands.
-    pub fn is_arm_still(&self, motion: &Move) -> bool {
+    /// What becomes of each joint, where a move turns joints from where the robot is.
+    pub fn turned(&self, motion: &Move) -> Option<&[script::Turn; 6]> {
         let instruction = &self.instructions[motion.instruction as usize];
-        let own = &self.externals_of_moves;
-        motion.target.is_none()
-            && instruction.target == script::Expr::Absent
-            && (own.binary_search_by_key(&motion.instruction, |(at, _)| *at)).is_ok()
+        let turned = instruction.turned.as_deref();
+        turned.filter(|_| motion.target.is_none())
     }
 
     /// Where each listed external axis stands at the end of a move, metres and radians, where that

@@ -106,6 +106,11 @@ impl Symbols {
         found.map(|known| Symbol(known.id))
     }
 
+    /// What a part of what has a name is called.
+    pub(super) fn path(&self, name: Symbol, part: &[u8]) -> Vec<u8> {
+        [self.spelling(name).as_bytes(), b".", part].concat()
+    }
+
     /// How it was spelled first.
     pub(super) fn spelling(&self, symbol: Symbol) -> &str {
         self.spellings.of(symbol.0)

@@ -4,6 +4,10 @@
 //! something more adds up: as often as the loops around that assignment count where the same
 //! routine sets it anew before, else any number of times.
 
+mod bounds;
+
+pub(super) use bounds::bounds_in;
+
 use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use foldhash::{HashMap, HashSet};
@@ -123,6 +127,8 @@ pub(super) struct Numbers<W> {
     jumping: HashSet<u32>,
     /// Blocks that run any number of times.
     unbounded: HashSet<(u32, u32)>,
+    /// What bounds numbers in the rounds of a block: `WHILE n<10`.
+    bounds: Vec<bounds::Bound<W>>,
     /// The routines that each calls.
     calls: HashMap<u32, HashSet<u32>>,
     /// Routines that run at any time.
@@ -138,6 +144,7 @@ impl<W> Default for Numbers<W> {
             facts: HashMap::default(),
             jumping: HashSet::default(),
             unbounded: HashSet::default(),
+            bounds: Vec::new(),
             calls: HashMap::default(),
             concurrent: HashSet::default(),
             same: HashMap::default(),
@@ -309,9 +316,19 @@ impl<W> Numbers<W> {
             all.extend(turned);
         }
         let mut value = Quantity::any(&all);
+        let is_alone = growing.len() == 1 && !is_turned && !facts.is_lost;
         for (by, site) in growing {
             // what else writes it may be what sets it anew, or may not
-            let most = site.and_then(|site| self.most(site, &resets));
+            let most = site.and_then(|site| {
+                let start = is_alone.then_some(&all[..]);
+                self.most(site, &resets).or_else(|| {
+                    let mut limit = |what: &W| {
+                        let mut of = |other: u32| self.value_in(other, evaluate, open);
+                        evaluate(what, &mut of)
+                    };
+                    self.rounds_within(number, site, &by, start?, &mut limit)
+                })
+            });
             value = value.plus(again(&by, most));
             if is_turned {
                 value = value.plus(again(&by.times(-1.0), most));

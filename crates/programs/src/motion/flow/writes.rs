@@ -133,7 +133,13 @@ impl Flow<'_> {
                     None => match self.with_parts(value, first, parts.clone()) {
                         Some(record) => Atom::Value(record),
                         // one whose parts nobody knows
-                        None if matches!(self.value(value), Held::Frame(_)) => Atom::Anything,
+                        None if matches!(
+                            self.value(value),
+                            Held::Frame(_) | Held::Actual | Held::ActualWith { .. }
+                        ) =>
+                        {
+                            Atom::Anything
+                        }
                         None => atom,
                     },
                 },
@@ -176,7 +182,7 @@ impl Flow<'_> {
     fn added_by(how: &How) -> DisplacementId {
         match *how {
             // numbers of the text do not know of a correction
-            How::PartNumber(_) | How::PartOf { .. } => OVERWRITTEN,
+            How::Parts { .. } | How::PartNumber(_) | How::PartOf { .. } => OVERWRITTEN,
             How::PartBy(_, by) => by,
             _ => UNBOUNDED,
         }

@@ -176,14 +176,19 @@ impl Resolver<'_, '_> {
                 None,
             );
         }
-        let mut as_frames: Vec<_> = self.as_frames.drain().collect();
+        let offsets = &self.script.offsets;
+        let placed = offsets
+            .iter()
+            .map(|target| (*target, self.report.program.targets[*target].place()));
+        let mut as_frames: Vec<_> = self.as_frames.drain().chain(placed).collect();
         as_frames.sort_unstable();
+        as_frames.dedup_by_key(|(target, _)| *target);
         for (target, place) in as_frames {
             if self.used[target] {
                 self.report.block(
                     target,
                     "target-used-as-frame",
-                    "this target is a tool or work frame, too",
+                    "this target is a tool, a work frame or a displacement, too",
                     "give the frame a variable of its own",
                     Some(place),
                 );

@@ -8,7 +8,7 @@ use super::reader::{Arc, Reader};
 use super::remarks::Cause;
 use crate::geometry::units::MM;
 use crate::program::script::{
-    Expr, Instruction, Modal, Remark, Script, Span, VariableId, Written, short,
+    Expr, Instruction, Modal, Remark, Script, Span, Turn, VariableId, Written, short,
 };
 use crate::program::{Motion, Place, Shape, SpeedZone, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet};
@@ -157,6 +157,7 @@ impl<'a> Reader<'a> {
         {
             let instruction = Instruction {
                 end: short(words.end),
+                turned: Some(Box::new([Turn::Stays; 6])),
                 ..Instruction::at(self.place(words.start))
             };
             let modal = Modal {

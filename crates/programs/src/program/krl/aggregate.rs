@@ -184,12 +184,16 @@ impl Aggregate {
         whole.then(|| std::array::from_fn(|i| self.position[i]))
     }
 
-    /// The external axes that are driven, and where to: absent and 9E+09 are axes that are not
-    /// used.
+    /// See [`driven`].
     pub(super) fn driven(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let axes = EXTERNAL.into_iter().zip(self.external);
-        axes.filter_map(|(name, value)| Some((name, value.filter(|v| v.is_nan() || *v < UNUSED)?)))
+        driven(&self.external)
     }
+}
+
+/// The external axes that are driven, and where to: absent and 9E+09 are axes that are not used.
+pub(super) fn driven(external: &[Option<f64>; 6]) -> impl Iterator<Item = (&'static str, f64)> {
+    let axes = EXTERNAL.into_iter().zip(*external);
+    axes.filter_map(|(name, value)| Some((name, value.filter(|v| v.is_nan() || *v < UNUSED)?)))
 }
 
 /// Reads the aggregate of a position or of axes.

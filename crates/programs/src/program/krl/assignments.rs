@@ -11,7 +11,7 @@ use crate::program::displacing::grown_by_any;
 use crate::program::names::Symbol;
 use crate::program::notation::mentions;
 use crate::program::number;
-use crate::program::script::{Expr, How, Written};
+use crate::program::script::{Expr, How, PartValue, Written};
 
 impl Reader {
     /// A whole number is written; only those matter that choose a tool or base.
@@ -35,9 +35,8 @@ impl Reader {
     /// An assignment; the cursor stands behind `=`.
     pub(super) fn assignment(
         &mut self,
-        first: Token,
-        word: &[u8],
-        at: Option<(usize, usize)>,
+        (first, word): (Token, &[u8]),
+        ((name, index), at): ((Symbol, Index), Option<(usize, usize)>),
         part: Option<Token>,
         mut cursor: Cursor,
     ) -> Read<()> {
@@ -81,8 +80,7 @@ impl Reader {
             self.calls_in(cursor);
             return Ok(());
         }
-        let name = self.symbol(&cursor, first);
-        let at = Index::of(at, &cursor);
+        let at = index;
         let datum = self.names.datum(name, self.context());
         let kind = datum.map(|datum| self.names.data[datum as usize].kind);
         match kind {
@@ -93,6 +91,12 @@ impl Reader {
                 let alone = ahead.peek().kind == Kind::End;
                 self.calls_in(cursor);
                 self.count(name, at, value.filter(|_| alone));
+            }
+            Some(DataKind::Fdat) => {
+                self.calls_in(cursor);
+                if let Some(part) = part {
+                    self.write_fdat(name, at, part, &mut cursor);
+                }
             }
             Some(kind) if kind.is_place() => {
                 let owner = Owner::Datum(datum.expect("it has a kind"));
@@ -133,9 +137,14 @@ impl Reader {
             how
         } else if let Some(part) = part {
             self.calls_in(cursor);
-            self.part_becomes(part, cursor)
+            match self.part_written(owner, part, cursor) {
+                Some(how) => how,
+                None => self.part_becomes(part, cursor),
+            }
         } else if cursor.peek().kind == Kind::End {
             return Ok(());
+        } else if self.is_frame_of_controller(owner, cursor) {
+            How::Whole(self.frame(Table::Base, "", &mut cursor)?)
         } else {
             let point = self.point(&mut cursor)?;
             let is_whole = cursor.peek().kind == Kind::End;
@@ -153,6 +162,35 @@ impl Reader {
         };
         self.write_element(owner, at, how);
         Ok(())
+    }
+
+    fn is_frame(&self, owner: Owner) -> bool {
+        matches!(owner, Owner::Datum(datum)
+            if self.names.data[datum as usize].kind == DataKind::Frame)
+    }
+
+    /// `BF.Z=120` of a FRAME, which may be a tool or base.
+    fn part_written(&mut self, owner: Owner, part: &[u8], cursor: Cursor) -> Option<How> {
+        if !self.is_frame(owner) {
+            return None;
+        }
+        let how = self.part_of_frame(self.here, part, cursor)?;
+        let How::Parts { ref parts, .. } = how else {
+            return None;
+        };
+        let part = &self.builder.script.parts[parts.start as usize];
+        matches!(part.value, PartValue::Number(_)).then_some(how)
+    }
+
+    /// Whether a FRAME becomes a tool or base: `BF=BASE_DATA[1]`, `BF=$BASE:F`.
+    fn is_frame_of_controller(&self, owner: Owner, mut cursor: Cursor) -> bool {
+        let name = cursor.next();
+        let mut buffer = [0; 24];
+        let word = capitals(cursor.text(name), &mut buffer);
+        self.is_frame(owner)
+            && (Table::named(word).is_some()
+                || matches!(State::named(word), Some(State::Tool | State::Base))
+                || matches!(word, b"$NULLFRAME" | b"$WORLD" | b"$ROBROOT"))
     }
 
     /// What becomes of a position of which the value of an external axis is written.

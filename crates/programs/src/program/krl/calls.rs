@@ -248,7 +248,10 @@ impl Reader {
                 let Some(datum) = self.names.datum(*name, self.context()) else {
                     return;
                 };
-                if self.names.data[datum as usize].kind.is_place() {
+                let kind = self.names.data[datum as usize].kind;
+                if kind == DataKind::Fdat {
+                    self.lose_fdat(*name, *at, part);
+                } else if kind.is_place() {
                     let how = match self.axis_written(part) {
                         Some(how) => how,
                         None => How::part(false, false, self.builder.script.remark(COMPUTED)),
@@ -463,12 +466,16 @@ impl Reader {
                 };
                 let mut buffer = [0; 24];
                 let word = capitals(ahead.text(token), &mut buffer);
+                let symbol = self.symbol(&ahead, token);
+                let Ok((symbol, index)) = self.member(symbol, at, &mut ahead) else {
+                    return Given::Other;
+                };
                 let part = ahead.take(b'.').then(|| ahead.next());
                 if part.is_some() || word.starts_with(b"$") || Table::named(word).is_some() {
                     if !alone(&mut ahead) {
                         return Given::Other;
                     }
-                    let at = Index::of(at, &ahead);
+                    let at = index;
                     if let Some(state) = State::named(word) {
                         return Given::State(state);
                     }
@@ -476,19 +483,17 @@ impl Reader {
                         let is_part = part.is_some();
                         return Given::Entry { table, at, is_part };
                     }
-                    let name = self.symbol(&ahead, token);
                     let part = part.map(|part| ahead.text(part).to_ascii_uppercase());
-                    return part.map_or(Given::Named(name, at), |part| {
-                        Given::Part(name, at, part.into())
+                    return part.map_or(Given::Named(symbol, at), |part| {
+                        Given::Part(symbol, at, part.into())
                     });
                 }
                 if alone(&mut ahead) {
-                    let name = self.symbol(&ahead, token);
                     return match at {
                         Some((start, end)) if is_whole(&ahead.bytes[start..end]) => {
-                            Given::Array(name)
+                            Given::Array(symbol)
                         }
-                        at => Given::Named(name, Index::of(at, &ahead)),
+                        _ => Given::Named(symbol, index),
                     };
                 }
                 if ahead.blanks() == b':' {

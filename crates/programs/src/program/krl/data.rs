@@ -45,16 +45,17 @@ impl Reader {
                 place: self.place(name),
                 kept: in_data,
             };
-            let datum = self.names.declare(datum, in_data && (global || system));
+            let is_global = in_data && (global || system);
+            let of = datum;
+            let datum = self.names.declare(of, is_global);
+            self.declare_members(of, is_global);
             let sizes = cursor.brackets()?;
             if cursor.take(b'=') {
                 if is_table && self.table(name, sizes, &mut cursor)? {
                     return Ok(());
                 }
                 let index = Index::of(sizes, &cursor);
-                if let Some(value) = self.stored(kind, name, &mut cursor)? {
-                    self.names.values.push((datum, index, value));
-                }
+                self.initialised((datum, index), name, &mut cursor)?;
             }
             if !cursor.take(b',') {
                 return Ok(());
@@ -65,16 +66,34 @@ impl Reader {
     /// `name[1,2]={...}` in a data list.
     pub(super) fn initial(&mut self, name: Token, mut cursor: Cursor) -> Read<()> {
         let at = cursor.brackets()?;
+        let symbol = self.symbol(&cursor, name);
+        let (symbol, index) = self.member(symbol, at, &mut cursor)?;
         if !cursor.take(b'=') || self.table(name, at, &mut cursor)? {
             return Ok(());
         }
-        let symbol = self.symbol(&cursor, name);
-        let Some(datum) = self.names.last_of(symbol, self.module) else {
-            return Ok(());
-        };
-        let kind = self.names.data[datum as usize].kind;
-        let index = Index::of(at, &cursor);
-        if let Some(value) = self.stored(kind, name, &mut cursor)? {
+        match self.names.last_of(symbol, self.module) {
+            Some(datum) => self.initialised((datum, index), name, &mut cursor),
+            None => Ok(()),
+        }
+    }
+
+    /// A value of a variable or of an element; the cursor stands behind `=`.
+    fn initialised(
+        &mut self,
+        (datum, index): (u32, Index),
+        name: Token,
+        cursor: &mut Cursor,
+    ) -> Read<()> {
+        let Datum {
+            kind, name: symbol, ..
+        } = self.names.data[datum as usize];
+        if matches!(kind, DataKind::Structure(_)) {
+            return match cursor.blanks() {
+                b'{' => self.member_values(symbol, kind, index, cursor),
+                _ => Ok(()),
+            };
+        }
+        if let Some(value) = self.stored(kind, name, cursor)? {
             self.names.values.push((datum, index, value));
         }
         Ok(())

@@ -1,12 +1,13 @@
 //! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken
 //! from, BAS and FDAT.
 
-use super::names::{Fdat, Index, Stored};
+use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
 use super::remarks::{
     ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
 };
 use super::targets::Owner;
+use super::tokens::capitals;
 use crate::geometry::Pose;
 use crate::program::kit;
 use crate::program::names::Symbol;
@@ -15,7 +16,7 @@ use crate::program::script::{
     Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
     VariableId, short,
 };
-use crate::program::{Load, Number};
+use crate::program::{Load, Number, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt};
 
 /// A table of the controller.
@@ -78,11 +79,14 @@ impl Declared {
         };
     }
 
-    /// A base of the table that stands still.
-    pub(super) fn base(&self, at: u32) -> Option<Pose> {
-        let is_still = !self.moving.contains_key(&at) && !self.of_others.contains(&at);
-        let Entry::Frame(parts) = self.entries.get(&(Table::Base, at)).filter(|_| is_still)? else {
-            return None;
+    /// A tool, or a base that stands still.
+    fn still(&self, table: Table, at: u32) -> Option<Pose> {
+        let is_on_other = self.moving.contains_key(&at) || self.of_others.contains(&at);
+        let is_still = table != Table::Load && !(table == Table::Base && is_on_other);
+        let parts = match self.entries.get(&(table, at)).filter(|_| is_still) {
+            Some(Entry::Frame(parts)) => parts,
+            None if at == 0 && is_still => return Some(Pose::identity()),
+            _ => return None,
         };
         let mut numbers = [0.0; 6];
         for (number, part) in numbers.iter_mut().zip(parts) {
@@ -484,6 +488,51 @@ impl Reader {
         }))
     }
 
+    /// A frame of these numbers.
+    pub(super) fn fixed_frame(&mut self, name: &str, pose: &Pose) -> Expr {
+        let mut numbers = [0.0; 6];
+        write_pose(pose, &mut numbers);
+        let parts = numbers.map(|number| part_of(PartValue::Number(number)));
+        Expr::Value(record(&mut self.builder.script, name, &parts))
+    }
+
+    /// A frame that no statement changes: one of the controller, an entry of a table or a variable.
+    pub(super) fn constant_frame(&mut self, name: Symbol, at: Index) -> Option<Pose> {
+        let mut buffer = [0; 24];
+        let spelled = self.names.symbols.spelling(name).as_bytes();
+        match capitals(spelled, &mut buffer) {
+            b"$NULLFRAME" | b"$WORLD" => return Some(Pose::identity()),
+            b"$ROBROOT" => return self.root,
+            word => {
+                if let Some(table) = Table::named(word) {
+                    let written = [at, Index::Whole, Index::Variable];
+                    let is_kept = |at| !self.names.elements.contains(&(name, at));
+                    let entry = at.first().filter(|_| written.into_iter().all(is_kept))?;
+                    return self.declared.still(table, entry);
+                }
+            }
+        }
+        let context = self.context();
+        if self.names.kind(name, context) != Some(DataKind::Frame) {
+            return None;
+        }
+        match self.names.constant(name, at, context)? {
+            Stored::Target(target) => {
+                self.builder.script.offsets.push(target);
+                self.pose_in(target)
+            }
+            _ => None,
+        }
+    }
+
+    /// The pose that is written out in a target.
+    pub(super) fn pose_in(&self, target: TargetId) -> Option<Pose> {
+        let script = &self.builder.script;
+        let is_pose = script.targets[target].layout.shape == Shape::Pose;
+        let numbers = script.numbers_of(target).first_chunk::<6>()?;
+        is_pose.then(|| pose_of(numbers.each_ref().map(|number| number.value)))
+    }
+
     /// The number of a choice.
     pub(super) fn number_of(&mut self, choice: Option<Choice>) -> Expr {
         match choice {
@@ -519,14 +568,6 @@ impl Reader {
                 number,
             },
             None => self.chosen(),
-        }
-    }
-
-    /// The FDAT of a name, where the files have it and no statement changes it.
-    pub(super) fn fdat_of(&self, name: Symbol, at: Index) -> Option<Fdat> {
-        match self.names.constant(name, at, self.context())? {
-            Stored::Fdat(fdat) => Some(fdat),
-            _ => None,
         }
     }
 

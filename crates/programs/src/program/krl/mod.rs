@@ -17,7 +17,7 @@
 //!
 //! # Limits
 //!
-//! Positions in structures and sensor corrections are not followed. A routine outside the files is
+//! Sensor corrections are not followed. A routine outside the files is
 //! taken to change tool or base only where moves use more than one. An arc to an angle (CA) is
 //! refused.
 
@@ -27,6 +27,7 @@ mod calls;
 mod components;
 mod data;
 mod drive;
+mod fdat;
 mod frames;
 mod given;
 mod insert;
@@ -40,6 +41,7 @@ mod sniff;
 mod statements;
 mod states;
 mod status;
+mod structures;
 mod targets;
 mod tokens;
 mod turning;
@@ -158,6 +160,14 @@ impl Language for Krl {
         insert::MANNER.insert(into)
     }
 
+    fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
+        (insert::MANNER.forbids)(text)
+    }
+
+    fn is_in_form(&self, bytes: &[u8], at: usize) -> bool {
+        insert::is_in_form(bytes, at)
+    }
+
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
     }
@@ -169,7 +179,10 @@ impl Language for Krl {
 
 /// All files into one script: what they declare, then what they do.
 fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
-    let mut reader = Reader::new(settings.external.clone());
+    let mut reader = Reader::new(settings);
+    for source in sources {
+        reader.types(source);
+    }
     for (file, source) in sources.iter().enumerate() {
         if !sniff::recognises(&source.bytes) {
             return Err(not_this_language(&ABOUT, source));

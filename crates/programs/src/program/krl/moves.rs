@@ -1,14 +1,14 @@
 //! Moves: where they go, and with what.
 
-use super::aggregate::{self, EXTERNAL};
+use super::aggregate::{self, Aggregate};
 use super::frames::State;
 use super::points::Point;
 use super::reader::Reader;
-use super::remarks::{FROM_NOWHERE, TURNED};
+use super::remarks::{FROM_NOWHERE, SOME_AXES, TURNED};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
-use crate::geometry::units::m_from_mm;
-use crate::program::script::{Expr, Instruction, Modal, NOT_DISPLACED, Place, Remark, short};
+use crate::geometry::units::{DEG, m_from_mm};
+use crate::program::script::{Expr, Instruction, Modal, NOT_DISPLACED, Place, Remark, Turn, short};
 use crate::program::{
     Displacement, External, ExternalUse, Motion, Shape, Shift, SpeedZone, number,
 };
@@ -64,12 +64,26 @@ struct Rest {
     speed_zone: SpeedZone,
     /// An arc goes on beyond its end, or stops short.
     has_angle: bool,
+    /// A relative move goes along the axes of the tool (`#TOOL`), not of the base; nothing where it
+    /// says something else.
+    in_tool: Option<bool>,
     end: u32,
 }
 
 impl Reader {
     /// `LIN target C_DIS WITH ...`, `CIRC via, end, CA 90`
     pub(super) fn motion(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
+        if path == Path::Joint && cursor.blanks() == b'{' {
+            let mut behind = cursor;
+            if let Some(step) = Step::of_some_axes(&aggregate::read(&mut behind)?)
+                && behind.blanks() != b':'
+            {
+                (self.last, self.heading, self.is_referred) = (None, None, false);
+                let rest = self.rest(behind)?;
+                self.turn(first, &step, &rest);
+                return Ok(());
+            }
+        }
         let mut points = [self.point(&mut cursor)?; 2];
         let mut count = 1;
         if path == Path::Arc && cursor.take(b',') {
@@ -197,9 +211,11 @@ impl Reader {
     fn rest(&mut self, mut cursor: Cursor) -> Read<Rest> {
         let mut rest = Rest {
             end: short(cursor.at),
+            in_tool: Some(false),
             ..Rest::default()
         };
-        rest.speed_zone.zone_m = Some(0.0);
+        // in a spline the robot does not stop
+        rest.speed_zone.zone_m = (!self.in_spline).then_some(0.0);
         let mut before = b' ';
         loop {
             let token = cursor.next();
@@ -210,6 +226,13 @@ impl Reader {
             if token.kind == Kind::Name {
                 let mut buffer = [0; 24];
                 match capitals(cursor.text(token), &mut buffer) {
+                    word if before == b'#' => {
+                        rest.in_tool = match word {
+                            b"TOOL" => Some(true),
+                            b"BASE" => Some(false),
+                            _ => None,
+                        };
+                    }
                     b"C_DIS" | b"C_VEL" | b"C_ORI" | b"C_PTP" | b"C_SPL" => {
                         (rest.speed_zone.zone_m, rest.speed_zone.blends) = (None, true);
                     }
@@ -263,41 +286,21 @@ impl Reader {
         }
     }
 
-    /// `LIN_REL {Z 100} #BASE`
+    /// `LIN_REL {Z 100} #BASE`, `CIRC_REL via, end`, both from where the arc begins
     pub(super) fn relative(&mut self, first: Token, path: Path, mut cursor: Cursor) -> Read<()> {
         let last = self.last.take();
         (self.heading, self.is_referred) = (None, false);
-        let (mut axes, mut by, mut external) = (false, None, [None; 6]);
-        if cursor.blanks() == b'{' {
-            let found = aggregate::read(&mut cursor)?;
-            axes = found.is_axes();
-            external = found.external;
-            let mut ahead = cursor;
-            let in_tool = if ahead.take(b'#') {
-                let word = ahead.next();
-                let mut buffer = [0; 24];
-                match capitals(ahead.text(word), &mut buffer) {
-                    b"TOOL" => Some(true),
-                    b"BASE" => Some(false),
-                    _ => None,
-                }
-            } else {
-                Some(false)
-            };
-            // turns are added to the angles, which is no motion of its own
-            if let (Some(in_tool), false, 0) = (in_tool, found.computed, found.has & !0b111)
-                && !axes
-            {
-                let part = |i: usize| match found.has & 1 << i {
-                    0 => 0.0,
-                    _ => m_from_mm(found.position[i].value),
-                };
-                by = Some((std::array::from_fn(part), in_tool));
-            }
-        } else {
-            cursor.skip();
+        let mut steps = vec![Step::relative(&mut cursor)?];
+        while path == Path::Arc && steps.len() < 2 && cursor.take(b',') {
+            steps.push(Step::relative(&mut cursor)?);
         }
         let rest = self.rest(cursor)?;
+        if let (Path::Joint, [Some(step)]) = (path, &steps[..])
+            && let Way::Turned(_) = step.way
+        {
+            self.turn(first, step, &rest);
+            return Ok(());
+        }
         let place = self.place(first);
         let motions: &[Motion] = match path {
             Path::Joint => &[Motion::Joint],
@@ -306,60 +309,156 @@ impl Reader {
             Path::Arc => &[Motion::ArcVia, Motion::ArcEnd],
         };
         let own = rest.with.tool.is_some() || rest.with.base.is_some();
-        if let ([motion], Some(mut last), Some((by, in_tool)), false) = (motions, last, by, own) {
-            let [x, y, z]: [f64; 3] = by;
-            if in_tool {
-                last.shift.in_tool = last.shift.in_tool * Pose::from_translation(x, y, z);
-            } else {
-                let [a, b, c] = last.shift.in_frame.translation;
-                last.shift.in_frame.translation = [a + x, b + y, c + z];
+        let is_known = steps.len() == motions.len() && !own;
+        for (at, motion) in motions.iter().enumerate() {
+            let step = steps.get(at).and_then(Option::as_ref);
+            let there = match (last, step, rest.in_tool) {
+                (Some(last), Some(step), Some(in_tool)) if is_known => last.moved(step, in_tool),
+                _ => None,
+            };
+            let Some(mut there) = there else {
+                let target = self.unknown(FROM_NOWHERE);
+                let modal = self.modal_of(*motion, target, &rest);
+                self.builder
+                    .go(move_to(target, place, *motion, &rest), modal);
+                continue;
+            };
+            if let Some(unknown) = self.axes_of_move(&there.external, true) {
+                there.target = unknown;
             }
-            for (sum, by) in last.external.iter_mut().zip(external) {
-                *sum = by.map(|by| by + sum.unwrap_or(0.0)).or(*sum);
-            }
-            if let Some(unknown) = self.shift_axes(&last.external) {
-                last.target = unknown;
-            }
-            let displacement = Displacement::By(Box::new(last.shift));
-            let mut instruction = move_to(last.target, place, *motion, &rest);
+            let displacement = Displacement::By(Box::new(there.shift));
+            let mut instruction = move_to(there.target, place, *motion, &rest);
             instruction.displacement = self.builder.script.displacement(displacement);
-            let modal = self.modal_of(*motion, last.target, &rest);
+            let mut modal = self.modal_of(*motion, there.target, &rest);
+            if rest.has_angle {
+                modal.guards = self.states.angle_guards;
+            }
+            modal.guards = self.guards_on_arc(*motion, modal.guards, rest.with.circle);
             self.builder.go(instruction, modal);
-            self.last = Some(last);
-            return Ok(());
-        }
-        let target = self.unknown(if axes && path != Path::Arc {
-            TURNED
-        } else {
-            FROM_NOWHERE
-        });
-        for motion in motions {
-            let modal = self.modal_of(*motion, target, &rest);
-            self.builder
-                .go(move_to(target, place, *motion, &rest), modal);
+            self.last = (*motion != Motion::ArcVia && !rest.has_angle).then_some(there);
         }
         Ok(())
     }
 
-    /// What the next move adds to external axes; why nobody knows where it goes, where the profile
-    /// does not say what one carries.
-    fn shift_axes(&mut self, external: &[Option<f64>; 6]) -> Option<Expr> {
+    /// `PTP_REL {A1 5}`, `PTP {A1 -30}`: joints turn from where the robot is.
+    fn turn(&mut self, first: Token, step: &Step, rest: &Rest) {
+        let Way::Turned(turned) = step.way else {
+            return;
+        };
+        let unknown = self.axes_of_move(&step.external, step.is_relative);
+        let remark = if step.is_relative { TURNED } else { SOME_AXES };
+        let target = unknown.unwrap_or_else(|| self.unknown(remark));
+        let mut instruction = move_to(target, self.place(first), Motion::Joint, rest);
+        instruction.turned = unknown.is_none().then(|| Box::new(turned));
+        let modal = self.modal_of(Motion::Joint, target, rest);
+        self.builder.go(instruction, modal);
+    }
+
+    /// Where the next move takes external axes, or what it adds to them; why nobody knows where it
+    /// goes, where the profile does not say what one carries.
+    fn axes_of_move(&mut self, external: &[Option<f64>; 6], is_relative: bool) -> Option<Expr> {
         let at = short(self.builder.script.instructions.len());
         let mut unknown = None;
-        for (name, value) in EXTERNAL.into_iter().zip(external) {
-            let Some(value) = *value else { continue };
+        for (name, value) in aggregate::driven(external) {
+            let script = &mut self.builder.script;
             match self.external.meaning(name) {
                 ExternalUse::Listed(axis) => {
-                    let shift = (at, External { axis, value });
-                    self.builder.script.external_shifts.push(shift);
+                    let list = if is_relative {
+                        &mut script.external_shifts
+                    } else {
+                        &mut script.externals_of_moves
+                    };
+                    list.push((at, External { axis, value }));
                 }
                 ExternalUse::Unknown if value != 0.0 => {
-                    unknown = Some(self.unknown(Remark::external_unknown(name, value)));
+                    unknown = Some(script.unknown(Remark::external_unknown(name, value)));
                 }
                 _ => {}
             }
         }
         unknown
+    }
+}
+
+/// What a move from where the robot is adds to that.
+struct Step {
+    way: Way,
+    external: [Option<f64>; 6],
+    is_relative: bool,
+}
+
+enum Way {
+    /// Along the axes of base or tool, metres.
+    Along([f64; 3]),
+    Turned([Turn; 6]),
+}
+
+impl Step {
+    /// `{A1 -30}`: the other axes stay where they are.
+    fn of_some_axes(found: &Aggregate) -> Option<Self> {
+        let is_some = found.is_axes() && found.has_axes != aggregate::WHOLE;
+        (is_some && found.has == 0 && !found.computed).then(|| Self {
+            way: Way::Turned(turned(found, Turn::To)),
+            external: found.external,
+            is_relative: false,
+        })
+    }
+
+    /// `{Z 100}`, `{A1 5}` of a relative move; `None` where only the running program knows it, or it
+    /// turns the tool: turns are added to the angles, which is no motion of its own.
+    fn relative(cursor: &mut Cursor) -> Read<Option<Self>> {
+        if cursor.blanks() != b'{' {
+            cursor.skip();
+            return Ok(None);
+        }
+        let found = aggregate::read(cursor)?;
+        let way = match (found.is_axes(), found.has) {
+            _ if found.computed => return Ok(None),
+            (true, 0) => Way::Turned(turned(&found, Turn::By)),
+            (false, has) if has & !0b111 == 0 => {
+                let part = |i: usize| match has & 1 << i {
+                    0 => 0.0,
+                    _ => m_from_mm(found.position[i].value),
+                };
+                Way::Along(std::array::from_fn(part))
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(Self {
+            way,
+            external: found.external,
+            is_relative: true,
+        }))
+    }
+}
+
+fn turned(found: &Aggregate, turn: fn(f64) -> Turn) -> [Turn; 6] {
+    std::array::from_fn(|i| match found.has_axes & 1 << i {
+        0 => Turn::Stays,
+        _ => turn(found.axes[i].value * DEG),
+    })
+}
+
+impl Last {
+    /// Where the robot is behind a relative move.
+    fn moved(mut self, step: &Step, in_tool: bool) -> Option<Self> {
+        let Way::Along([x, y, z]) = step.way else {
+            return None;
+        };
+        let Shift {
+            in_frame,
+            in_tool: of_tool,
+        } = &mut self.shift;
+        if in_tool {
+            *of_tool = *of_tool * Pose::from_translation(x, y, z);
+        } else {
+            let [a, b, c] = in_frame.translation;
+            in_frame.translation = [a + x, b + y, c + z];
+        }
+        for (sum, by) in self.external.iter_mut().zip(step.external) {
+            *sum = by.map(|by| by + sum.unwrap_or(0.0)).or(*sum);
+        }
+        Some(self)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Names and what is declared of them.
 
+use super::structures::{Import, Structure};
 use super::tokens::Cursor;
 use crate::program::names::{Context, Meaning, Scopes, Symbol, Symbols};
-use crate::program::script::{Place, short};
+use crate::program::script::{Place, VariableId, short};
 use crate::program::{TargetId, number};
 use foldhash::HashSet;
 use std::collections::BTreeSet;
@@ -39,6 +40,16 @@ impl Index {
         Self::At(place)
     }
 
+    /// The element of an array in an element of another.
+    pub(super) fn inside(self, inner: Self) -> Self {
+        match (self, inner) {
+            (at, Self::Whole) | (Self::Whole, at) => at,
+            (Self::At([a, 0, 0]), Self::At([b, c, 0])) => Self::At([a, b, c]),
+            (Self::At([a, b, 0]), Self::At([c, 0, 0])) => Self::At([a, b, c]),
+            _ => Self::Variable,
+        }
+    }
+
     /// The entry of a table with one index, where the text says which.
     pub(super) fn first(self) -> Option<u32> {
         match self {
@@ -71,6 +82,8 @@ pub(super) enum DataKind {
     Ldat,
     /// INT.
     Number,
+    /// A structure: which of [`Names::structures`].
+    Structure(usize),
     /// Anything else.
     Other,
 }
@@ -136,6 +149,10 @@ pub(super) struct Head {
     pub module: u32,
     /// Its parameters, and whether it may write what they are given.
     pub parameters: Vec<(u32, bool)>,
+    /// What a function returns.
+    pub returns: DataKind,
+    /// The variable that holds it.
+    pub result: Option<VariableId>,
 }
 
 /// A module: the files of one name.
@@ -162,11 +179,16 @@ pub(super) struct Names {
     last: Vec<u32>,
     /// Names that statements write or hand to routines.
     pub touched: HashSet<Symbol>,
+    /// Names that are written as a whole, or given to routines.
+    pub handed: HashSet<Symbol>,
+    /// Types of the files.
+    pub structures: Vec<(Symbol, Structure)>,
+    pub imports: Vec<Import>,
     /// Whether a routine ends what runs by RESUME.
     pub resumes: bool,
     /// Routines that declare interrupts: RESUME goes on in them, behind their call.
     pub interrupted: HashSet<u32>,
-    /// Elements of arrays likewise.
+    /// Likewise with the element of an array.
     pub elements: BTreeSet<(Symbol, Index)>,
     /// What is written into numbers.
     pub known: super::numbers::Known,
@@ -211,6 +233,11 @@ impl Names {
         id
     }
 
+    /// A variable is known by another name, too.
+    pub(super) fn alias(&mut self, name: Symbol, context: Context, datum: u32) {
+        self.scopes.add(name, context, true, datum);
+    }
+
     /// The last variable of a name, where that is one of a module.
     pub(super) fn last_of(&self, name: Symbol, module: u32) -> Option<u32> {
         let last = *self.last.get(name.0 as usize)?;
@@ -234,6 +261,7 @@ impl Names {
 
     /// Puts values in order and carries what chooses through calls, once all are read.
     pub(super) fn settle(&mut self) {
+        self.settle_structures();
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
         self.carry_choosing();
         self.give_numbers();

@@ -9,7 +9,9 @@ use super::reader::Reader;
 use super::statements::action;
 use super::tokens::{Cursor, Kind, Token};
 use crate::program::names::{Context, Symbol};
-use crate::program::numbers::{Blocks, Numbers, Operand, counted, evaluated, rounds, word};
+use crate::program::numbers::{
+    Blocks, Numbers, Operand, bounds_in, counted, evaluated, rounds, word,
+};
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::script::{Place, short};
 use foldhash::{HashMap, HashSet};
@@ -203,7 +205,22 @@ impl Reader {
         match word {
             b"IF" | b"SWITCH" => known.blocks.open(Some(1)),
             b"ELSE" | b"CASE" | b"DEFAULT" => known.blocks.branch(),
-            b"LOOP" | b"REPEAT" | b"WHILE" => known.blocks.open(None),
+            b"LOOP" | b"REPEAT" => known.blocks.open(None),
+            b"WHILE" => {
+                known.blocks.open(None);
+                let block = known.blocks.last();
+                let start = cursor.at;
+                cursor.skip_all();
+                let context = self.context();
+                for (name, is_below, limit) in bounds_in(&cursor.bytes[start..cursor.at]) {
+                    let name = self.names.symbols.intern(name);
+                    let number = self.names.number(name, context);
+                    let at = Place::new(self.file, short(start));
+                    let limit = Written::Value(limit.into(), at, context);
+                    let numbers = &mut self.names.known.numbers;
+                    numbers.bound(block, number, is_below, limit);
+                }
+            }
             b"ENDIF" | b"ENDSWITCH" | b"ENDLOOP" | b"ENDWHILE" | b"UNTIL" => known.blocks.close(),
             b"ENDFOR" => {
                 known.blocks.close();

@@ -3,7 +3,7 @@
 use super::aggregate;
 use super::components::part_of;
 use super::frames::pose_of;
-use super::names::{DataKind, Index, Stored};
+use super::names::{DataKind, Index};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, COPIED};
 use super::tokens::{Cursor, Kind, Read, capitals};
@@ -35,6 +35,8 @@ pub(super) struct Point {
 enum Operand {
     Inline(TargetId),
     Named(Symbol, Index),
+    /// What a function of the files returned.
+    Returned(Expr),
     /// Where the robot is, and whether that is asked as a pose.
     Here(bool),
     /// Where the robot was.
@@ -113,6 +115,7 @@ impl Reader {
             _ => {}
         }
         let before = *cursor;
+        let mut result = None;
         let name = cursor.next();
         if name.kind == Kind::Name {
             let mut buffer = [0; 24];
@@ -135,9 +138,13 @@ impl Reader {
                 _ => {}
             }
             let at = cursor.brackets()?;
+            let symbol = self.symbol(cursor, name);
+            let (symbol, at) = self.member(symbol, at, cursor)?;
             if !matches!(cursor.blanks(), b'.' | b'(' | b'+' | b'-' | b'*' | b'/') {
-                let symbol = self.symbol(cursor, name);
-                return Ok(Operand::Named(symbol, Index::of(at, cursor)));
+                return Ok(Operand::Named(symbol, at));
+            }
+            if cursor.blanks() == b'(' {
+                result = self.result_of(symbol);
             }
         }
         *cursor = before;
@@ -145,9 +152,12 @@ impl Reader {
         let inner = before.part(before.at, cursor.at);
         *mentions |= self.mentions_position(inner);
         self.calls_in(inner);
-        let is_system = inner.bytes[inner.at..inner.end]
-            .trim_ascii()
-            .starts_with(b"$");
+        let text = inner.bytes[inner.at..inner.end].trim_ascii();
+        let is_one_call = memchr::memchr_iter(b'(', text).count() == 1 && text.ends_with(b")");
+        if let Some(result) = result.filter(|_| is_one_call) {
+            return Ok(Operand::Returned(self.returned(name, result)));
+        }
+        let is_system = text.starts_with(b"$");
         Ok(if is_system {
             Operand::System
         } else {
@@ -176,6 +186,7 @@ impl Reader {
                 self.actual()
             }
             Operand::Actual => self.actual(),
+            Operand::Returned(value) => value,
             Operand::System | Operand::Other => self.computed(mentions),
         };
         point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
@@ -204,7 +215,11 @@ impl Reader {
             point.target = self.computed(mentions);
             return;
         };
-        let exactly = self.shift(operands, at);
+        let before = self.constant_product(&operands[..at]);
+        let behind = self.constant_product(&operands[at + 1..]);
+        let exactly = before
+            .zip(behind)
+            .map(|(in_frame, in_tool)| Shift { in_frame, in_tool });
         let exactly = exactly.map(|shift| Displacement::By(Box::new(shift)));
         let displacement = exactly.or_else(|| self.amounts(bytes, operands, at));
         let others = (0..operands.len()).filter(|other| *other != at);
@@ -220,26 +235,11 @@ impl Reader {
         point.displacement = self.builder.script.displacement(displacement);
     }
 
-    /// What the operands around the target add: a motion in the base and one of the tool.
-    fn shift(&self, operands: &[Operand], at: usize) -> Option<Shift> {
-        let product = |operands: &[Operand]| {
-            let mut pose = Pose::identity();
-            for operand in operands {
-                pose = pose * self.constant(*operand)?;
-            }
-            Some(pose)
-        };
-        Some(Shift {
-            in_frame: product(&operands[..at])?,
-            in_tool: product(&operands[at + 1..])?,
-        })
-    }
-
     /// Whether a frame is one of the text, and not of the running robot or of files that are not
     /// here.
     fn is_of_text(&self, operand: Operand) -> bool {
         match operand {
-            Operand::Inline(_) | Operand::Other => true,
+            Operand::Inline(_) | Operand::Returned(_) | Operand::Other => true,
             Operand::Named(name, _) => {
                 let datum = self.names.datum(name, self.context());
                 let has_value = |datum| !self.names.values(datum, Index::Variable).is_empty();
@@ -307,21 +307,17 @@ impl Reader {
         Some(by.displacement())
     }
 
-    /// A frame that no statement changes.
-    fn constant(&self, operand: Operand) -> Option<Pose> {
-        let target = match operand {
-            Operand::Inline(target) => target,
-            Operand::Named(name, at) => match self.names.constant(name, at, self.context())? {
-                Stored::Target(target) => target,
-                _ => return None,
-            },
-            _ => return None,
-        };
-        let script = &self.builder.script;
-        let range = script.targets[target].numbers.clone();
-        let numbers = &script.numbers[range.start as usize..range.end as usize];
-        let is_pose = script.targets[target].layout.shape == Shape::Pose;
-        (is_pose && numbers.len() >= 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
+    fn constant_product(&mut self, operands: &[Operand]) -> Option<Pose> {
+        let mut pose = Pose::identity();
+        for operand in operands {
+            pose = pose
+                * match *operand {
+                    Operand::Inline(target) => self.pose_in(target)?,
+                    Operand::Named(name, at) => self.constant_frame(name, at)?,
+                    _ => return None,
+                };
+        }
+        Some(pose)
     }
 
     /// What a position is after an assignment.

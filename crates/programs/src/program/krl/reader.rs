@@ -6,10 +6,11 @@ use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
 use super::turning::Circles;
+use crate::geometry::Pose;
 use crate::program::kit::{Fault, content_start};
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, VariableId, short};
-use crate::program::{ExternalNames, Source};
+use crate::program::{ExternalNames, Settings, Source};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Reads files into one script.
@@ -28,6 +29,8 @@ pub(super) struct Reader {
     begun: u32,
     pub(super) variables: HashMap<(Owner, Index), VariableId>,
     pub(super) tables: HashMap<Owner, TableId>,
+    /// Parts of FDAT that statements write.
+    pub(super) fdats: HashMap<(u32, super::fdat::Part), VariableId>,
     /// All elements of an array.
     pub(super) arrays: HashMap<Owner, Expr>,
     /// What a name stands for that is declared more than once.
@@ -46,8 +49,12 @@ pub(super) struct Reader {
     pub(super) stays: Vec<Place>,
     /// External axes that the profile describes.
     pub(super) external: ExternalNames,
+    /// Where the robot stands in the world, where it stands still.
+    pub(super) root: Option<Pose>,
     /// The present statement.
     pub(super) here: Place,
+    /// Between SPLINE and ENDSPLINE.
+    pub(super) in_spline: bool,
     /// What the spline that is open sets for its moves.
     pub(super) spline: super::moves::With,
     /// Where the robot is, for moves relative to it.
@@ -63,6 +70,7 @@ enum Line<'a> {
     Nothing,
     Define {
         name: Token,
+        returns: DataKind,
         global: bool,
         rest: Cursor<'a>,
     },
@@ -72,22 +80,25 @@ enum Line<'a> {
     /// Names behind a type.
     Typed {
         kind: DataKind,
+        of: Token,
         global: bool,
         rest: Cursor<'a>,
     },
+    Import(Cursor<'a>),
     /// A value in a data list.
     Initial(Token, Cursor<'a>),
     Statement(Token, Cursor<'a>),
 }
 
 impl Reader {
-    pub(super) fn new(external: ExternalNames) -> Self {
+    pub(super) fn new(settings: &Settings) -> Self {
         let mut builder = Builder::default();
         Self {
             states: States::new(&mut builder.script),
             circles: Circles::new(&mut builder.script),
             builder,
-            external,
+            external: settings.external.clone(),
+            root: settings.world_from_base,
             names: Names::default(),
             declared: Declared::default(),
             file: 0,
@@ -97,6 +108,7 @@ impl Reader {
             begun: 0,
             variables: HashMap::new(),
             tables: HashMap::new(),
+            fdats: HashMap::new(),
             arrays: HashMap::new(),
             ambiguous: HashMap::new(),
             refused: HashSet::new(),
@@ -106,6 +118,7 @@ impl Reader {
             unfollowed: Vec::new(),
             stays: Vec::new(),
             here: Place::NOWHERE,
+            in_spline: false,
             spline: super::moves::With::default(),
             last: None,
             heading: None,
@@ -133,10 +146,20 @@ impl Reader {
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {
             match self.line(&source.bytes, start, end) {
                 Line::Nothing => {}
-                Line::Define { name, global, rest } => {
+                Line::Define {
+                    name,
+                    returns,
+                    global,
+                    rest,
+                } => {
                     let first = short(start);
                     open = Some(first);
                     self.define(name, global, rest);
+                    self.names
+                        .heads
+                        .last_mut()
+                        .expect("it was just added")
+                        .returns = returns;
                     if is_submit && self.first_of_file(file) {
                         // it runs concurrently with the robot's program
                         self.builder.script.routines[self.names.heads.len() - 1].start =
@@ -154,7 +177,17 @@ impl Reader {
                     }
                 }
                 Line::EndData => self.in_data = None,
-                Line::Typed { kind, global, rest } => {
+                Line::Import(rest) => self.import(rest),
+                Line::Typed {
+                    mut kind,
+                    of,
+                    global,
+                    rest,
+                } => {
+                    if kind == DataKind::Other && !self.names.structures.is_empty() {
+                        let of = self.symbol(&rest, of);
+                        kind = self.structure_of(of);
+                    }
                     self.declared(kind, global, rest)?;
                     if matches!(kind, DataKind::Number | DataKind::Other) {
                         self.numbers_declared(rest);
@@ -218,7 +251,7 @@ impl Reader {
                     }
                     self.statement(first, rest)?;
                 }
-                Line::Nothing | Line::Typed { .. } | Line::Initial(..) => {}
+                Line::Nothing | Line::Typed { .. } | Line::Import(_) | Line::Initial(..) => {}
             }
         }
         self.builder.close();
@@ -261,7 +294,7 @@ impl Reader {
         self.builder.open(self.begun);
         self.routine = Some(self.begun);
         self.begun += 1;
-        self.spline = super::moves::With::default();
+        (self.spline, self.in_spline) = (super::moves::With::default(), false);
         self.lose_place();
         self.is_referred = false;
     }
@@ -289,13 +322,15 @@ impl Reader {
             b"END" | b"ENDFCT" => Line::End,
             b"DEFDAT" => Line::DataList(first, cursor.next()),
             b"ENDDAT" => Line::EndData,
-            b"EXT" | b"EXTFCT" | b"ENUM" | b"STRUC" | b"SIGNAL" | b"IMPORT" => Line::Nothing,
+            b"EXT" | b"EXTFCT" | b"ENUM" | b"STRUC" | b"SIGNAL" => Line::Nothing,
+            b"IMPORT" => Line::Import(cursor),
             b"INT" | b"REAL" | b"BOOL" | b"CHAR" | b"POS" | b"E3POS" | b"E6POS" | b"FRAME"
             | b"AXIS" | b"E3AXIS" | b"E6AXIS" | b"FDAT"
                 if cursor.peek().kind == Kind::Name =>
             {
                 Line::Typed {
                     kind: DataKind::named(word),
+                    of: first,
                     global: false,
                     rest: cursor,
                 }
@@ -343,6 +378,8 @@ impl Reader {
         let head = Head {
             module: self.module,
             parameters: Vec::new(),
+            returns: DataKind::Other,
+            result: None,
         };
         let name = self.names.symbols.intern(name);
         self.names.add_routine(name, head, global);
@@ -375,8 +412,10 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
             b"GLOBAL" => global = true,
             b"DECL" | b"PUBLIC" | b"CONST" => {}
             word @ (b"DEF" | b"DEFFCT") => {
+                let mut returns = DataKind::Other;
                 if word == b"DEFFCT" {
-                    cursor.next();
+                    let of = cursor.next();
+                    returns = DataKind::named(capitals(cursor.text(of), &mut [0; 24]));
                 }
                 let name = cursor.next();
                 if name.kind != Kind::Name {
@@ -384,6 +423,7 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
                 }
                 return Line::Define {
                     name,
+                    returns,
                     global,
                     rest: cursor,
                 };
@@ -393,6 +433,7 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
             word => {
                 return Line::Typed {
                     kind: DataKind::named(word),
+                    of: token,
                     global,
                     rest: cursor,
                 };

@@ -144,6 +144,13 @@ pub(super) const TURNED: Remark = Remark::note(
     "",
 );
 
+/// Of a joint move to some of the axes.
+pub(super) const SOME_AXES: Remark = Remark::warning(
+    "partial-target",
+    "this move leaves axes out, which stay where they are; it is left as it is",
+    "write A1 to A6",
+);
+
 pub(super) const FROM_NOWHERE: Remark = Remark::error(
     "relative-move",
     "this move goes relative to a position that the text does not tell; it is not compensated",

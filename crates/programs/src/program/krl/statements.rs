@@ -20,18 +20,20 @@ fn is_any(name: &[u8], known: &[&[u8]]) -> bool {
     known.iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
-/// Which element `name[..].part=` writes, behind the name; `None` where it is no assignment.
-fn written(mut cursor: Cursor) -> Option<Index> {
-    let at = cursor.brackets().ok()?;
+/// Which element `name[..].part=` writes, and which parts, behind the name; `None` where it is no
+/// assignment.
+fn written(mut cursor: Cursor) -> Option<(Index, Vec<(Token, Index)>)> {
+    let at = Index::of(cursor.brackets().ok()?, &cursor);
+    let mut parts = Vec::new();
     while cursor.take(b'.') {
         let part = cursor.next();
         // of an FDAT what says nothing of tool and frame
         if is_any(cursor.text(part), &[b"TQ_STATE", b"POINT2"]) {
             return None;
         }
-        cursor.brackets().ok()?;
+        parts.push((part, Index::of(cursor.brackets().ok()?, &cursor)));
     }
-    cursor.take(b'=').then(|| Index::of(at, &cursor))
+    cursor.take(b'=').then_some((at, parts))
 }
 
 /// What an interrupt or trigger does, behind DO: its first word and the rest.
@@ -81,8 +83,14 @@ impl Reader {
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
             // WITH $BASE=BASE_DATA[n]
-            if memchr::memchr(b'[', &cursor.bytes[cursor.at..cursor.end]).is_some() {
+            let line = &cursor.bytes[cursor.at..cursor.end];
+            if memchr::memchr(b'[', line).is_some() {
                 self.note_indices(cursor);
+            }
+            // LIN f(XP1)
+            if memchr::memchr(b'(', line).is_some() {
+                self.note_arguments(cursor);
+                self.note_given(first, cursor);
             }
             return;
         }
@@ -183,17 +191,24 @@ impl Reader {
 
     /// Notes what `name[..].part=` writes; the cursor stands behind the name.
     pub(super) fn note_assignment(&mut self, name: Token, cursor: Cursor) {
-        if let Some(at) = written(cursor) {
-            let name = self.symbol(&cursor, name);
+        let Some((mut at, parts)) = written(cursor) else {
+            return;
+        };
+        let mut name = self.symbol(&cursor, name);
+        self.touch(name, at);
+        // what is behind may be a member of a structure that is not declared yet
+        for (part, inner) in &parts {
+            let path = self.names.symbols.path(name, cursor.text(*part));
+            (name, at) = (self.names.symbols.intern(&path), at.inside(*inner));
             self.touch(name, at);
         }
+        // a whole structure, on any level
+        self.names.handed.insert(name);
     }
 
     fn touch(&mut self, name: Symbol, at: Index) {
         self.names.touched.insert(name);
-        if let Index::At(_) = at {
-            self.names.elements.insert((name, at));
-        }
+        self.names.elements.insert((name, at));
     }
 
     /// Names between brackets may be written by the routine that they are handed to; those in
@@ -211,13 +226,23 @@ impl Reader {
                 Kind::Name if fresh => {
                     let mut after = cursor;
                     let at = after.brackets().unwrap_or(None);
-                    if after.take(b'.') {
-                        after.next();
+                    let mut at = Index::of(at, &cursor);
+                    let mut parts = Vec::new();
+                    while after.take(b'.') {
+                        let part = after.next();
+                        let inner = after.brackets().unwrap_or(None);
+                        parts.push((part, Index::of(inner, &after)));
                     }
                     if matches!(after.blanks(), b',' | b')') {
-                        let name = self.symbol(&cursor, token);
+                        let mut name = self.symbol(&cursor, token);
                         self.note_given_number(name);
-                        self.touch(name, Index::of(at, &cursor));
+                        self.touch(name, at);
+                        for (part, inner) in parts {
+                            let path = self.names.symbols.path(name, cursor.text(part));
+                            (name, at) = (self.names.symbols.intern(&path), at.inside(inner));
+                            self.touch(name, at);
+                        }
+                        self.names.handed.insert(name);
                         cursor = after;
                     }
                     fresh = false;
@@ -270,13 +295,19 @@ impl Reader {
                 };
             }
         }
+        if word == b"RETURN" {
+            self.return_value(cursor)?;
+            self.builder.back();
+            self.lose_place();
+            return Ok(());
+        }
         if !cursor.peek().is(b'=') && self.flow(word, cursor) {
             self.lose_place();
             return Ok(());
         }
         match word {
             b"SPLINE" | b"PTP_SPLINE" => {
-                self.spline = With::default();
+                (self.spline, self.in_spline) = (With::default(), true);
                 let with = cursor.next();
                 if cursor.text(with).eq_ignore_ascii_case(b"WITH") {
                     self.spline = self.with(&mut cursor, &mut SpeedZone::default())?;
@@ -284,7 +315,7 @@ impl Reader {
                 return Ok(());
             }
             b"ENDSPLINE" => {
-                self.spline = With::default();
+                (self.spline, self.in_spline) = (With::default(), false);
                 return Ok(());
             }
             b"ASYPTP" | b"ASYCONT" | b"ASYSTOP" if !cursor.peek().is(b'=') => {
@@ -320,6 +351,8 @@ impl Reader {
         }
         let behind_name = cursor;
         let at = cursor.brackets()?;
+        let symbol = self.symbol(&cursor, first);
+        let written = self.member(symbol, at, &mut cursor)?;
         let mut part = None;
         while cursor.take(b'.') {
             part = Some(cursor.next());
@@ -335,7 +368,7 @@ impl Reader {
                 self.active(cursor);
                 Ok(())
             }
-            Kind::Sign(b'=') => self.assignment(first, word, at, part, cursor),
+            Kind::Sign(b'=') => self.assignment((first, word), (written, at), part, cursor),
             Kind::Sign(b':') if cursor.peek().kind == Kind::End => {
                 let label = self.symbol(&cursor, first);
                 self.builder.label(u64::from(label.0));
@@ -440,10 +473,6 @@ impl Reader {
                 self.builder.end_loop(false);
             }
             b"EXIT" => self.builder.leave_loop(),
-            b"RETURN" => {
-                self.calls_in(cursor);
-                self.builder.back();
-            }
             b"GOTO" => {
                 let label = cursor.next();
                 let label = self.symbol(&cursor, label);

@@ -1,11 +1,9 @@
-//! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, FDAT, entries of tables.
+//! Statements that set tools, bases, loads and modes: `$TOOL=`, BAS, entries of tables.
 
 use super::aggregate;
-use super::data::{Carried, fdat, is_external, load};
-use super::frames::{
-    Choice, State, Table, carried_record, part, part_of, pose_of, record, unit, write_pose,
-};
-use super::names::{Index, Stored, whole};
+use super::data::{Carried, is_external, load};
+use super::frames::{Choice, State, Table, carried_record, part, pose_of, record, unit};
+use super::names::{DataKind, Index, Stored, whole};
 use super::reader::Reader;
 use super::remarks::{FRAME_ASSIGNED, LINKED, MOVING, carried};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
@@ -30,7 +28,7 @@ impl Reader {
     }
 
     /// The number of a tool, base or load up to the end of the cursor: `3`, `n`, `FP1.TOOL_NO`.
-    fn choice(&mut self, mut cursor: Cursor, table: Table) -> Option<Choice> {
+    pub(super) fn choice(&mut self, mut cursor: Cursor, table: Table) -> Option<Choice> {
         let token = cursor.next();
         if token.kind == Kind::Number {
             let alone = cursor.peek().kind == Kind::End;
@@ -66,22 +64,15 @@ impl Reader {
                 };
                 return Some(Choice::By(self.states.states[state as usize]));
             }
-            let fdat = self.fdat_of(name, at)?;
-            let number = if is_tool { fdat.tool } else { fdat.base };
-            return number.map(Choice::Entry);
+            return self.number_in(name, at, is_tool);
         }
         if cursor.peek().kind != Kind::End {
             return None;
         }
-        if let Some(fdat) = self.fdat_of(name, at) {
-            let number = if table == Table::Base {
-                fdat.base
-            } else {
-                fdat.tool
-            };
-            return number.map(Choice::Entry);
-        }
         let context = self.context();
+        if self.names.kind(name, context) == Some(DataKind::Fdat) {
+            return self.number_in(name, at, table != Table::Base);
+        }
         if let Some(Stored::Number(number)) = self.names.constant(name, at, context) {
             return Some(Choice::Entry(number));
         }
@@ -100,10 +91,7 @@ impl Reader {
             State::Tool => self.frame(Table::Tool, "$TOOL", cursor)?,
             State::Base => self.frame(Table::Base, "$BASE", cursor)?,
             State::Load => self.load_expr(cursor)?,
-            State::Ipo => {
-                let mode = self.mode(cursor);
-                self.mode_value(mode)
-            }
+            State::Ipo => self.mode(cursor),
             State::Orientation => self.orientation(cursor),
             _ => {
                 let choice = self.choice(*cursor, Table::Tool);
@@ -113,23 +101,30 @@ impl Reader {
     }
 
     /// `#TCP`, `SIPO_MODE(FP1.IPO_FRAME)`
-    fn mode(&mut self, cursor: &mut Cursor) -> Option<bool> {
-        if cursor.take(b'#') {
+    pub(super) fn mode(&mut self, cursor: &mut Cursor) -> Expr {
+        let mut inner = *cursor;
+        if !cursor.peek().is(b'#') {
             let name = cursor.next();
-            return is_external(cursor.text(name));
+            let is_function = cursor.text(name).eq_ignore_ascii_case(b"SIPO_MODE");
+            let Some(inside) = inside(cursor).filter(|_| is_function) else {
+                return self.mode_value(None);
+            };
+            inner = inside;
         }
-        let name = cursor.next();
-        let is_function = cursor.text(name).eq_ignore_ascii_case(b"SIPO_MODE");
-        let inner = inside(cursor).filter(|_| is_function)?;
-        let mut inner = inner;
         if inner.take(b'#') {
             let name = inner.next();
-            return is_external(inner.text(name));
+            *cursor = Cursor {
+                at: cursor.at.max(inner.at),
+                ..*cursor
+            };
+            return self.mode_value(is_external(inner.text(name)));
         }
         let token = inner.next();
         let name = self.symbol(&inner, token);
-        let at = Index::of(inner.brackets().ok()?, &inner);
-        self.fdat_of(name, at)?.is_external
+        match inner.brackets() {
+            Ok(at) => self.mode_in(name, Index::of(at, &inner)),
+            Err(_) => self.mode_value(None),
+        }
     }
 
     /// A tool or base up to a comma or the end of the line; one that is written out is called
@@ -139,15 +134,10 @@ impl Reader {
         let found = self.plain_frame(table, name, cursor)?;
         match cursor.blanks() {
             0 | b',' | b';' => Ok(found),
-            b':' if table == Table::Base => {
+            b':' => {
                 super::moves::skip_value(cursor);
-                Ok(match self.base_product(factors)? {
-                    Some(pose) => {
-                        let mut numbers = [0.0; 6];
-                        write_pose(&pose, &mut numbers);
-                        let parts = numbers.map(|number| part_of(PartValue::Number(number)));
-                        Expr::Value(record(&mut self.builder.script, name, &parts))
-                    }
+                Ok(match self.frame_product(factors)? {
+                    Some(pose) => self.fixed_frame(name, &pose),
                     None => self.chosen(),
                 })
             }
@@ -161,10 +151,19 @@ impl Reader {
     }
 
     /// `BASE_DATA[3]:{X 10,...}` where nothing changes a factor.
-    fn base_product(&mut self, mut cursor: Cursor) -> Read<Option<Pose>> {
+    fn frame_product(&mut self, mut cursor: Cursor) -> Read<Option<Pose>> {
         let mut product = Pose::identity();
         loop {
-            let Some(factor) = self.base_factor(&mut cursor)? else {
+            let factor = if cursor.blanks() == b'{' {
+                let numbers = aggregate::read(&mut cursor)?.frame();
+                numbers.map(|numbers| pose_of(numbers.map(|number| number.value)))
+            } else {
+                let word = cursor.next();
+                let at = cursor.brackets()?;
+                let name = self.symbol(&cursor, word);
+                self.constant_frame(name, Index::of(at, &cursor))
+            };
+            let Some(factor) = factor else {
                 return Ok(None);
             };
             product = product * factor;
@@ -174,20 +173,6 @@ impl Reader {
         }
         let ends = matches!(cursor.blanks(), 0 | b',' | b';') || cursor.peek().kind == Kind::Name;
         Ok(ends.then_some(product))
-    }
-
-    fn base_factor(&mut self, cursor: &mut Cursor) -> Read<Option<Pose>> {
-        if cursor.blanks() == b'{' {
-            let numbers = aggregate::read(cursor)?.frame();
-            return Ok(numbers.map(|numbers| pose_of(numbers.map(|number| number.value))));
-        }
-        let word = cursor.next();
-        let at = cursor.brackets()?;
-        let name = self.symbol(cursor, word);
-        let is_kept = !self.names.touched.contains(&name);
-        let is_base = is_kept && cursor.text(word).eq_ignore_ascii_case(b"BASE_DATA");
-        let entry = Index::of(at, cursor).first().filter(|_| is_base);
-        Ok(entry.and_then(|entry| self.declared.base(entry)))
     }
 
     fn plain_frame(&mut self, table: Table, called: &str, cursor: &mut Cursor) -> Read<Expr> {
@@ -244,6 +229,10 @@ impl Reader {
             }
             (_, b"$TOOL") => Ok(self.states.expr(State::Tool)),
             (_, b"$BASE") => Ok(self.states.expr(State::Base)),
+            (Table::Base, b"$ROBROOT") => Ok(match self.root {
+                Some(root) => self.fixed_frame("$ROBROOT", &root),
+                None => self.chosen(),
+            }),
             _ => {
                 let symbol = self.symbol(cursor, name);
                 let at = Index::of(at, cursor);
@@ -412,48 +401,6 @@ impl Reader {
         }
     }
 
-    /// `FDAT_ACT=FP1`, `FDAT_ACT={...}`; the cursor stands behind `=`.
-    pub(super) fn activate(&mut self, place: Place, cursor: &mut Cursor) -> Read<()> {
-        let found = if cursor.blanks() == b'{' {
-            Some(fdat(cursor)?)
-        } else {
-            let token = cursor.next();
-            let name = self.symbol(cursor, token);
-            let at = Index::of(cursor.brackets()?, cursor);
-            self.fdat_of(name, at)
-        };
-        let fdat = found.unwrap_or_default();
-        for (state, number) in [(State::FdatTool, fdat.tool), (State::FdatBase, fdat.base)] {
-            let value = self.number_of(number.map(Choice::Entry));
-            self.set(place, state, value);
-        }
-        // data that are not in the files are of a tool that the robot holds, as all that are
-        let is_external = match found {
-            None if !self.declared.has_fixed_tools => Some(false),
-            _ => fdat.is_external,
-        };
-        let mode = self.mode_value(is_external);
-        self.set(place, State::FdatIpo, mode);
-        Ok(())
-    }
-
-    /// `FDAT_ACT.TOOL_NO=3`; the cursor stands behind `=`.
-    pub(super) fn activate_part(&mut self, place: Place, part: &[u8], cursor: &mut Cursor) {
-        let state = match part {
-            b"TOOL_NO" => State::FdatTool,
-            b"BASE_NO" => State::FdatBase,
-            b"IPO_FRAME" => {
-                let mode = self.mode(cursor);
-                let mode = self.mode_value(mode);
-                return self.set(place, State::FdatIpo, mode);
-            }
-            _ => return,
-        };
-        let choice = self.choice(*cursor, Table::Tool);
-        let value = self.number_of(choice);
-        self.set(place, state, value);
-    }
-
     /// A write of a state, or of one of its parts; the cursor stands behind `=`.
     pub(super) fn write_state(
         &mut self,
@@ -481,12 +428,23 @@ impl Reader {
     }
 
     /// `$TOOL.X=...`, `BASE_DATA[1].X=...`
-    fn write_part(&mut self, place: Place, variable: Written, part: &[u8], mut cursor: Cursor) {
+    fn write_part(&mut self, place: Place, variable: Written, part: &[u8], cursor: Cursor) {
+        if let Some(how) = self.part_of_frame(place, part, cursor) {
+            self.builder.write(place, variable, how);
+        }
+    }
+
+    /// What a write of a component makes of a frame.
+    pub(super) fn part_of_frame(
+        &mut self,
+        place: Place,
+        part: &[u8],
+        mut cursor: Cursor,
+    ) -> Option<How> {
         let at = match part {
-            [letter] => b"XYZABC".iter().position(|known| known == letter),
-            _ => None,
+            [letter] => b"XYZABC".iter().position(|known| known == letter)?,
+            _ => return None,
         };
-        let Some(at) = at else { return };
         cursor.blanks();
         let start = cursor.at;
         let text = &cursor.bytes[start..cursor.end];
@@ -501,8 +459,7 @@ impl Reader {
         });
         let parts = short(script.parts.len() - 1)..short(script.parts.len());
         let first = short(at);
-        self.builder
-            .write(place, variable, How::Parts { first, parts });
+        Some(How::Parts { first, parts })
     }
 
     /// What a write of an entry of a table writes.

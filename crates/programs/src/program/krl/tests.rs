@@ -3,8 +3,10 @@
 mod flow;
 mod frames;
 mod posts;
+mod products;
 mod robust;
 mod samples;
+mod structures;
 mod writing;
 
 use super::*;
@@ -438,6 +440,16 @@ fn relative_moves_go_from_the_target_before() {
     };
     assert_eq!(by(1), ([0.0, 0.0, 0.1], [0.0; 3]));
     assert_eq!(by(2), ([0.0, 0.0, 0.1], [-0.01, 0.0, 0.0]));
+    assert_eq!(reported(&program), [""; 0]);
+    // both points of an arc count from where it begins
+    let program = path("LIN XP1\nCIRC_REL {X 1},{X 2} C_DIS #TOOL\nLIN_REL {Y 3}");
+    let by = |at: usize| match &program.moves[at].displacement {
+        Displacement::By(shift) => (shift.in_frame.translation, shift.in_tool.translation),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(by(1), ([0.0; 3], [0.001, 0.0, 0.0]));
+    assert_eq!(by(2), ([0.0; 3], [0.002, 0.0, 0.0]));
+    assert_eq!(by(3), ([0.0, 0.003, 0.0], [0.002, 0.0, 0.0]));
     assert_eq!(reported(&program), [""; 0]);
 }
 

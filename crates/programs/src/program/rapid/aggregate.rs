@@ -203,13 +203,17 @@ impl Reader<'_> {
             if self.token.kind == Kind::Name {
                 not_a_number(self.text(self.token), self.token)?;
             }
-            if self.token.kind != Kind::Number || self.token.start != first.end {
+            let between = &self.bytes[first.end as usize..self.token.start as usize];
+            let is_near = between.iter().all(|b| matches!(b, b' ' | b'\t'));
+            if self.token.kind != Kind::Number || !is_near {
                 return Ok(Leaf::Computed);
             }
         }
         let (start, end) = (first.start, self.token.end);
-        let text = &self.bytes[start as usize..end as usize];
-        let value = number::parse(text).ok_or(Fault::BadValue {
+        let digits = self.text(self.token);
+        let value = number::parse(digits).or_else(|| based(digits));
+        let sign = if first.is(b'-') { -1.0 } else { 1.0 };
+        let value = value.map(|value| sign * value).ok_or(Fault::BadValue {
             start,
             end,
             meaning: "number",
@@ -246,6 +250,24 @@ impl Reader<'_> {
         }
         Fault::unexpected(self.token.start as usize..self.token.end as usize, expected)
     }
+}
+
+/// A whole number in hexadecimal, octal or binary digits: `0x32`, `0o62`, `0b110010`.
+///
+/// # Source
+/// ABB, Technical reference manual RAPID kernel, "Numerical literals".
+fn based(text: &[u8]) -> Option<f64> {
+    let [b'0', base, digits @ ..] = text else {
+        return None;
+    };
+    let base = match base {
+        b'x' | b'X' => 16,
+        b'o' | b'O' => 8,
+        b'b' | b'B' => 2,
+        _ => return None,
+    };
+    let value = u32::from_str_radix(std::str::from_utf8(digits).ok()?, base);
+    value.ok().map(f64::from)
 }
 
 /// The leaves of a value of numbers with nothing but blanks between them, and the byte behind it.

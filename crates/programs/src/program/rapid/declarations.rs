@@ -80,8 +80,18 @@ impl Reader<'_> {
 
     /// The type that the present token names.
     pub(super) fn type_name(&self) -> Type {
+        self.type_of(self.text(self.token))
+    }
+
+    fn type_of(&self, name: &[u8]) -> Type {
         let mut buffer = [0; KEYWORD];
-        Type::named(keyword(self.text(self.token), &mut buffer))
+        match Type::named(keyword(name, &mut buffer)) {
+            Type::Other => {
+                let alias = self.parsed.symbols.find(name);
+                alias.map_or(Type::Other, |name| self.verbs.aliased(name))
+            }
+            known => known,
+        }
     }
 
     /// `{3}` or `{2,n}`: how many sizes stand there.
@@ -253,7 +263,7 @@ impl Reader<'_> {
                     let before =
                         last.map_or(&b""[..], |token| keyword(self.text(token), &mut buffer));
                     by_reference |= matches!(before, b"inout" | b"pers" | b"var" | b"ref");
-                    kind = Type::named(before);
+                    kind = last.map_or(Type::Other, |token| self.type_of(self.text(token)));
                     last = Some(self.token);
                 }
                 Kind::Sign(sign @ (b'\\' | b',' | b'|' | b')')) => {

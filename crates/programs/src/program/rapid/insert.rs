@@ -1,11 +1,12 @@
 //! Moves between those of a program: the instruction again, with a target written out.
 
-use crate::program::insert::{Manner, starts_with_word};
+use crate::program::insert::{DOES_MORE, Manner, starts_with_word};
+use crate::program::quantity::is_letter;
 use crate::program::{Program, Source, Target};
 
 /// See [`crate::program::Language::insert`].
 pub(super) const MANNER: Manner = Manner {
-    repeats,
+    forbids,
     external: Some(external),
     longest: usize::MAX,
 };
@@ -17,12 +18,39 @@ const REPEATED: &[&str] = &[
     "movej", "movel", "movec", "arcl", "arcc", "displ", "dispc", "paintl", "paintc",
 ];
 
+/// Optional arguments that are of the whole move.
+///
+/// # Source
+/// ABB, Technical reference manual RAPID Instructions, Functions and Data types, `MoveL`: `\\T` is
+/// the total time of the move; in all tasks of `SyncMoveOn` moves have the same `\\ID`s, one after
+/// another; `\\Conc` lets the program run on, over five moves at most.
+const OF_WHOLE: [(&[u8], &str); 3] = [
+    (b"t", "its argument \\T is the time of the whole move"),
+    (
+        b"id",
+        "its argument \\ID is that of one move of the other robot",
+    ),
+    (
+        b"conc",
+        "with its argument \\Conc the program runs on before it ends",
+    ),
+];
+
 /// Strings and comments do not stand in an instruction that only moves.
-fn repeats(text: &[u8]) -> bool {
-    text.ends_with(b";")
-        && !text.contains(&b'!')
-        && !text.contains(&b'"')
-        && starts_with_word(text, REPEATED)
+fn forbids(text: &[u8]) -> Option<&'static str> {
+    let is_plain = text.ends_with(b";") && !text.contains(&b'!') && !text.contains(&b'"');
+    if !is_plain || !starts_with_word(text, REPEATED) {
+        return Some(DOES_MORE);
+    }
+    let options = memchr::memchr_iter(b'\\', text).map(|at| {
+        let behind = text[at + 1..].trim_ascii_start();
+        let length = behind.iter().take_while(|b| is_letter(**b)).count();
+        &behind[..length]
+    });
+    options
+        .flat_map(|option| OF_WHOLE.iter().find(|of| option.eq_ignore_ascii_case(of.0)))
+        .map(|of| of.1)
+        .next()
 }
 
 /// External axes of a target, as they are written behind its other numbers.

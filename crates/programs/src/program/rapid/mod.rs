@@ -17,6 +17,7 @@ mod arguments;
 mod blocks;
 mod builtins;
 mod calls;
+mod conditions;
 mod confdata;
 mod declarations;
 mod derived;
@@ -31,6 +32,7 @@ mod moves;
 mod numbers;
 mod parts;
 mod places;
+mod poses;
 mod reader;
 mod records;
 mod resolved;
@@ -153,6 +155,10 @@ impl Language for Rapid {
 
     fn insert(&self, into: &Insertions) -> Inserted {
         insert::MANNER.insert(into)
+    }
+
+    fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
+        (insert::MANNER.forbids)(text)
     }
 
     fn external_names(&self) -> [&'static str; 6] {

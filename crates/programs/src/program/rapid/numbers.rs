@@ -170,7 +170,11 @@ impl Resolved<'_> {
                 }
                 StatementKind::If(_) | StatementKind::Test => blocks.open(Some(1)),
                 StatementKind::Branch { .. } => blocks.branch(),
-                StatementKind::Loop { most, .. } => blocks.open(most),
+                StatementKind::Loop { most, .. } => {
+                    blocks.open(most);
+                    let at = (file, statement.offset);
+                    self.bound(at, context, blocks.last(), &mut noted.numbers);
+                }
                 StatementKind::EndChoice | StatementKind::EndLoop { .. } => blocks.close(),
                 StatementKind::Goto(_) | StatementKind::Handler | StatementKind::Retry => {
                     noted.numbers.jumps(context.routine.unwrap_or(u32::MAX));
@@ -242,7 +246,7 @@ impl Resolved<'_> {
     }
 
     /// The numbers that a name may mean.
-    fn numbers_named(&self, name: Symbol, context: Context) -> Vec<u32> {
+    pub(super) fn numbers_named(&self, name: Symbol, context: Context) -> Vec<u32> {
         let data = self.data_named(name, context).into_iter();
         let numbers = data.filter(|datum| self.datum(*datum).kind == Type::Num);
         numbers.map(|datum| self.number(datum)).collect()

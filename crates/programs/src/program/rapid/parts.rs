@@ -1,21 +1,16 @@
 //! What assignments make of data, as a whole and part by part.
 
 use super::aggregate::Leaf;
-use super::declarations::part;
 use super::records::part_of;
-use super::resolved::Entity;
-use super::syntax::{
-    Assigned, Base, Component, Datum, Expression, Index, Storage, Stored, Type, indices,
-};
+use super::syntax::{Assigned, Base, Component, Expression, Index, Type, indices};
 use super::translate::Translator;
 use crate::geometry::units::MM;
 use crate::program::displacing::{Displacing, grown_by_any};
-use crate::program::names::{Meaning, Symbol};
+use crate::program::names::Symbol;
 use crate::program::notation::mentions;
-use crate::program::number;
 use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
-use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How, Part as RecordPart, short};
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How};
 use crate::program::{Displacement, Shift};
 
 impl Translator<'_> {
@@ -83,15 +78,20 @@ impl Translator<'_> {
 
     fn frame_becomes(&mut self, name: Symbol, component: Component, value: Assigned) -> How {
         match (component, value) {
-            (Component::Leaves(first, _), Assigned::Leaves(leaves)) => How::Parts {
-                first: u32::from(first),
-                parts: self.record_parts(leaves, self.here),
-            },
-            (Component::Leaves(first, count), Assigned::To(value)) => {
+            (Component::Leaves(first, _), Assigned::Leaves(leaves))
+                if !self.resolved.parsed.leaves[indices(leaves)].contains(&Leaf::Computed) =>
+            {
+                How::Parts {
+                    first: u32::from(first),
+                    parts: self.record_parts(leaves, self.here),
+                }
+            }
+            (Component::Leaves(first, count), _) => {
                 let count = usize::from(count);
                 let computed = || vec![part_of(Leaf::Computed, self.here); count];
+                let (_, text) = self.own_and_value();
                 let parts = self
-                    .parts_in_text(&value)
+                    .constant_parts(&text)
                     .filter(|parts| parts.len() == count);
                 let parts = parts.unwrap_or_else(computed);
                 How::Parts {
@@ -115,61 +115,6 @@ impl Translator<'_> {
             },
             (Component::Place | Component::Other, _) => How::PartSomehow(self.changed()),
         }
-    }
-
-    /// The numbers of a value that is data which nothing writes, or a part of such a tool or frame.
-    fn parts_in_text(&self, value: &Expression) -> Option<Vec<RecordPart>> {
-        let resolved = self.resolved;
-        let (name, index) = resolved.place_of(value)?;
-        let Meaning::One(at) = resolved.meaning(name, self.context) else {
-            return None;
-        };
-        let datum = resolved.datum(at);
-        let is_parameter = matches!(datum.storage, Storage::Parameter { .. });
-        if index != Index::Whole || is_parameter || resolved.is_written(Entity::Declared(at)) {
-            return None;
-        }
-        let leaves = match datum.value {
-            Stored::Leaves(leaves) => {
-                let all = &resolved.parsed.leaves[indices(leaves)];
-                let (_, text) = self.own_and_value();
-                let mut words = text.split(|byte| *byte == b'.').skip(1);
-                let inside = words.try_fold(Component::Whole, |inside, word| {
-                    part(inside, word).map(|found| found.0)
-                });
-                match inside? {
-                    Component::Leaves(first, count) => all
-                        .get(usize::from(first)..usize::from(first) + usize::from(count))?
-                        .to_vec(),
-                    _ => all.to_vec(),
-                }
-            }
-            _ if datum.storage == Storage::Constant => self.constant_numbers(datum)?,
-            _ => return None,
-        };
-        let parts = leaves.into_iter().map(|leaf| part_of(leaf, datum.place));
-        Some(parts.collect())
-    }
-
-    /// What a constant is declared with, where that is numbers and brackets.
-    fn constant_numbers(&self, datum: &Datum) -> Option<Vec<Leaf>> {
-        let from = datum.place.offset as usize;
-        let bytes = &self.resolved.sources[datum.place.file as usize].bytes[from..];
-        let text = &bytes[..memchr::memchr(b';', bytes)?];
-        let value = memchr::memmem::find(text, b":=")? + 2;
-        let parts = text[value..].split(|byte| matches!(byte, b'[' | b']' | b','));
-        let parts = parts
-            .map(<[u8]>::trim_ascii)
-            .filter(|part| !part.is_empty());
-        let leaf = |part: &[u8]| {
-            let at = part.as_ptr() as usize - bytes.as_ptr() as usize;
-            Some(Leaf::Number {
-                value: number::parse(part)?,
-                start: datum.place.offset + short(at),
-                length: u16::try_from(part.len()).ok()?,
-            })
-        };
-        parts.map(leaf).collect()
     }
 
     /// What `p.trans.z:=` makes of a target: it displaces it by 200 mm where `p.trans.z+200` is
@@ -292,7 +237,7 @@ impl Translator<'_> {
     }
 
     /// What the present assignment writes, and what: in small letters and without blanks.
-    fn own_and_value(&self) -> (Vec<u8>, Vec<u8>) {
+    pub(super) fn own_and_value(&self) -> (Vec<u8>, Vec<u8>) {
         let bytes = &self.resolved.sources[self.here.file as usize].bytes;
         let text = &bytes[self.here.offset as usize..];
         let end = memchr::memchr(b';', text).unwrap_or(text.len());

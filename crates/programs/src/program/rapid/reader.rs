@@ -226,7 +226,17 @@ impl<'a> Reader<'a> {
                 self.advance()
             }
             // `CONNECT i1 WITH trap;` calls nothing: traps run at any time as it is
-            b"alias" | b"connect" => self.skip_statement(),
+            b"connect" => self.skip_statement(),
+            b"alias" => {
+                self.advance()?;
+                let of = self.type_name();
+                self.advance()?;
+                if self.token.kind == Kind::Name && of != Type::Other {
+                    let name = self.parsed.symbols.intern(self.text(self.token));
+                    self.verbs.alias(name, of);
+                }
+                self.skip_statement()
+            }
             word if is_block_word(word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }

@@ -1,10 +1,10 @@
 //! What instructions do, by their names.
 
 use super::builtins::{self, Known};
-use super::syntax::{Mode, Path, Routine, Set, Verb};
+use super::syntax::{Mode, Path, Routine, Set, Type, Verb};
 use crate::program::Source;
 use crate::program::names::Symbol;
-use foldhash::HashSet;
+use foldhash::{HashMap, HashSet};
 
 /// First parts of the names of instructions that move; J, L, C or `AbsJ` follows. What another one
 /// begins with stands behind that.
@@ -47,6 +47,8 @@ pub(super) struct Verbs {
     displacing: HashSet<Symbol>,
     /// What routines of the files hide of these: names, and the module of a local one.
     hidden: HashSet<(Symbol, Option<u32>)>,
+    /// What types the files call by other names (ALIAS).
+    aliases: HashMap<Symbol, Type>,
 }
 
 impl Verbs {
@@ -74,7 +76,8 @@ impl Verbs {
     }
 
     /// Within its scope a routine hides the instruction or function of its name: calls of what
-    /// these routines hide mean something, too. Whether any was passed over.
+    /// these routines hide mean something, too. Whether any was passed over, or declared before it
+    /// was known what its type is.
     pub(super) fn hide(&mut self, routines: &[Routine]) -> bool {
         for routine in routines {
             let at = routine.name.0 as usize;
@@ -88,7 +91,20 @@ impl Verbs {
                 self.hidden.insert((routine.name, module));
             }
         }
-        !self.hidden.is_empty()
+        !self.hidden.is_empty() || !self.aliases.is_empty()
+    }
+
+    /// A type has another name; of two types by one name neither is meant.
+    pub(super) fn alias(&mut self, name: Symbol, of: Type) {
+        let known = self.aliases.entry(name).or_insert(of);
+        if *known != of {
+            *known = Type::Other;
+        }
+    }
+
+    /// The type of this name.
+    pub(super) fn aliased(&self, name: Symbol) -> Type {
+        self.aliases.get(&name).copied().unwrap_or(Type::Other)
     }
 
     /// What a function of this name does in a module, where it was met before.

@@ -14,7 +14,7 @@ mod statement;
 pub use builder::Builder;
 pub use statement::{
     Argument, Call, Condition, Expected, How, Instruction, Loop, Modal, Routine, Span, Start,
-    Statement, Write, Written,
+    Statement, Turn, Write, Written,
 };
 
 use super::{Displacement, External, Load, Number, Source, Stride, Target, TargetId};
@@ -111,6 +111,9 @@ pub struct Script {
     pub conditions: Vec<Condition>,
     /// Sets of variables that may refuse a move, see [`Modal::guards`].
     pub guards: Vec<Box<[VariableId]>>,
+    /// Targets whose numbers make up tools, frames and displacements: these do not change with a
+    /// correction.
+    pub offsets: Vec<TargetId>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
     /// Where targets say that external axes stand, by target.
@@ -162,6 +165,7 @@ impl Default for Script {
             conditions: Vec::new(),
             guards: vec![Box::default()],
             named: Vec::new(),
+            offsets: Vec::new(),
             refused: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),

@@ -62,6 +62,10 @@ impl Script {
         for (target, _) in &mut self.refused {
             *target = new_ids[*target];
         }
+        self.offsets.retain(|target| kept[*target]);
+        for target in &mut self.offsets {
+            *target = new_ids[*target];
+        }
         self.externals.retain(|&(target, _)| kept[target]);
         for (target, _) in &mut self.externals {
             *target = new_ids[*target];

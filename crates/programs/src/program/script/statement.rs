@@ -114,6 +114,29 @@ impl Span {
     }
 }
 
+/// What a move from where the robot is makes of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turn {
+    /// It stands.
+    Stays,
+    /// It goes there, radians.
+    To(f64),
+    /// It turns by so much, radians.
+    By(f64),
+}
+
+impl Turn {
+    /// Where the joints are then.
+    #[must_use]
+    pub fn apply(turned: &[Self; 6], q: &[f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|i| match turned[i] {
+            Self::Stays => q[i],
+            Self::To(angle) => angle,
+            Self::By(angle) => q[i] + angle,
+        })
+    }
+}
+
 /// A move. An arc is two: one to the point it passes through and one to its end, with the same
 /// span.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,6 +155,8 @@ pub struct Instruction {
     pub modal: ModalId,
     /// The joints, radians, from which the controller's inverse starts.
     pub near: Option<Box<[f64; 6]>>,
+    /// What becomes of each joint, where the move turns joints from where the robot is.
+    pub turned: Option<Box<[Turn; 6]>>,
     /// Added to the target by the instruction itself.
     pub displacement: DisplacementId,
     /// Where its target stands in it.
@@ -150,6 +175,7 @@ impl Instruction {
             target: Expr::Absent,
             modal: 0,
             near: None,
+            turned: None,
             displacement: NOT_DISPLACED,
             target_span: Span::default(),
         }

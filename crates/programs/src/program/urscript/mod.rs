@@ -93,7 +93,7 @@ static ABOUT: About = About {
 
 /// Calls are written again with a pose written out.
 const MANNER: Manner = Manner {
-    repeats: |_| true,
+    forbids: |_| None,
     external: None,
     longest: usize::MAX,
 };

@@ -270,3 +270,48 @@ fn a_seam_tracker_corrects_the_path() {
     assert_eq!(ids(&program), ["corrected-by-sensor"]);
     assert!(said(&program)[0].message.contains("\\Track"));
 }
+
+#[test]
+fn counters_of_loops_with_a_bound_come_no_farther() {
+    let strides = |text: &str| match &path(text).moves[0].displacement {
+        Displacement::Within(strides) => strides
+            .iter()
+            .map(|stride| match stride {
+                Stride::By { shift, most } => {
+                    ((shift.in_frame.translation[2] * 1e3).round(), *most)
+                }
+                Stride::Turned(_) => panic!("it turns nothing"),
+            })
+            .collect::<Vec<_>>(),
+        other => panic!("{other:?}"),
+    };
+    let go = "MoveL Offs(p1,0,0,h),v5,z5,t;";
+    // 0, 20, ... 100
+    for condition in ["h<100", "h < 100 AND di1=1", "(100>h)", "h<limit"] {
+        let text = format!(
+            "CONST num limit:=100;\nVAR num h:=0;\nWHILE {condition} DO\n{go}\nh:=h+20;\nENDWHILE"
+        );
+        let all = strides(&text);
+        assert_eq!(all.len(), 1, "{condition}");
+        let (by, most) = all[0];
+        assert_eq!(by, 20.0, "{condition}");
+        assert!((5..=6).contains(&most.unwrap_or(99)), "{condition}{most:?}");
+    }
+    // down, and up from below
+    let down = format!("VAR num h:=50;\nWHILE h>0 DO\n{go}\nh:=h-10;\nENDWHILE");
+    assert!(strides(&down).iter().any(|(by, _)| *by == -10.0));
+    for text in [
+        format!("VAR num h:=0;\nWHILE h<100 OR di1=1 DO\n{go}\nh:=h+20;\nENDWHILE"),
+        format!("VAR num h:=0;\nWHILE h>-1 DO\n{go}\nh:=h+20;\nENDWHILE"),
+        format!("VAR num h:=0;\nWHILE h<100 DO\n{go}\nh:=h+20;\nENDWHILE\nh:=h+5;"),
+        format!(
+            "VAR num h:=0;\nWHILE h<100 DO\nWHILE di1=1 DO\n{go}\nh:=h+20;\nENDWHILE\nENDWHILE"
+        ),
+        format!("VAR num h:=0;\nGOTO in;\nWHILE h<100 DO\nin:\n{go}\nh:=h+20;\nENDWHILE"),
+    ] {
+        assert!(
+            strides(&text).iter().any(|(_, most)| most.is_none()),
+            "{text}"
+        );
+    }
+}

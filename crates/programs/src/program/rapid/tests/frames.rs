@@ -22,6 +22,8 @@ fn parts_of_frames_that_are_written_from_constants_are_their_numbers() {
         ),
         ("t.tframe:=t2.tframe;", "t.tframe:=[[0,0,3],[1,0,0,0]];"),
         ("t.tload:=l;", "t.tload:=[5,[0,0,6],[1,0,0,0],0,0,0];"),
+        ("w.uframe.trans.z:=-h;", "w.uframe.trans.z:=-7;"),
+        ("w.uframe.trans:=[h,2*h,c.z];", "w.uframe.trans:=[7,14,6];"),
     ] {
         let read = |write: &str| {
             let program = path(&format!("{constants}{write}\nMoveL p1,v5,z5,t\\WObj:=w;"));
@@ -33,10 +35,50 @@ fn parts_of_frames_that_are_written_from_constants_are_their_numbers() {
     for written in [
         "w.uframe.trans:=v;",
         "w.uframe.trans:=c2;",
-        "w.uframe.trans.z:=-h;",
+        "w.uframe.trans.z:=n;",
+        "w.uframe:=PoseMult(u,v);",
+        "w.uframe.rot:=OrientZYX(n,0,0);",
     ] {
         let program = path(&format!("{constants}{written}\nMoveL p1,v5,z5,t\\WObj:=w;"));
         assert_eq!(ids(&program), ["frame-assigned-at-run-time"], "{written}");
+    }
+}
+
+#[test]
+fn functions_of_constants_make_frames() {
+    let constants = "CONST pose a:=[[100,0,0],[0.7071067811865476,0,0,0.7071067811865476]];\nCONST pose \
+                     b:=[[0,20,0],[1,0,0,0]];\nCONST num turn:=90;\n";
+    // the first turns the y of the second into its own -x
+    for (written, place, x) in [
+        ("w.uframe:=PoseMult(a, b);", [80, 0, 0], [0, 1, 0]),
+        ("w.uframe:=PoseMult(b,a);", [100, 20, 0], [0, 1, 0]),
+        ("w.uframe:=PoseInv(a);", [0, 100, 0], [0, -1, 0]),
+        ("w.uframe:=PoseMult(PoseInv(a),a);", [0, 0, 0], [1, 0, 0]),
+        (
+            "w.uframe:=[[1,2,3],OrientZYX(turn,0,0)];",
+            [1, 2, 3],
+            [0, 1, 0],
+        ),
+        (
+            "w.uframe:=[b.trans,OrientZYX(0,turn,45)];",
+            [0, 20, 0],
+            [0, 0, -1],
+        ),
+        ("w.uframe.rot:=OrientZYX(0,0,turn);", [0, 0, 0], [1, 0, 0]),
+    ] {
+        let start = "w.uframe:=[[0,0,0],[1,0,0,0]];\nw.oframe:=[[0,0,0],[1,0,0,0]];\n";
+        let program = path(&format!(
+            "{constants}{start}{written}\nMoveL p1,v5,z5,t\\WObj:=w;"
+        ));
+        let frame = program.frames[program.moves[0].frame].world_from_frame;
+        let frame = frame.expect("a frame");
+        // hundredths of a millimetre are enough
+        #[allow(clippy::cast_possible_truncation)]
+        let rounded = |number: f64| number.round() as i64;
+        let at = frame.translation.map(|m| rounded(m * 1e3));
+        let axis = [0, 1, 2].map(|row| rounded(frame.rotation.0[row][0]));
+        assert_eq!((at, axis), (place, x), "{written}");
+        assert_eq!(ids(&program), [""; 0], "{written}");
     }
 }
 

@@ -156,3 +156,31 @@ fn nothing_before_a_move_swallows_it() {
         assert_eq!(to(&program), ["p1", "p2"], "{before}");
     }
 }
+
+#[test]
+fn numbers_have_their_sign_apart_or_another_base() {
+    let program = read(
+        "MODULE m\nPROC main()\nMoveL [[- 20,+ 0x1F,0b101],[1,0,0,0],[0,0,-\t1,0o7],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,z5,tool0;\n\
+         MoveL [[- ! up\n 20,0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v5,z5,tool0;\nENDPROC\nENDMODULE\n",
+    );
+    let numbers = program.numbers_of(&program.targets[0]);
+    let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();
+    assert_eq!(values[..3], [-20.0, 31.0, 5.0]);
+    assert_eq!(values[7..], [0.0, 0.0, -1.0, 7.0]);
+    // a remark is no part of a number
+    assert_eq!(ids(&program), ["target-has-expressions"]);
+}
+
+#[test]
+fn types_have_other_names() {
+    let data = "MODULE d\n PERS spot p1:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
+                LOCAL PROC go(spot p)\n MoveL p,v5,z5,tool0;\nENDPROC\nPROC main()\n go p1;\nENDPROC\nENDMODULE\n";
+    let alias = "MODULE a\nALIAS robtarget spot;\nENDMODULE\n";
+    let program = read_files(&[data, alias]).expect("a program");
+    assert_eq!(to(&program), ["p1"]);
+    assert_eq!(ids(&program), [""; 0]);
+    // of two types by one name neither is meant
+    let other = "MODULE b\nALIAS jointtarget spot;\nENDMODULE\n";
+    let program = read_files(&[data, alias, other]).expect("a program");
+    assert!(to(&program).iter().all(|name| *name == "?"));
+}

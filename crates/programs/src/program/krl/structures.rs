@@ -1,0 +1,317 @@
+//! Positions that are members of structures (STRUC), each a variable called `s.P`, data of other
+//! data lists (IMPORT), and what functions return.
+
+use super::aggregate;
+use super::names::{DataKind, Datum, Index, Stored};
+use super::reader::Reader;
+use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
+use crate::program::Source;
+use crate::program::kit::content_start;
+use crate::program::names::{Context, Symbol};
+use crate::program::script::{Expr, Place, Variable, VariableId};
+
+/// Structures in structures.
+const DEEPEST: usize = 4;
+
+/// The members of a type that the files declare, and their types.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Structure {
+    members: Vec<(Box<[u8]>, Symbol, DataKind)>,
+}
+
+/// `IMPORT E6POS XP1 IS /R1/PTS..XP1`
+#[derive(Debug)]
+pub(super) struct Import {
+    name: Symbol,
+    /// The data list.
+    of: Box<[u8]>,
+    there: Symbol,
+    context: Context,
+}
+
+impl Reader {
+    /// Reads the types that a file declares.
+    pub(super) fn types(&mut self, source: &Source) {
+        let bytes = &source.bytes;
+        for (at, end) in lines(bytes, content_start(bytes)) {
+            let mut cursor = Cursor { bytes, at, end };
+            if !matches!(cursor.blanks(), b'S' | b's' | b'G' | b'g') {
+                continue;
+            }
+            let mut word = cursor.next();
+            if cursor.text(word).eq_ignore_ascii_case(b"GLOBAL") {
+                word = cursor.next();
+            }
+            if cursor.text(word).eq_ignore_ascii_case(b"STRUC") {
+                self.structure(cursor);
+            }
+        }
+    }
+
+    /// `my E6POS P,Q[3],INT n`
+    fn structure(&mut self, mut cursor: Cursor) {
+        let name = cursor.next();
+        let name = self.symbol(&cursor, name);
+        let mut members = Vec::new();
+        let mut of = None;
+        loop {
+            let mut token = cursor.next();
+            if token.kind != Kind::Name {
+                break;
+            }
+            if cursor.peek().kind == Kind::Name {
+                of = Some(token);
+                token = cursor.next();
+            }
+            let Some(of) = of else { break };
+            let (Ok(_), member) = (cursor.brackets(), cursor.text(token).into()) else {
+                break;
+            };
+            let kind = DataKind::named(capitals(cursor.text(of), &mut [0; 24]));
+            members.push((member, self.symbol(&cursor, of), kind));
+            if !cursor.take(b',') {
+                break;
+            }
+        }
+        let new = Structure { members };
+        let types = &mut self.names.structures;
+        match types.iter().find(|known| known.0 == name) {
+            None => types.push((name, new)),
+            // of two by one name nothing is known
+            Some((_, known)) if *known == new => {}
+            Some(_) => types.retain(|known| known.0 != name),
+        }
+    }
+
+    /// The kind of a type that the files declare.
+    pub(super) fn structure_of(&self, name: Symbol) -> DataKind {
+        let found = self.names.structures.iter().position(|of| of.0 == name);
+        found.map_or(DataKind::Other, DataKind::Structure)
+    }
+
+    fn members_of(&self, kind: DataKind) -> Vec<(Box<[u8]>, DataKind)> {
+        let DataKind::Structure(at) = kind else {
+            return Vec::new();
+        };
+        let members = self.names.structures[at].1.members.iter();
+        members
+            .map(|(name, of, kind)| match kind {
+                DataKind::Other => (name.clone(), self.structure_of(*of)),
+                kind => (name.clone(), *kind),
+            })
+            .filter(|(_, kind)| kind.is_place() || matches!(kind, DataKind::Structure(_)))
+            .collect()
+    }
+
+    /// Declares the members of a variable.
+    pub(super) fn declare_members(&mut self, of: Datum, global: bool) {
+        let spelled = self.names.symbols.spelling(of.name);
+        if spelled.matches('.').count() >= DEEPEST {
+            return;
+        }
+        for (member, kind) in self.members_of(of.kind) {
+            let path = self.names.symbols.path(of.name, &member);
+            let name = self.names.symbols.intern(&path);
+            let datum = Datum { name, kind, ..of };
+            self.names.declare(datum, global);
+            self.declare_members(datum, global);
+        }
+    }
+
+    /// The values of the members of a variable: `{P {X 1,...},n 2}`.
+    pub(super) fn member_values(
+        &mut self,
+        name: Symbol,
+        kind: DataKind,
+        index: Index,
+        cursor: &mut Cursor,
+    ) -> Read<()> {
+        let members = self.members_of(kind);
+        let mut nested = Vec::new();
+        aggregate::each(cursor, |_, key, field| {
+            if let aggregate::Field::Nested(start) = field {
+                nested.push((key, start));
+            }
+            Ok(())
+        })?;
+        for (key, start) in nested {
+            let text = cursor.text(key);
+            let found = members.iter().find(|of| of.0.eq_ignore_ascii_case(text));
+            let Some((member, kind)) = found else {
+                continue;
+            };
+            let path = self.names.symbols.path(name, member);
+            let path = self.names.symbols.intern(&path);
+            let mut inner = cursor.part(start, cursor.end);
+            if !kind.is_place() {
+                self.member_values(path, *kind, index, &mut inner)?;
+                continue;
+            }
+            let aggregate = aggregate::read(&mut inner)?;
+            let called = self.names.symbols.spelling(path).to_owned();
+            let called = match index {
+                Index::At([first, 0, 0]) => called.replacen('.', &format!("[{first}]."), 1),
+                _ => called,
+            };
+            let target = self.add(&aggregate, start..inner.at, Some(called.into()));
+            if let Some(datum) = self.names.last_of(path, self.module) {
+                let value = (datum, index, Stored::Target(target));
+                self.names.values.push(value);
+            }
+        }
+        Ok(())
+    }
+
+    /// What `name[..].P[..]` is, with what is a member of it, behind its name and index: up to the
+    /// first part that is none.
+    pub(super) fn member(
+        &mut self,
+        name: Symbol,
+        at: Option<(usize, usize)>,
+        cursor: &mut Cursor,
+    ) -> Read<(Symbol, Index)> {
+        let (mut name, mut index) = (name, Index::of(at, cursor));
+        loop {
+            let mut ahead = *cursor;
+            let kind = self.names.kind(name, self.context());
+            if !matches!(kind, Some(DataKind::Structure(_))) || !ahead.take(b'.') {
+                return Ok((name, index));
+            }
+            let part = ahead.next();
+            let symbols = &self.names.symbols;
+            let member = symbols.find(&symbols.path(name, ahead.text(part)));
+            let is_declared = |member: &Symbol| self.names.kind(*member, self.context()).is_some();
+            let Some(member) = member.filter(is_declared) else {
+                return Ok((name, index));
+            };
+            let inner = Index::of(ahead.brackets()?, &ahead);
+            (name, index, *cursor) = (member, index.inside(inner), ahead);
+        }
+    }
+
+    /// `IMPORT E6POS XP1 IS /R1/PTS..XP1`; the cursor stands behind IMPORT.
+    pub(super) fn import(&mut self, mut cursor: Cursor) {
+        cursor.next();
+        let name = cursor.next();
+        let (Ok(_), is) = (cursor.brackets(), cursor.next()) else {
+            return;
+        };
+        if name.kind != Kind::Name || !cursor.text(is).eq_ignore_ascii_case(b"IS") {
+            return;
+        }
+        let path = &cursor.bytes[cursor.at..cursor.end];
+        let path = path.split(|b| matches!(b, b';' | b'[')).next();
+        let path = path.unwrap_or_default().trim_ascii();
+        let Some(dots) = path.windows(2).rposition(|two| two == b"..") else {
+            return;
+        };
+        let list = &path[..dots];
+        let folder = memchr::memrchr(b'/', list).map_or(0, |slash| slash + 1);
+        let import = Import {
+            name: self.symbol(&cursor, name),
+            of: list[folder..].to_ascii_lowercase().into(),
+            there: self.names.symbols.intern(&path[dots + 2..]),
+            context: self.context(),
+        };
+        self.names.imports.push(import);
+    }
+
+    /// The variable that holds what a function with a position returns.
+    pub(super) fn result_of(&mut self, function: Symbol) -> Option<VariableId> {
+        let routine = self.names.routine(function, self.context())?;
+        self.result_in(routine)
+    }
+
+    /// Likewise of the routine.
+    pub(super) fn result_in(&mut self, routine: u32) -> Option<VariableId> {
+        let head = &self.names.heads[routine as usize];
+        if !head.returns.is_place() {
+            return None;
+        }
+        if let Some(known) = head.result {
+            return Some(known);
+        }
+        let script = &mut self.builder.script;
+        let of = &script.routines[routine as usize];
+        // one that ends without RETURN stops the program
+        let result = Variable::new(format!("{}()", of.name), of.place, Expr::Absent);
+        let made = script.variable(result);
+        self.names.heads[routine as usize].result = Some(made);
+        Some(made)
+    }
+
+    /// What a function just returned: it may return something else before the move runs.
+    pub(super) fn returned(&mut self, name: Token, result: VariableId) -> Expr {
+        let script = &self.builder.script;
+        let of = script.variables[result as usize].clone();
+        let place = Place::new(self.file, name.start);
+        let copy = self.builder.script.variable(Variable { place, ..of });
+        self.put(place, copy, Expr::Variable(result));
+        Expr::Variable(copy)
+    }
+
+    /// `RETURN XP2`; the cursor stands behind RETURN.
+    pub(super) fn return_value(&mut self, mut cursor: Cursor) -> Read<()> {
+        let result = self.context().routine.and_then(|of| self.result_in(of));
+        match result {
+            Some(result) if cursor.peek().kind != Kind::End => {
+                let point = self.point(&mut cursor)?;
+                let value = self.value_of(&point);
+                self.put(self.here, result, value);
+            }
+            _ => self.calls_in(cursor),
+        }
+        Ok(())
+    }
+}
+
+impl super::names::Names {
+    /// Names of other data lists mean what these declare; nothing is known of the members of
+    /// structures that are written as a whole or given to routines.
+    pub(super) fn settle_structures(&mut self) {
+        for import in std::mem::take(&mut self.imports) {
+            let is_of = |key: &str| {
+                let name = key.rsplit(['/', '\\']).next().unwrap_or(key);
+                name.as_bytes() == &*import.of
+            };
+            let mut modules = (0..).zip(&self.modules).filter(|(_, of)| is_of(&of.key));
+            let (Some((module, _)), None) = (modules.next(), modules.next()) else {
+                continue;
+            };
+            let there = Context {
+                module,
+                routine: None,
+            };
+            let is_it = |datum: &Datum| datum.name == import.there && datum.context == there;
+            let Some(datum) = self.data.iter().position(is_it) else {
+                continue;
+            };
+            let datum = crate::program::script::short(datum);
+            self.alias(import.name, import.context, datum);
+            for [a, b] in [[import.name, import.there], [import.there, import.name]] {
+                if self.touched.contains(&a) {
+                    self.touched.insert(b);
+                }
+                let range = (a, Index::At([0; 3]))..(a, Index::Variable);
+                let elements: Vec<_> = self.elements.range(range).map(|of| of.1).collect();
+                self.elements.extend(elements.into_iter().map(|at| (b, at)));
+            }
+        }
+        if self.structures.is_empty() {
+            return;
+        }
+        let mut lost = vec![false; self.data.len()];
+        for (lost, datum) in lost.iter_mut().zip(&self.data) {
+            let spelled = self.symbols.spelling(datum.name);
+            let is_handed = |dot: usize| {
+                let whole = self.symbols.find(&spelled.as_bytes()[..dot]);
+                whole.is_some_and(|whole| self.handed.contains(&whole))
+            };
+            *lost = spelled.match_indices('.').any(|(dot, _)| is_handed(dot));
+            if *lost {
+                self.touched.insert(datum.name);
+            }
+        }
+        self.values.retain(|(datum, ..)| !lost[*datum as usize]);
+    }
+}
