@@ -205,15 +205,26 @@ impl Reader {
     /// `a : b : c`: the one operand that is a position is the target, the others displace it.
     fn product(&mut self, bytes: &[u8], operands: &[Operand], point: &mut Point) {
         let context = self.context();
-        let is_position = |operand: &Operand| match *operand {
-            Operand::Named(name, _) => self.names.kind(name, context) == Some(DataKind::Position),
-            _ => false,
+        let of_kind = |kind: DataKind| {
+            let is = |operand: &Operand| match *operand {
+                Operand::Named(name, _) => self.names.kind(name, context) == Some(kind),
+                _ => false,
+            };
+            let all = (0..operands.len()).filter(|&at| is(&operands[at]));
+            all.collect::<Vec<_>>()
         };
-        let mut positions = (0..operands.len()).filter(|&at| is_position(&operands[at]));
-        let (Some(at), None) = (positions.next(), positions.next()) else {
-            let mentions = operands.iter().any(is_position);
-            point.target = self.computed(mentions);
-            return;
+        let positions = of_kind(DataKind::Position);
+        let frames = of_kind(DataKind::Frame);
+        // a FRAME alone with numbers is a position as well
+        let is_inline = |operand: &&Operand| matches!(operand, Operand::Inline(_));
+        let inline = operands.iter().filter(is_inline).count();
+        let at = match (positions.as_slice(), frames.as_slice()) {
+            ([at], _) => *at,
+            ([], [at]) if inline + 1 == operands.len() => *at,
+            _ => {
+                point.target = self.computed(!positions.is_empty());
+                return;
+            }
         };
         let before = self.constant_product(&operands[..at]);
         let behind = self.constant_product(&operands[at + 1..]);

@@ -400,3 +400,20 @@ fn what_is_set_behind_something_unknown_is_known() {
         path("FDAT_ACT=FHOME\nBAS(#FRAMES)\n$TOOL=TOOL_DATA[4]\n$BASE=BASE_DATA[3]\nLIN XP2");
     assert_eq!(reported(&loads), ["load-chosen-at-run-time"]);
 }
+
+#[test]
+fn a_frame_displaced_by_numbers_is_a_position() {
+    let data = "DEFDAT M\nDECL FRAME w[2]\nw[2]={X 1,Y 0,Z 0,A 0,B 0,C 0}\nENDDAT\n";
+    let text = "DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN w[2]\nLIN w[2]:{X 0,Y 5,Z 0,A 0,B 0,C \
+        0}\nEND\n";
+    let program = read_files(&[("m.src", text), ("m.dat", data)]);
+    assert_eq!(ids(&program), [""; 0]);
+    let [there, near] = &program.moves[..] else {
+        panic!("{:?}", program.moves);
+    };
+    assert_eq!(there.target, near.target);
+    assert!(matches!(
+        near.displacement,
+        crate::program::Displacement::By(_)
+    ));
+}
