@@ -14,7 +14,7 @@ mod statement;
 pub use builder::Builder;
 pub use statement::{
     Argument, Call, Condition, Expected, How, Instruction, Loop, Modal, Routine, Span, Start,
-    Statement, Write, Written,
+    Statement, Test, Wanted, Write, Written,
 };
 
 use super::{Displacement, External, Load, Number, Source, Stride, Target, TargetId};
@@ -113,6 +113,8 @@ pub struct Script {
     pub guards: Vec<Box<[VariableId]>>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
+    /// The work frames of targets that have one of their own, whatever moves go to them.
+    pub own_frames: Vec<(TargetId, Expr)>,
     /// Where targets say that external axes stand, by target.
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by index in [`Script::instructions`]: they go before their targets.
@@ -163,6 +165,7 @@ impl Default for Script {
             guards: vec![Box::default()],
             named: Vec::new(),
             refused: Vec::new(),
+            own_frames: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),
             external_shifts: Vec::new(),

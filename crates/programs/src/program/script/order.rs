@@ -62,6 +62,10 @@ impl Script {
         for (target, _) in &mut self.refused {
             *target = new_ids[*target];
         }
+        self.own_frames.retain(|&(target, _)| kept[target]);
+        for (target, _) in &mut self.own_frames {
+            *target = new_ids[*target];
+        }
         self.externals.retain(|&(target, _)| kept[target]);
         for (target, _) in &mut self.externals {
             *target = new_ids[*target];
