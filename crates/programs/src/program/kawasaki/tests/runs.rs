@@ -89,6 +89,19 @@ fn a_number_that_a_call_gives_chooses_the_branch() {
 }
 
 #[test]
+fn a_parameter_is_the_name_that_the_call_gives_also_where_that_is_written() {
+    let program = read_two(
+        "HERE p[2]\nCALL go(p1)",
+        "go(.p)\nCALL inner(.p)\n.END\n.PROGRAM inner(.q)\nPOINT p1 = p[2]\nLMOVE .q",
+    );
+    assert!(
+        ids(&program).contains(&"run-time-position"),
+        "{:?}",
+        program.findings
+    );
+}
+
+#[test]
 fn what_a_program_writes_that_it_is_handed_is_no_constant() {
     let get = "get(.t)\nPOINT .t = p[2]";
     let pass = format!("pass(.o)\nCALL get(.o)\n.END\n.PROGRAM {get}");
