@@ -101,7 +101,7 @@ fn each_read(
                 each_variable(script, argument.value, lists, visit);
             }
         }
-        Statement::BranchUnless(at) => visit(script.conditions[at as usize].variable),
+        Statement::BranchUnless(at) => visit(script.conditions[at as usize].test.0),
         _ => {}
     }
 }

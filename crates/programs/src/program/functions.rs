@@ -2,6 +2,9 @@
 
 use super::quantity::Quantity;
 
+/// What sums and quotients of decimals are off at most.
+const OFF: f64 = 1e-9;
+
 /// The value of a function of this name, in any letters; nothing bounds that of another one.
 pub(super) fn value(name: &[u8], given: &[Quantity]) -> Quantity {
     let name = name.to_ascii_lowercase();
@@ -10,9 +13,11 @@ pub(super) fn value(name: &[u8], given: &[Quantity]) -> Quantity {
     match (name, given) {
         (b"abs", [of]) => absolute(of),
         (b"sqrt", [of]) => rising(of, f64::sqrt),
+        (b"floor" | b"int" | b"rounddown", [of]) => whole(of, f64::floor, f64::trunc),
+        (b"ceil" | b"roundup", [of]) => whole(of, f64::ceil, f64::ceil),
         // to whole numbers, or to decimals
         (b"round", [of, ..]) => near(of, 0.5),
-        (b"trunc" | b"floor" | b"ceil" | b"int" | b"fix", [of, ..]) => near(of, 1.0),
+        (b"trunc" | b"fix", [of, ..]) => near(of, 1.0),
         (b"min" | b"max", [_, ..]) => Quantity::any(given),
         (b"sin", [of]) => of_angle(of, f64::sin),
         (b"cos", [of]) => of_angle(of, f64::cos),
@@ -52,6 +57,18 @@ fn rising(of: &Quantity, function: fn(f64) -> f64) -> Quantity {
     }
 }
 
+/// Whole numbers between what these functions make of the ends.
+fn whole(of: &Quantity, least: fn(f64) -> f64, most: fn(f64) -> f64) -> Quantity {
+    match (of.exact(), of.ends()) {
+        (Some(whole), _) if whole.fract() == 0.0 => Quantity::exactly(whole),
+        (_, Some((a, b))) => {
+            let off = |of: f64, by: f64| if of.fract() == 0.0 { of } else { of + by };
+            Quantity::whole_between(least(off(a, -OFF)), most(off(b, OFF)))
+        }
+        _ => near(of, 1.0),
+    }
+}
+
 /// No farther from a number than this.
 fn near(of: &Quantity, by: f64) -> Quantity {
     match of.exact() {
@@ -81,6 +98,15 @@ mod tests {
         assert_eq!(of("SQRT", &[exactly(9.0)]).exact(), Some(3.0));
         assert_eq!(of("Round", &[exactly(7.0)]).exact(), Some(7.0));
         assert_eq!(of("trunc", &[exactly(7.5)]).ends(), Some((6.5, 8.5)));
+        // a third of 0 to 5 is 0 or 1
+        let third = Quantity::counted(0.0, 1.0 / 3.0, Some(5));
+        let expected = Quantity::counted(0.0, 1.0, Some(1));
+        assert_eq!(of("INT", std::slice::from_ref(&third)), expected);
+        assert_eq!(of("roundUp", &[third.clone()]).ends(), Some((0.0, 2.0)));
+        // downwards, or to zero
+        assert_eq!(of("int", &[third.times(-1.0)]).ends(), Some((-2.0, 0.0)));
+        let whole = Quantity::counted(0.0, 0.1, Some(10));
+        assert_eq!(of("roundDown", &[whole]).ends(), Some((0.0, 1.0)));
         assert_eq!(
             of("max", &[exactly(1.0), exactly(4.0)]).ends(),
             Some((1.0, 4.0))

@@ -210,6 +210,15 @@ impl Quantity {
 
     /// One step that is bounded at most, and one each way that is not.
     fn tidied(mut self) -> Self {
+        if let [first, others @ ..] = &mut self.steps[..]
+            && others.iter().all(|step| step.by == first.by)
+            && let Some(most) = others
+                .iter()
+                .try_fold(first.most, |sum, step| Some(sum?.checked_add(step.most?)))
+        {
+            first.most = most;
+            self.steps.truncate(1);
+        }
         let bounded = |step: &&Step| step.most.is_some();
         if self.steps.iter().filter(bounded).count() > 1 {
             let (mut bounded, mut endless) = (Self::exactly(self.first), Vec::new());
@@ -245,6 +254,20 @@ impl Quantity {
     pub(super) fn between(least: f64, most: f64) -> Self {
         let (near, far) = by_size(least, most);
         Self::counted(near, (far - near) / f64::from(SPAN), Some(SPAN))
+    }
+
+    /// Any whole number from one to another.
+    pub(super) fn whole_between(least: f64, most: f64) -> Self {
+        let (near, far) = by_size(least, most);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = (most - least).abs() as u32;
+        Self::counted(near, (far - near).signum(), Some(steps))
+    }
+
+    /// Whether it is a whole number, whatever it is.
+    fn is_whole(&self) -> bool {
+        let mut parts = self.steps.iter().map(|step| step.by).chain([self.first]);
+        self.unknown.is_none() && self.own == 0.0 && parts.all(|part| part.fract() == 0.0)
     }
 
     pub(super) fn by(self, other: Self) -> Self {
@@ -341,20 +364,39 @@ impl Quantity {
             _ if self.own != 0.0 => Self::endless(),
             Some(by) if by != 0.0 => {
                 let most = by.abs();
-                Self::between(if least < 0.0 { -most } else { 0.0 }, most)
+                let span = |most: f64| (if least < 0.0 { -most } else { 0.0 }, most);
+                if self.is_whole() && by.fract() == 0.0 && most < f64::from(SPAN) {
+                    let (least, most) = span(most - 1.0);
+                    Self::whole_between(least, most)
+                } else {
+                    let (least, most) = span(most);
+                    Self::between(least, most)
+                }
             }
             _ if self.is_endless() => Self::endless(),
             _ => Self::unknown(),
         }
     }
 
+    /// Whether the one number that another is is among those that steps of this lead to.
+    fn may_be(&self, other: &Self) -> bool {
+        let [step] = self.steps[..] else { return false };
+        let is_known = self.unknown.is_none() && self.own == 0.0;
+        let count = other.exact().map(|other| (other - self.first) / step.by);
+        count.filter(|_| is_known).is_some_and(|count| {
+            let most = step.most.map_or(f64::INFINITY, f64::from);
+            (count - count.round()).abs() < SAME && (0.0..=most).contains(&count.round())
+        })
+    }
+
     /// Any of several.
     pub(super) fn any(all: &[Self]) -> Self {
-        let [first, rest @ ..] = all else {
+        if all.is_empty() {
             return Self::unknown();
-        };
-        if rest.iter().all(|other| other == first) {
-            return first.clone();
+        }
+        let covers = |of: &&Self| all.iter().all(|one| *of == one || of.may_be(one));
+        if let Some(all_of_them) = all.iter().find(covers) {
+            return all_of_them.clone();
         }
         if all.iter().any(|one| one.own != 0.0) {
             return Self::endless();

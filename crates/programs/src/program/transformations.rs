@@ -3,8 +3,9 @@
 
 use super::displacing::Displacing;
 use super::notation::pose_of_turning_angles;
-use super::numbers::{Blocks, Numbers, Site, counted, rounds};
-use super::quantity::{Quantity, evaluate};
+use super::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, rounds};
+use super::quantity::{Arithmetic, Quantity, evaluate};
+use super::words::Words;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
 use foldhash::HashSet;
@@ -118,8 +119,8 @@ pub(super) type Of<'o> = dyn FnMut(u32) -> Quantity + 'o;
 /// How a language reads the texts that are written into numbers.
 pub(super) trait Reads<'a> {
     /// The value of an operand in an expression of a routine: a name with its index, a function
-    /// with its brackets.
-    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Quantity;
+    /// with its brackets; `None` of one that is none of the language alone.
+    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity>;
 
     /// One of the six numbers of the transformation that a text of a routine is.
     fn part(&self, text: &'a [u8], at: usize, routine: u32, of: &mut Of) -> Quantity;
@@ -129,8 +130,10 @@ pub(super) trait Reads<'a> {
         if text.trim_ascii().is_empty() {
             return Quantity::exactly(0.0);
         }
-        let value = evaluate(text, &mut |operand| self.operand(operand, routine, of));
-        value.unwrap_or_else(Quantity::endless)
+        evaluated(Arithmetic::Real, text, &mut |operand| {
+            let (Operand::Name(operand) | Operand::Other(operand)) = operand;
+            self.operand(operand, routine, of)
+        })
     }
 }
 
@@ -212,6 +215,12 @@ impl<'a> Entries<'a> {
         }
     }
 
+    /// Whether nothing but calls writes a number.
+    pub(super) fn is_only_given(&self, number: u32) -> bool {
+        let is_counted = self.counters.iter().any(|(counter, _)| *counter == number);
+        !is_counted && !self.assigned.contains(&number)
+    }
+
     /// The program jumps.
     pub(super) fn jumps(&mut self) {
         self.numbers.jumps(self.routine);
@@ -239,8 +248,19 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// A loop begins that counts.
-    pub(super) fn count(&mut self, counter: u32, of: [&'a [u8]; 3]) {
+    /// A loop begins that counts: `1 TO 10 STEP 2` with its counter; `None` where it is not known.
+    pub(super) fn count(&mut self, counter: Option<u32>, words: Words<'a, '_>) {
+        let to = words.find(b"TO");
+        let (Some(counter), Some(to)) = (counter, to) else {
+            return self.blocks.open(None);
+        };
+        let step = words.find(b"STEP").filter(|step| *step > to);
+        let end = step.unwrap_or(words.len());
+        let of = [
+            words.part(0..to).whole(),
+            words.part(to + 1..end).whole(),
+            words.behind(end + 1).whole(),
+        ];
         let written = (Written::Counted(of), self.routine);
         let site = self.blocks.site();
         self.numbers.write(counter, written, Some(site));

@@ -1,8 +1,11 @@
 //! Words of statements: names, numbers, texts and signs, and lists of them in brackets.
 
-use super::script::short;
+use super::script::{Wanted, short};
 use super::{Number, number};
 use std::ops::Range;
+
+/// Whole numbers are below this, so that each has its own value.
+const MOST_WHOLE: f64 = 1e15;
 
 /// What a word is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -249,6 +252,33 @@ impl<'a> Words<'a, '_> {
         Some(if is_negative { -value } else { value })
     }
 
+    /// The whole number that these words are, with its sign.
+    pub(super) fn whole_number(&self) -> Option<i64> {
+        let value = self.value()?;
+        #[allow(clippy::cast_possible_truncation)]
+        let whole = value as i64;
+        (value.fract() == 0.0 && value.abs() < MOST_WHOLE).then_some(whole)
+    }
+
+    /// What these words compare with a whole number, `n==1`, `(n<>1)`, and what it is to be.
+    pub(super) fn compared(&self) -> Option<(Self, Wanted)> {
+        if self.is(0, b'(') && self.closing(0) + 1 == self.len() {
+            return self.inside(0).0.compared();
+        }
+        let is_sign = |at: &usize| matches!(self.kind(*at), Some(Kind::Sign(b'~' | b'<')));
+        let at = (0..self.len()).find(is_sign)?;
+        let (wanted, behind): (fn(i64) -> Wanted, usize) = match self.text(at) {
+            b"==" => (Wanted::Number, at + 1),
+            b"!=" => (Wanted::NotNumber, at + 1),
+            _ if self.is(at, b'<') && self.is(at + 1, b'>') => (Wanted::NotNumber, at + 2),
+            _ => return None,
+        };
+        Some((
+            self.part(0..at),
+            wanted(self.behind(behind).whole_number()?),
+        ))
+    }
+
     /// The number that these words are; `None` also where blanks stand behind its sign.
     pub(super) fn number(&self) -> Option<Number> {
         self.is_number()?;
@@ -390,6 +420,28 @@ mod tests {
             assert_eq!((number.start, number.length), (18, 4));
             assert!(words.is(18, b'~'));
         });
+    }
+
+    #[test]
+    fn comparisons_are_of_all_words_with_one_number() {
+        for (text, expected) in [
+            (".n==2", Some((".n", Wanted::Number(2)))),
+            ("(n <> -1)", Some(("n", Wanted::NotNumber(-1)))),
+            ("n!=1.0", Some(("n", Wanted::NotNumber(1)))),
+            ("NOT n==1", Some(("NOT n", Wanted::Number(1)))),
+            ("n==1.5", None),
+            ("n==1 AND m==2", None),
+            ("n<1", None),
+            ("n>=1", None),
+            ("n==m", None),
+        ] {
+            with_words(text, |words| {
+                let found = words.compared();
+                let found = found.map(|(name, wanted)| (name.whole().to_vec(), wanted));
+                let expected = expected.map(|(name, wanted)| (name.as_bytes().to_vec(), wanted));
+                assert_eq!(found, expected, "{text}");
+            });
+        }
     }
 
     #[test]

@@ -142,6 +142,9 @@ pub(super) struct Flow<'a> {
     made_records: HashMap<Content, ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
+    /// Of variables of no routine the parameters that calls give them for by reference, also through
+    /// others.
+    aliases: HashMap<VariableId, Vec<VariableId>>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -214,6 +217,7 @@ impl<'a> Flow<'a> {
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
             reads: Vec::new(),
+            aliases: HashMap::new(),
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),
@@ -247,6 +251,7 @@ impl<'a> Flow<'a> {
         flow.track();
         flow.find_idle();
         flow.find_changing();
+        flow.find_aliases();
         for _ in 0..MOST_ROUNDS {
             let before = (
                 flow.started.clone(),

@@ -8,7 +8,7 @@ use crate::motion::before::{ANYWHERE, Stop};
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
     Argument, Call, Condition, Expected, Expr, Held, Label, ModalId, RoutineId, Statement,
-    VariableId, short,
+    VariableId, Wanted, short,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -419,14 +419,17 @@ impl<'a> Flow<'a> {
     /// Whether a variable may hold what a branch depends on, and whether it may hold something
     /// else; both where nothing is known of it, and in text that nothing reaches.
     fn may_be(&self, state: &State, condition: Condition) -> (bool, bool) {
-        let held = match self.slots[condition.variable as usize] {
+        let (variable, wanted) = condition.test;
+        let held = match self.slots[variable as usize] {
             Some(slot) => state.holds[slot as usize],
-            None => self.fixed[condition.variable as usize],
+            None => self.fixed[variable as usize],
         };
         let atoms = self.holdings.of(held);
-        let flag = |atom: &Atom| match atom {
-            Atom::Value(value) => match self.value(*value) {
-                Held::Flag(flag) => Some(*flag == condition.wanted),
+        let holds = |atom: &Atom| match atom {
+            Atom::Value(value) => match (self.value(*value), wanted) {
+                (Held::Flag(flag), Wanted::Flag(wanted)) => Some(*flag == wanted),
+                (Held::Number(number), Wanted::Number(wanted)) => Some(*number == wanted),
+                (Held::Number(number), Wanted::NotNumber(other)) => Some(*number != other),
                 _ => None,
             },
             _ => None,
@@ -434,7 +437,7 @@ impl<'a> Flow<'a> {
         let may = |is: bool| {
             atoms.is_empty() || self.dead.is_some() || {
                 let mut all = atoms.iter();
-                all.any(|(atom, _)| flag(atom).is_none_or(|flag| flag == is))
+                all.any(|(atom, _)| holds(atom).is_none_or(|holds| holds == is))
             }
         };
         (may(true), may(false))

@@ -2,7 +2,7 @@
 
 use super::{Refused, Resolver};
 use crate::motion::holding::Atom;
-use crate::program::script::{Held, NOT_DISPLACED, NamedFrame, Place, ValueId};
+use crate::program::script::{Expr, Held, NOT_DISPLACED, NamedFrame, Place, ValueId};
 use crate::program::{Frame, FrameId, Load, ReadError, TargetId, Tool, ToolId, Value as Meaning};
 
 impl Resolver<'_, '_> {
@@ -108,6 +108,20 @@ impl Resolver<'_, '_> {
         });
         self.tools.insert((atom, load), made);
         Ok(made)
+    }
+
+    /// The work frames that targets have of their own.
+    pub(super) fn find_own_frames(&mut self) -> Result<(), ReadError> {
+        for &(target, frame) in &self.script.own_frames {
+            let atom = match frame {
+                Expr::Value(value) => Atom::Value(value),
+                Expr::Unknown(remark) => Atom::Unknown(remark),
+                _ => Atom::Anything,
+            };
+            let frame = self.frame(atom)?;
+            self.own_frames.insert(target, frame);
+        }
+        Ok(())
     }
 
     pub(super) fn frame(&mut self, atom: Atom) -> Result<Result<FrameId, Refused>, ReadError> {

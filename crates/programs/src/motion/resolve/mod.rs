@@ -55,6 +55,7 @@ pub(super) fn resolve(
         report: Report::new(sources, &mut program),
         tools: HashMap::new(),
         frames: HashMap::new(),
+        own_frames: HashMap::new(),
         used: Vec::new(),
         as_written: Vec::new(),
         changed: Vec::new(),
@@ -66,6 +67,7 @@ pub(super) fn resolve(
     };
     resolver.used = vec![false; resolver.report.program.targets.len()];
     resolver.as_written.clone_from(&resolver.used);
+    resolver.find_own_frames()?;
     resolver.list()?;
     resolver.link();
     resolver.judge_uncertain();
@@ -102,6 +104,8 @@ struct Resolver<'a, 'p> {
     report: Report<'a, 'p>,
     tools: HashMap<(Atom, Option<ValueId>), Result<ToolId, Refused>>,
     frames: HashMap<Atom, Result<FrameId, Refused>>,
+    /// Those that targets have of their own.
+    own_frames: HashMap<TargetId, Result<FrameId, Refused>>,
     /// Targets that moves go to.
     used: Vec<bool>,
     /// Those of them whose numbers in the file a move goes to.
@@ -175,6 +179,7 @@ impl Resolver<'_, '_> {
             guards,
             external_state,
             near: Vec::new(),
+            is_one_of: false,
         };
         match reached.target {
             None => self.fixed(instruction.target, instruction.displacement, &mut listed),
@@ -184,9 +189,7 @@ impl Resolver<'_, '_> {
                     // nothing that runs before writes it
                     self.computed(instruction.place);
                 }
-                for (atom, site) in self.atoms(held) {
-                    self.go_to(atom, Some(site), instruction.displacement, &mut listed);
-                }
+                self.go_to_each(held, instruction.displacement, &mut listed);
             }
         }
         Ok(())
@@ -382,6 +385,8 @@ struct Listed<'a> {
     external_state: u32,
     /// Targets that the move goes near: once for all that only the running program knows.
     near: Vec<TargetId>,
+    /// It may go to targets of the files, and to something else.
+    is_one_of: bool,
 }
 
 /// External axes are shifted by one of several offsets.

@@ -3,7 +3,7 @@
 use super::{Listed, MOST_USES, Refused, Resolver};
 use crate::finding::Severity;
 use crate::motion::flow::OF_MOVE;
-use crate::motion::holding::{Atom, Site};
+use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, ValueId};
 use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
 
@@ -16,9 +16,7 @@ impl Resolver<'_, '_> {
             Expr::Absent | Expr::Element { .. } => self.go_nowhere(listed),
             Expr::Variable(variable) => {
                 let held = self.flow.chosen_at(listed.stop, variable);
-                for (atom, site) in self.atoms(held) {
-                    self.go_to(atom, Some(site), displacement, listed);
-                }
+                self.go_to_each(held, displacement, listed);
             }
             Expr::Target(target) => self.go_target(target, displacement, listed),
             Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
@@ -62,13 +60,17 @@ impl Resolver<'_, '_> {
             .say("too-many-uses", severity, place, message, hint);
     }
 
-    pub(super) fn go_to(
-        &mut self,
-        atom: Atom,
-        site: Option<Site>,
-        displacement: u32,
-        listed: &mut Listed,
-    ) {
+    /// Lists the moves to all that a variable may hold.
+    pub(super) fn go_to_each(&mut self, held: Holding, displacement: u32, listed: &mut Listed) {
+        let atoms = self.atoms(held);
+        let is_target = |(atom, _): &(Atom, Site)| matches!(atom, Atom::Target { .. });
+        listed.is_one_of = atoms.iter().any(is_target);
+        for (atom, site) in atoms {
+            self.go_to(atom, Some(site), displacement, listed);
+        }
+    }
+
+    fn go_to(&mut self, atom: Atom, site: Option<Site>, displacement: u32, listed: &mut Listed) {
         let script = self.script;
         match atom {
             Atom::Target {
@@ -102,7 +104,12 @@ impl Resolver<'_, '_> {
             }
             Atom::Unknown(remark) => {
                 let remark = &script.remarks[remark as usize];
-                self.report.say_once(remark, listed.instruction.place);
+                let place = listed.instruction.place;
+                if remark.id == "computed-target" && listed.is_one_of {
+                    self.computed_too(place, remark.hint);
+                } else {
+                    self.report.say_once(remark, place);
+                }
                 self.go_nowhere(listed);
             }
             Atom::Anything => {
@@ -131,6 +138,15 @@ impl Resolver<'_, '_> {
         let message = "the position that this move goes to is known at run time only; the move \
             stays as it is";
         let hint = "write the position with numbers where it must be exact";
+        let severity = Severity::Warning;
+        self.report
+            .say("computed-target", severity, place, message.into(), hint);
+    }
+
+    /// Likewise of a move that may go to targets of the files, too.
+    fn computed_too(&mut self, place: Place, hint: &str) {
+        let message = "this move goes to targets of the files, or to a position that is known at \
+            run time only: to that it stays as it is";
         let severity = Severity::Warning;
         self.report
             .say("computed-target", severity, place, message.into(), hint);
@@ -181,8 +197,17 @@ impl Resolver<'_, '_> {
                 self.refuse(target, why, site, what, listed.instruction);
             }
         }
+        let own = self.own_frames.get(&target).copied();
+        let own = own.map(|frame| {
+            let known = frame.unwrap_or_else(|why| {
+                self.refuse(target, why, DECLARED, "work frame", listed.instruction);
+                self.unknown_frame()
+            });
+            [(known, DECLARED)]
+        });
+        let frames = own.as_ref().map_or(&choices.frames[..], |own| own);
         for &(tool, tool_site) in &choices.tools {
-            for &(frame, frame_site) in &choices.frames {
+            for &(frame, frame_site) in frames {
                 let tool = (tool, self.written(tool_site, listed.instruction));
                 let frame = (frame, self.written(frame_site, listed.instruction));
                 for &configured in &choices.configured {

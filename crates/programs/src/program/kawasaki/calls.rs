@@ -6,7 +6,7 @@ use super::remarks::{COMPUTED, taken_apart};
 use super::sections::Statement;
 use super::targets::Name;
 use crate::program::Source;
-use crate::program::script::{Argument, Call, RoutineId, Start, VariableId};
+use crate::program::script::{Argument, Call, Expr, Held, RoutineId, Start, VariableId};
 use crate::program::words::{Kind, Words, unquoted};
 
 /// A name that a program hands to another, which may write it.
@@ -42,6 +42,11 @@ impl Handed {
 pub(super) fn stem_of(parameter: &[u8], given: &Name) -> Vec<u8> {
     let sign: &[u8] = if given.is_joints() { b"#" } else { b"" };
     [sign, parameter].concat()
+}
+
+/// What a parameter is called as a number: no text has such a name.
+fn as_number(parameter: &[u8]) -> Vec<u8> {
+    [b".=", parameter].concat()
 }
 
 /// Which programs only the running program may choose among.
@@ -241,6 +246,14 @@ impl<'a> Reader<'a> {
         callees: &[RoutineId],
         arguments: &mut Vec<Argument>,
     ) {
+        if let Some(value) = self.number_given(given) {
+            for &callee in callees {
+                if let Some(own) = self.parameters[callee as usize].get(number) {
+                    let own = self.parameter(callee, as_number(own), Vec::new());
+                    arguments.push(Argument::new(Some(own), value, None));
+                }
+            }
+        }
         let name = Name::of(given).filter(|(_, words)| *words == given.len());
         let Some((name, _)) = name.filter(|(name, _)| self.is_known(name)) else {
             return;
@@ -275,6 +288,23 @@ impl<'a> Reader<'a> {
                 arguments.push(Argument::new(Some(parameter), value, value.variable()));
             }
         }
+    }
+
+    /// The number that a call gives; `None` where the text does not tell it.
+    fn number_given(&mut self, given: Words<'a, '_>) -> Option<Expr> {
+        if let Some(number) = given.whole_number() {
+            return Some(self.builder.script.held(Held::Number(number)));
+        }
+        self.given_number(given).map(Expr::Variable)
+    }
+
+    /// The parameter that words are where nothing but calls writes it as a number.
+    pub(super) fn given_number(&mut self, words: Words) -> Option<VariableId> {
+        let routine = self.here.routine;
+        let (name, _) = Name::of(words).filter(|(_, count)| *count == 1 && words.len() == 1)?;
+        let is_own = self.parameters[routine as usize].contains(&name.stem);
+        let is_only_given = is_own && self.is_only_given(routine, &name.stem);
+        is_only_given.then(|| self.parameter(routine, as_number(&name.stem), Vec::new()))
     }
 
     /// The variable of a program's parameter, or of an element of it.

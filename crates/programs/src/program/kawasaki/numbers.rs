@@ -105,6 +105,13 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// Whether nothing but calls writes a parameter of a program.
+    pub(super) fn is_only_given(&self, routine: RoutineId, stem: &[u8]) -> bool {
+        let known = self.known();
+        let number = known.names.get(&(Some(routine), stem.to_vec()));
+        number.is_none_or(|number| known.entries.is_only_given(*number))
+    }
+
     fn number_of(&self, name: &Name, routine: RoutineId, known: &mut Known) -> u32 {
         known.number((self.owner_in(name, routine), name.stem.clone()))
     }
@@ -143,30 +150,10 @@ impl<'a> Reader<'a> {
 
     /// `FOR i = 1 TO 10 STEP 2`
     fn tell_loop(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
-        let to = part.find(b"TO");
         let name = Name::of(part).filter(|(_, words)| part.is(*words, b'='));
-        let (Some((name, words)), Some(to)) = (name, to) else {
-            return known.entries.blocks.open(None);
-        };
-        let step = part.find(b"STEP");
-        let end = step.unwrap_or(part.len());
-        let text = |range: std::ops::Range<usize>| {
-            let is_there = range.start <= range.end;
-            let words = if is_there {
-                part.part(range)
-            } else {
-                part.part(0..0)
-            };
-            words.whole()
-        };
-        let behind = step.map_or(part.len(), |at| at + 1);
-        let texts = [
-            text(words + 1..to),
-            text(to + 1..end),
-            text(behind..part.len()),
-        ];
-        let counter = self.number_of(&name, routine, known);
-        known.entries.count(counter, texts);
+        let range = part.behind(name.as_ref().map_or(0, |(_, words)| words + 1));
+        let counter = name.map(|(name, _)| self.number_of(&name, routine, known));
+        known.entries.count(counter, range);
     }
 
     /// `POINT p = …`, `POINT/Z p = …`
@@ -410,23 +397,20 @@ impl<'a> Reader<'a> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
-    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Quantity {
+    fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity> {
         let is_in_name = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | 128..);
         let end = operand.iter().take_while(|b| is_in_name(b)).count();
         let (name, behind) = operand.split_at(end);
         let stem = name.to_ascii_lowercase();
         match behind.trim_ascii_start() {
-            [] if stem == b"pi" => Quantity::exactly(std::f64::consts::PI),
+            [] if stem == b"pi" => Some(Quantity::exactly(std::f64::consts::PI)),
             [] | [b'[', .., b']'] => {
                 let name = Name { stem, key: None };
                 let owner = self.owner_in(&name, routine);
-                match self.known().names.get(&(owner, name.stem)) {
-                    Some(number) => of(*number),
-                    None => Quantity::unknown(),
-                }
+                let number = self.known().names.get(&(owner, name.stem));
+                Some(number.map_or_else(Quantity::unknown, |number| of(*number)))
             }
-            _ if INPUTS.contains(&&stem[..]) => Quantity::unknown(),
-            _ => Quantity::endless(),
+            _ => INPUTS.contains(&&stem[..]).then(Quantity::unknown),
         }
     }
 

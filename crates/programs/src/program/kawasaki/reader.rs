@@ -15,7 +15,7 @@ use crate::geometry::units::m_from_mm;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, RoutineId, Script, Start, UNBOUNDED, ValueId, Variable,
+    Builder, Expr, Held, How, Place, RoutineId, Script, Start, Test, UNBOUNDED, ValueId, Variable,
     VariableId, Written, short,
 };
 use crate::program::words::Words;
@@ -314,12 +314,30 @@ impl<'a> Reader<'a> {
         let part = statement.words;
         let has = |word: &[u8]| part.find(word).is_some();
         match statement.keyword {
-            "IF" if has(b"THEN") => self.builder.begin_if(None),
+            "IF" if has(b"THEN") => {
+                let test = self.test(part);
+                self.builder.begin_if(test);
+            }
             "IF" => self.jump(part, true),
-            "ELSEIF" | "VALUE" | "SVALUE" => self.builder.next_branch(false),
+            "ELSEIF" => {
+                self.builder.next_branch(true);
+                let test = self.test(part);
+                self.builder.pass_branch(test);
+            }
+            "VALUE" => {
+                self.builder.next_branch(true);
+                let number = part.behind(1).before(b':').whole_number();
+                self.builder.pass_case(number);
+            }
+            "SVALUE" => self.builder.next_branch(false),
             "ELse" => self.builder.next_branch(true),
             "ANY" if part.len() == 1 || part.is(1, b':') => self.builder.next_branch(true),
-            "CASE" | "SCASE" => self.builder.begin_choice(),
+            "CASE" => {
+                let of = part.find(b"OF").unwrap_or(part.len());
+                let of = self.given_number(part.part(1..of.max(1)));
+                self.builder.begin_switch(of);
+            }
+            "SCASE" => self.builder.begin_choice(),
             "WHile" | "FOR" => self.builder.begin_loop(true),
             "DO" => self.builder.begin_loop(false),
             "ENd" | "UNtil" => self.builder.end_block(),
@@ -330,6 +348,13 @@ impl<'a> Reader<'a> {
         }
         self.here.last = None;
         true
+    }
+
+    /// What `IF .n==1 THEN` asks of a number that calls give.
+    fn test(&mut self, part: Words) -> Option<Test> {
+        let end = part.find(b"THEN").unwrap_or(part.len());
+        let (name, wanted) = part.part(1..end.max(1)).compared()?;
+        Some((self.given_number(name)?, wanted))
     }
 
     /// `GOTO label`

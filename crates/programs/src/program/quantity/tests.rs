@@ -43,7 +43,9 @@ fn what_is_counted_has_ends() {
         ("i*i", (0.0, 81.0)),
         ("i*40-i*10", (-90.0, 360.0)),
         ("40/(i+1)", (4.0, 40.0)),
-        ("(i MOD 4)*10", (0.0, 40.0)),
+        ("(i MOD 4)*10", (0.0, 30.0)),
+        ("(-i) % 3", (-2.0, 2.0)),
+        ("(i*0.5) MOD 4", (0.0, 4.0)),
         ("i div 4", (0.0, 2.25)),
     ] {
         let found = ends(text).expect(text);
@@ -110,4 +112,21 @@ fn any_of_several_is_between_the_ends() {
     assert_eq!(any(&[3.0, 1.0, 2.0]).ends(), Some((1.0, 3.0)));
     let with = Quantity::any(&[Quantity::exactly(7.0), Quantity::unknown()]);
     assert!(with.unknown.is_some() && with.known_ends() == Some((0.0, 7.0)));
+}
+
+#[test]
+fn what_a_counter_comes_to_anyway_makes_no_other_of_it() {
+    let counter = Quantity::counted(0.0, 1.0, Some(7));
+    let any = |others: &[f64]| {
+        let others = others.iter().map(|other| Quantity::exactly(*other));
+        let all: Vec<_> = others.chain([counter.clone()]).collect();
+        Quantity::any(&all)
+    };
+    assert_eq!(any(&[]), counter);
+    assert_eq!(any(&[0.0, 7.0]), counter);
+    for other in [8.0, 0.5, -1.0] {
+        assert_ne!(any(&[other]), counter, "{other}");
+    }
+    let beyond = counter.clone().plus(Quantity::counted(0.0, 1.0, Some(1)));
+    assert_eq!(beyond, Quantity::counted(0.0, 1.0, Some(8)));
 }

@@ -10,7 +10,7 @@ use super::syntax::{StatementKind, Storage, Type};
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
-    TableId, ValueId, Variable, VariableId, Written,
+    TableId, ValueId, Variable, VariableId, Wanted, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -275,7 +275,7 @@ impl Translator<'_> {
             StatementKind::If(asked) => {
                 let condition = asked.and_then(|(name, wanted)| {
                     let routine = self.context.routine?;
-                    Some((self.presence(routine, name)?, wanted))
+                    Some((self.presence(routine, name)?, Wanted::Flag(wanted)))
                 });
                 self.builder.begin_if(condition);
             }

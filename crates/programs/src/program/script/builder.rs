@@ -2,7 +2,7 @@
 
 use super::{
     Call, Condition, How, Instruction, Label, Loop, Modal, Place, Routine, RoutineId, Script,
-    Start, Statement, VariableId, Write, Written, short,
+    Start, Statement, Test, VariableId, Wanted, Write, Written, short,
 };
 use crate::program::Displacement;
 use foldhash::HashMap;
@@ -30,8 +30,8 @@ enum Block {
         /// Where the next branch begins.
         next: Option<Label>,
         end: Label,
-        /// It was begun by [`Builder::begin_choice`].
-        is_switch: bool,
+        /// Begun by [`Builder::begin_switch`], and of what.
+        switch: Option<Option<VariableId>>,
     },
     Loop {
         top: Label,
@@ -167,39 +167,40 @@ impl Builder {
         self.script.statements.push(Statement::Branch(label));
     }
 
-    fn branch_unless(&mut self, condition: Option<(VariableId, bool)>, otherwise: Label) {
-        let Some((variable, wanted)) = condition else {
+    fn branch_unless(&mut self, test: Option<Test>, otherwise: Label) {
+        let Some(test) = test else {
             return self.branch(otherwise);
         };
         let at = short(self.script.conditions.len());
-        self.script.conditions.push(Condition {
-            variable,
-            wanted,
-            otherwise,
-        });
+        self.script.conditions.push(Condition { test, otherwise });
         self.script.statements.push(Statement::BranchUnless(at));
     }
 
     /// `IF … THEN`: the statements that follow may be passed over; where a variable tells, they are
-    /// run as it holds the flag `wanted`.
-    pub fn begin_if(&mut self, condition: Option<(VariableId, bool)>) {
+    /// run as it does.
+    pub fn begin_if(&mut self, test: Option<Test>) {
         let (next, end) = (self.new_label(), self.new_label());
-        self.branch_unless(condition, next);
+        self.branch_unless(test, next);
         self.open.push(Block::Choice {
             next: Some(next),
             end,
-            is_switch: false,
+            switch: None,
         });
     }
 
     /// `TEST`, `SWITCH`: statements follow in branches, each begun by [`Self::next_branch`].
     pub fn begin_choice(&mut self) {
+        self.begin_switch(None);
+    }
+
+    /// Likewise, of what a variable holds; each has its [`Self::pass_case`].
+    pub fn begin_switch(&mut self, of: Option<VariableId>) {
         let (next, end) = (self.new_label(), self.new_label());
         self.jump(next);
         self.open.push(Block::Choice {
             next: Some(next),
             end,
-            is_switch: true,
+            switch: Some(of),
         });
     }
 
@@ -214,18 +215,27 @@ impl Builder {
             self.put(before);
         }
         if !is_last {
-            self.pass_branch();
+            self.pass_branch(None);
         }
     }
 
     /// What follows in the last branch may be passed over, unlike what stands before in it: the
     /// calls of its condition.
-    pub fn pass_branch(&mut self) {
+    pub fn pass_branch(&mut self, test: Option<Test>) {
         let following = self.new_label();
-        self.branch(following);
+        self.branch_unless(test, following);
         if let Some(Block::Choice { next, .. }) = self.open.last_mut() {
             *next = Some(following);
         }
+    }
+
+    /// Likewise of a `CASE` of this number.
+    pub fn pass_case(&mut self, number: Option<i64>) {
+        let of = match self.open.last() {
+            Some(Block::Choice { switch, .. }) => switch.flatten(),
+            _ => None,
+        };
+        self.pass_branch(of.zip(number.map(Wanted::Number)));
     }
 
     /// `ENDIF`, `ENDTEST`, `ENDSWITCH`.
@@ -318,7 +328,7 @@ impl Builder {
     pub fn leave_block(&mut self) {
         let end = self.open.iter().rev().find_map(|block| match block {
             Block::Loop { end, .. } => Some(*end),
-            Block::Choice { end, is_switch, .. } => is_switch.then_some(*end),
+            Block::Choice { end, switch, .. } => switch.map(|_| *end),
         });
         if let Some(end) = end {
             self.jump(end);

@@ -14,7 +14,7 @@ mod statement;
 pub use builder::Builder;
 pub use statement::{
     Argument, Call, Condition, Expected, How, Instruction, Loop, Modal, Routine, Span, Start,
-    Statement, Turn, Write, Written,
+    Statement, Test, Turn, Wanted, Write, Written,
 };
 
 use super::{Displacement, External, Load, Number, Source, Stride, Target, TargetId};
@@ -116,6 +116,8 @@ pub struct Script {
     pub offsets: Vec<TargetId>,
     /// What speaks against targets themselves, should a move go to them.
     pub refused: Vec<(TargetId, RemarkId)>,
+    /// The work frames of targets that have one of their own, whatever moves go to them.
+    pub own_frames: Vec<(TargetId, Expr)>,
     /// Where targets say that external axes stand, by target.
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by index in [`Script::instructions`]: they go before their targets.
@@ -167,6 +169,7 @@ impl Default for Script {
             named: Vec::new(),
             offsets: Vec::new(),
             refused: Vec::new(),
+            own_frames: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),
             external_shifts: Vec::new(),

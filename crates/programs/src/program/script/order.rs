@@ -66,6 +66,10 @@ impl Script {
         for target in &mut self.offsets {
             *target = new_ids[*target];
         }
+        self.own_frames.retain(|&(target, _)| kept[target]);
+        for (target, _) in &mut self.own_frames {
+            *target = new_ids[*target];
+        }
         self.externals.retain(|&(target, _)| kept[target]);
         for (target, _) in &mut self.externals {
             *target = new_ids[*target];

@@ -77,12 +77,24 @@ pub struct Loop {
 /// What a branch depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// It holds a [`Held::Flag`](super::Held::Flag), or what only the running program knows.
-    pub variable: VariableId,
-    /// The next statement follows where the variable holds this, …
-    pub wanted: bool,
-    /// … else the one here.
+    /// Its variable may hold what only the running program knows.
+    pub test: Test,
+    /// The next statement follows where that holds, else the one here.
     pub otherwise: Label,
+}
+
+/// A variable, and what it is to hold.
+pub type Test = (VariableId, Wanted);
+
+/// What a variable is to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// This [`Held::Flag`](super::Held::Flag).
+    Flag(bool),
+    /// This [`Held::Number`](super::Held::Number).
+    Number(i64),
+    /// Another one.
+    NotNumber(i64),
 }
 
 /// A range of bytes of the file of its instruction; empty where there is none.

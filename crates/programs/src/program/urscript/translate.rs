@@ -365,7 +365,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Event::If => builder.begin_if(None),
                 Event::Switch | Event::Never => builder.begin_choice(),
                 Event::Branch { is_last } => builder.next_branch(is_last),
-                Event::ElseIf => builder.pass_branch(),
+                Event::ElseIf => builder.pass_branch(None),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
                 Event::Condition => {

@@ -13,7 +13,7 @@ use crate::program::script::{
 };
 use crate::program::transformations::Steps;
 use crate::program::words::Words;
-use crate::program::{Displacement, Shift, Source};
+use crate::program::{Displacement, Shape, Shift, Source};
 
 /// A `compose` of the code.
 #[derive(Debug)]
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         let script = &self.builder.script;
         match script.variables[variable as usize].declared {
             Expr::Target(target) => {
-                let is_point = script.targets[target].layout.shape == crate::program::Shape::Pose;
+                let is_point = script.targets[target].layout.shape == Shape::Pose;
                 let father = self.variables.father_of.get(target);
                 father.filter(|_| is_point).copied()
             }
@@ -225,17 +225,15 @@ impl<'a> Reader<'a> {
         found
     }
 
-    /// The work frame of those points.
-    pub(super) fn frame_of(&mut self, position: Expr) -> Expr {
-        let mut found = None;
-        for father in self.fathers(position) {
-            let frame = self.frame(father);
-            if found.is_some_and(|other| other != frame) {
-                return self.unknown(FRAME_CHOSEN);
+    /// The work frames of all points that the programs name: a copy of a point is in its frame, too.
+    pub(super) fn frame_points(&mut self) {
+        for target in self.variables.named() {
+            let father = self.variables.father_of[target];
+            if self.builder.script.targets[target].layout.shape == Shape::Pose {
+                let frame = self.frame(father);
+                self.builder.script.own_frames.push((target, frame));
             }
-            found = Some(frame);
         }
-        found.unwrap_or(Expr::Absent)
     }
 
     /// Tools and frames that several projects ask for by one name, and do not mean the same, have

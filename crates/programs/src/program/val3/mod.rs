@@ -68,8 +68,7 @@ static ABOUT: About = About {
     ],
     refuses: &[
         "projects in inches (millimeterUnit=\"false\"), points of arms with four axes",
-        "frames that the running program changes, tools that only it knows, points of one array in \
-         different frames",
+        "frames that the running program changes, tools that only it knows",
         "points that are not in the files: local values, libraries that are not given",
     ],
     has: "Project, Database or Programs of VAL 3",

@@ -113,16 +113,11 @@ impl<'a> Reader<'a> {
             .map_or(somehow, |known| known.speed_zone)
     }
 
-    /// The script: moves get the frames of their points once all copies are known.
+    /// The script, once all copies are known.
     pub(super) fn finish(mut self) -> Script {
         self.settle_composed();
         self.refuse_arrays();
-        for at in 0..self.builder.script.instructions.len() {
-            let frame = self.frame_of(self.builder.script.instructions[at].target);
-            let script = &mut self.builder.script;
-            let of = script.modals[script.instructions[at].modal as usize];
-            script.instructions[at].modal = script.modal(Modal { frame, ..of });
-        }
+        self.frame_points();
         self.tell_apart();
         self.builder.finish()
     }

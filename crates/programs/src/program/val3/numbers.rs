@@ -5,7 +5,8 @@ use super::data::{Kind, POSE};
 use super::reader::{Reader, functions, written_argument};
 use super::targets::{Known, Of};
 use crate::program::notation::turned_by;
-use crate::program::quantity::{Quantity, evaluate};
+use crate::program::numbers::{Operand, evaluated};
+use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::{RoutineId, short};
 use crate::program::transformations::{EACH, Of as Value, Reads, Steps, Written, exactly};
 use crate::program::words::Words;
@@ -125,19 +126,8 @@ impl<'a> Reader<'a> {
     fn tell_loop(&mut self, line: Words<'a, '_>) {
         let counter = Reference::of(line).filter(|name| line.is(name.words, b'='));
         let number = counter.and_then(|name| self.number(&name, self.here.routine));
-        let to = line.find(b"to");
-        let (Some(counter), Some(number), Some(to)) = (counter, number, to) else {
-            return self.entries.blocks.open(None);
-        };
-        let step = line.find(b"step").filter(|step| *step > to);
-        let end = step.unwrap_or(line.len());
-        let from = (counter.words + 1).min(to);
-        let texts = [
-            line.part(from..to).whole(),
-            line.part(to + 1..end).whole(),
-            line.behind(step.map_or(end, |step| step + 1)).whole(),
-        ];
-        self.entries.count(number, texts);
+        let range = line.behind(counter.map_or(0, |name| name.words + 1));
+        self.entries.count(number, range);
     }
 
     /// An argument of a call.
@@ -273,8 +263,8 @@ impl<'a> Reader<'a> {
     ) -> Option<(Vec<u8>, Quantity)> {
         let (mut term, mut is_one) = (None, true);
         let routine = self.here.routine;
-        let value = evaluate(value, &mut |operand| {
-            let operand = operand.trim_ascii();
+        let value = evaluated(Arithmetic::Real, value, &mut |operand| {
+            let (Operand::Name(operand) | Operand::Other(operand)) = operand;
             let text = letters(operand);
             if memchr::memmem::find(&text, b".trsf.").is_none() {
                 let of = &mut |number| self.value(number);
@@ -282,8 +272,8 @@ impl<'a> Reader<'a> {
             }
             is_one &= term.is_none();
             term = Some(text);
-            Quantity::own()
-        })?;
+            Some(Quantity::own())
+        });
         let (count, rest) = value.apart();
         let term = term.filter(|_| is_one && count == 1.0)?;
         Some((term, rest))
@@ -309,7 +299,7 @@ pub(super) fn axis(field: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
-    fn operand(&self, operand: &[u8], routine: u32, of: &mut Value) -> Quantity {
+    fn operand(&self, operand: &[u8], routine: u32, of: &mut Value) -> Option<Quantity> {
         let mut found = Vec::new();
         PLAIN.add(operand, 0..operand.len(), &mut found);
         let words = Words {
@@ -317,25 +307,20 @@ impl<'a> Reads<'a> for Reader<'a> {
             all: &found,
         };
         if words.is(1, b'(') {
-            return if INPUTS.contains(&words.text(0)) {
-                Quantity::unknown()
-            } else {
-                Quantity::endless()
-            };
+            let is_input = INPUTS.contains(&words.text(0));
+            return is_input.then(Quantity::unknown);
         }
-        let Some(name) = Reference::of(words).filter(|name| name.words == words.len()) else {
-            return Quantity::endless();
-        };
+        let name = Reference::of(words).filter(|name| name.words == words.len())?;
         let Some(Known {
             kind,
             table,
             of: owner,
         }) = self.meaning_in(&name, routine)
         else {
-            return Quantity::unknown();
+            return Some(Quantity::unknown());
         };
         let first = table * EACH;
-        match kind {
+        Some(match kind {
             Kind::Num => {
                 // one of an array that nothing writes is what is declared
                 if let Of::Project(datum) = owner
@@ -344,7 +329,7 @@ impl<'a> Reads<'a> for Reader<'a> {
                 {
                     let of = &self.world.data[datum as usize];
                     if let Some(at) = of.element(key).filter(|at| of.elements[*at].is_given) {
-                        return Quantity::exactly(of.elements[at].numbers[0].value);
+                        return Some(Quantity::exactly(of.elements[at].numbers[0].value));
                     }
                 }
                 of(first)
@@ -354,7 +339,7 @@ impl<'a> Reads<'a> for Reader<'a> {
                 _ => Quantity::endless(),
             },
             _ => Quantity::endless(),
-        }
+        })
     }
 
     fn part(&self, text: &'a [u8], at: usize, routine: u32, of: &mut Value) -> Quantity {

@@ -13,10 +13,10 @@ use crate::program::Source;
 use crate::program::displacing::grown_by_any;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, How, Place, RoutineId, Script, Start, UNBOUNDED, VariableId,
-    Written, short,
+    Argument, Builder, Call, Expr, Held, How, Place, RoutineId, Script, Start, Test, UNBOUNDED,
+    VariableId, Written, short,
 };
-use crate::program::transformations::Entries;
+use crate::program::transformations::{EACH, Entries};
 use crate::program::words::{self, Words, unquoted};
 use foldhash::{HashMap, HashSet};
 
@@ -53,9 +53,6 @@ pub(super) struct Here {
     pub project: u32,
     pub routine: RoutineId,
     pub file: u32,
-    /// How many choices stand for each `if` and `switch` that is open: one, and one for each
-    /// further branch with a head of its own.
-    choices: Vec<u32>,
 }
 
 #[derive(Default)]
@@ -133,7 +130,6 @@ impl<'a> Reader<'a> {
             project: of.project,
             routine: short(program),
             file: of.file,
-            choices: Vec::new(),
         };
         code.statements()
             .for_each(|statement| each(self, statement));
@@ -196,6 +192,16 @@ impl<'a> Reader<'a> {
             .then(|| (self.world.program(self.here.project, alias, name), name))
     }
 
+    /// The number that a call gives.
+    fn number_given(&mut self, words: Words<'a, '_>) -> Expr {
+        if let Some(number) = words.whole_number() {
+            return self.builder.script.held(Held::Number(number));
+        }
+        let given = self.given_number(words).map(Expr::Variable);
+        // whatever it is: what another call gave is there no more
+        given.unwrap_or_else(|| self.unknown(COMPUTED))
+    }
+
     // ---- statements
 
     fn statement(&mut self, line: Words<'a, '_>) {
@@ -203,29 +209,28 @@ impl<'a> Reader<'a> {
             b"begin" | b"end" => {}
             b"if" => {
                 self.uses(line);
-                self.builder.begin_if(None);
-                self.here.choices.push(1);
+                let test = self.test(line.behind(1));
+                self.builder.begin_if(test);
             }
             b"switch" => {
                 self.uses(line);
-                self.builder.begin_choice();
-                self.here.choices.push(1);
+                let of = self.given_number(line.behind(1));
+                self.builder.begin_switch(of);
             }
-            b"elseIf" | b"case" => {
-                // what the head does counts in all branches behind it, too
+            // what a head does counts in all branches behind it, too
+            b"elseIf" => {
                 self.builder.next_branch(true);
                 self.uses(line);
-                self.builder.begin_if(None);
-                if let Some(choices) = self.here.choices.last_mut() {
-                    *choices += 1;
-                }
+                let test = self.test(line.behind(1));
+                self.builder.pass_branch(test);
+            }
+            b"case" => {
+                self.builder.next_branch(true);
+                self.uses(line);
+                self.builder.pass_case(line.behind(1).whole_number());
             }
             b"else" | b"default" => self.builder.next_branch(true),
-            b"endIf" | b"endSwitch" => {
-                for _ in 0..self.here.choices.pop().unwrap_or(1) {
-                    self.builder.end_choice();
-                }
-            }
+            b"endIf" | b"endSwitch" => self.builder.end_choice(),
             b"while" => {
                 self.builder.begin_loop(false);
                 self.uses(line);
@@ -254,6 +259,24 @@ impl<'a> Reader<'a> {
                 self.assignment(line);
             }
         }
+    }
+
+    /// What a condition asks of a number that calls give.
+    fn test(&mut self, words: Words<'a, '_>) -> Option<Test> {
+        let (name, wanted) = words.compared()?;
+        Some((self.given_number(name)?, wanted))
+    }
+
+    /// The parameter that words are where it is a number that nothing but calls writes.
+    fn given_number(&mut self, words: Words<'a, '_>) -> Option<VariableId> {
+        let routine = self.here.routine;
+        let name = Reference::whole(words).filter(|name| name.words == 1)?;
+        let declared = self.world.programs[routine as usize].declared.iter();
+        let own = declared.filter(|one| one.is_parameter && !one.is_array && one.kind == Kind::Num);
+        let own = own.map(|one| one.name).find(|own| *own == name.name)?;
+        let number = self.variables.table_of_local(routine, own) * EACH;
+        let is_only_given = self.entries.is_only_given(number);
+        is_only_given.then(|| self.local(routine, own))
     }
 
     /// Moves and built-in instructions of a statement.
@@ -466,8 +489,7 @@ impl<'a> Reader<'a> {
             let value = if is_given {
                 self.given(kind, value)
             } else if parameter.is_some() {
-                // whatever it is: what another call gave is there no more
-                self.unknown(COMPUTED)
+                self.number_given(value)
             } else {
                 continue;
             };

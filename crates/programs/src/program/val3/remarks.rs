@@ -35,16 +35,21 @@ pub(super) const REORDERED: Remark = Remark::error(
     "keep the points of moves in an array that stays as it is",
 );
 
-/// A declared point without numbers.
-pub(super) fn not_taught(name: &str) -> Remark {
-    Remark::error_about(
-        "target-uninitialised",
-        format!(
-            "{name} has no numbers in the .dtx: it was never taught, and what the program writes into \
-             parts of it is not followed"
-        ),
-        "teach the point, or leave the move out",
-    )
+/// A declared point without numbers, and whether the program writes into it.
+pub(super) fn not_taught(name: &str, is_written: bool) -> Remark {
+    let (why, hint) = if is_written {
+        (
+            "what the program writes into parts of it (p.trsf=…) is not followed",
+            "assign a point as a whole (p=q, p=appro(q,…)), or go to a point of the .dtx",
+        )
+    } else {
+        (
+            "it was never taught",
+            "teach the point, or leave the move out",
+        )
+    };
+    let text = format!("{name} has no numbers in the .dtx: {why}");
+    Remark::error_about("target-uninitialised", text, hint)
 }
 
 /// Declared joints without numbers.
@@ -116,9 +121,8 @@ pub(super) fn frame_assigned(name: &str) -> Remark {
 /// A tool or frame that only the running program knows.
 pub(super) const FRAME_CHOSEN: Remark = Remark::error(
     "frame-chosen-at-run-time",
-    "only the running program knows which tool or frame the move has: it is chosen by a \
-         variable, or its points have different frames",
-    "name the tool in the move, and hang the points of one array on one frame",
+    "only the running program knows which tool the move has: it is chosen by a variable",
+    "name the tool in the move",
 );
 
 /// A path that the running program alters.

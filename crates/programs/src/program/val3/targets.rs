@@ -144,6 +144,13 @@ impl Variables<'_> {
         self.tables[datum]
     }
 
+    /// The targets of the data that the programs name.
+    pub(super) fn named(&self) -> Vec<TargetId> {
+        let named = self.values.iter().flatten();
+        let named = named.filter(|value| value.variable.is_some());
+        named.filter_map(|value| value.target).collect()
+    }
+
     /// That of a name of a program's own.
     pub(super) fn table_of_local(&self, routine: RoutineId, name: &[u8]) -> TableId {
         self.locals[&(routine, name)].table
@@ -308,7 +315,7 @@ impl<'a> Reader<'a> {
             _ => match target {
                 Some(target) => Expr::Target(target),
                 None if of.kind == Kind::Joint => self.unknown(joints_not_taught(&name)),
-                None => self.unknown(not_taught(&name)),
+                None => self.unknown(not_taught(&name, self.assigned.contains(&datum))),
             },
         };
         // the controller keeps data as long as the project is loaded

@@ -7,6 +7,7 @@ use crate::geometry::units::DEG;
 use crate::program::{Displacement, Motion, Move, Program, Shift, Stride, Value};
 
 mod arrays;
+mod calls;
 mod inserted;
 mod numbers;
 mod projects;
@@ -283,11 +284,6 @@ fn joints_written_out_are_targets_of_joint_moves() {
 fn points_are_followed_through_parameters_and_copies() {
     let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""])
         + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[0]\""])
-        + &data(
-            "pC",
-            "pointRx",
-            &["key=\"0\" x=\"2\" fatherId=\"world[0]\""],
-        )
         + &data("pD", "pointRx", &[]);
     let all = data("fA", "frame", &[FRAME])
         + &data("tA", "tool", &[TOOL])
@@ -317,13 +313,6 @@ fn points_are_followed_through_parameters_and_copies() {
         .collect();
     found.sort_unstable();
     assert_eq!(found, [(Some("pA"), "fA", "tA"), (Some("pB"), "fA", "tA")]);
-    // points of different frames in one variable
-    let program = read_files(&files("tNow=tA\ncall go(pA)\ncall go(pC)")).expect("a project");
-    assert!(
-        ids(&program).contains(&"frame-chosen-at-run-time"),
-        "{:?}",
-        program.findings
-    );
 }
 
 #[test]

@@ -108,8 +108,8 @@ fn only_what_no_text_tells_is_taken_for_a_sensor() {
             Displacement::Unknown,
         ),
         (
-            ".h = ABS(up)\nLMOVE p1+TRANS(0,0,.h)",
-            Displacement::Unbounded,
+            ".h = ABS(-up)\nLMOVE p1+TRANS(0,0,.h)",
+            in_tool([0.0, 0.0, 0.3]),
         ),
         ("LMOVE p1+FRAME(a,b,c,d)", Displacement::Unbounded),
         ("LMOVE p1+TRANS(0,0,DZ(p[1]))", Displacement::Unbounded),

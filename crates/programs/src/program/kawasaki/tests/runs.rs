@@ -46,6 +46,62 @@ fn parameters_are_joints_and_poses_and_bring_back_what_is_written() {
 }
 
 #[test]
+fn a_number_that_a_call_gives_chooses_the_branch() {
+    let code = "CALL take(1)\nLMOVE p1\nCALL take(2)\nLMOVE p[1]";
+    let placed = |code: &str, take: &str| -> Vec<String> {
+        let program = read_two(code, take);
+        let moves = program.moves.iter();
+        let placed = moves.map(|m| {
+            let tool = &program.tools[m.tool].name;
+            format!("{} {tool}", target(&program, m).unwrap_or_default())
+        });
+        placed.collect()
+    };
+    for take in [
+        "IF .n==1 THEN\nTOOL grip\nELSE\nTOOL off\nEND",
+        "IF .n<>1 THEN\nTOOL off\nELSE\nTOOL grip\nEND",
+        "IF SIG(1) THEN\nTOOL grip\nELSEIF .n==2 THEN\nTOOL off\nELSE\nTOOL grip\nEND",
+        "CASE .n OF\nVALUE 1:\nTOOL grip\nVALUE 2:\nTOOL off\nEND",
+        "CASE .n OF\nVALUE 2:\nTOOL off\nANY :\nTOOL grip\nEND",
+    ] {
+        let found = placed(code, &format!("take(.n)\n{take}"));
+        if take.contains("SIG") {
+            // what a signal may choose either way
+            assert_eq!(found, ["p1 grip", "p[1] grip", "p[1] off"], "{take}");
+        } else {
+            assert_eq!(found, ["p1 grip", "p[1] off"], "{take}");
+        }
+    }
+    let choice = "CASE .n OF\nVALUE 1:\nTOOL grip\nANY :\nTOOL off\nEND";
+    for (code, take) in [
+        ("CALL take(k)", "take(.n)"),
+        ("CALL take(1)", "take(.n)\n.n = .n+1"),
+        ("CALL take(1)", "take(.n)\nFOR .n = 1 TO 3\nEND"),
+        ("CALL take(1)", "take(.n)\nCALL elsewhere(.n)"),
+        (
+            "CALL take(1)",
+            "more(.m)\n.m = 2\n.END\n.PROGRAM take(.n)\nCALL more(.n)",
+        ),
+    ] {
+        let found = placed(&format!("{code}\nLMOVE p1"), &format!("{take}\n{choice}"));
+        assert_eq!(found, ["p1 grip", "p1 off"], "{take}");
+    }
+}
+
+#[test]
+fn a_parameter_is_the_name_that_the_call_gives_also_where_that_is_written() {
+    let program = read_two(
+        "HERE p[2]\nCALL go(p1)",
+        "go(.p)\nCALL inner(.p)\n.END\n.PROGRAM inner(.q)\nPOINT p1 = p[2]\nLMOVE .q",
+    );
+    assert!(
+        ids(&program).contains(&"run-time-position"),
+        "{:?}",
+        program.findings
+    );
+}
+
+#[test]
 fn what_a_program_writes_that_it_is_handed_is_no_constant() {
     let get = "get(.t)\nPOINT .t = p[2]";
     let pass = format!("pass(.o)\nCALL get(.o)\n.END\n.PROGRAM {get}");

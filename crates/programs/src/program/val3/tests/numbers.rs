@@ -34,6 +34,34 @@ fn in_tool(numbers: [f64; 3]) -> Displacement {
 }
 
 #[test]
+fn quotients_of_counters_have_ends() {
+    let farthest = |code: &str| -> f64 {
+        let Displacement::Within(strides) = by(code) else {
+            panic!("{code}: {:?}", by(code));
+        };
+        let far = strides.iter().map(|stride| match stride {
+            Stride::By { shift, most } => {
+                shift.in_tool.translation[0] * f64::from(most.expect("they end"))
+            }
+            Stride::Turned(_) => panic!("nothing turns"),
+        });
+        far.sum()
+    };
+    for (x, expected) in [
+        ("(nI%4)*30", 0.09),
+        ("roundDown(nI/4)*20", 0.02),
+        ("roundUp(nI/4)*20", 0.04),
+        ("roundDown(nUp*nI/800)*20", 0.02),
+    ] {
+        let code = format!("for nI=0 to 6\nmovel(appro(pA,{{{x},0,0,0,0,0}}),tA,m)\nendFor");
+        let found = farthest(&code);
+        assert!((found - expected).abs() < 1e-9, "{x}: {found}");
+    }
+    let code = "movel(appro(pA,{rand(nI),0,0,0,0,0}),tA,m)";
+    assert_eq!(by(code), Displacement::Unbounded);
+}
+
+#[test]
 fn what_the_text_writes_displaces_by_that() {
     for code in [
         "movel(appro(pA,{0,0,nUp,0,0,0}),tA,m)",
@@ -162,8 +190,8 @@ fn only_what_no_text_tells_is_taken_for_a_sensor() {
         ),
         ("movel(compose(pA,fA,trCam),tA,m)", Displacement::Unknown),
         (
-            "movel(appro(pA,{0,0,abs(nUp),0,0,0}),tA,m)",
-            Displacement::Unbounded,
+            "movel(appro(pA,{0,0,abs(-nUp),0,0,0}),tA,m)",
+            in_tool([0.0, 0.0, 0.2]),
         ),
         ("movel(appro(pA,pB.trsf),tA,m)", Displacement::Unbounded),
         (
