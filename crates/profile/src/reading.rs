@@ -321,7 +321,9 @@ pub(super) fn beyond_payload(
     effect: &Effect,
 ) -> Option<(f64, f64)> {
     let (payload, number) = (payload_kg?, effect.definition().search.mass?);
-    let meant = tools.iter().filter(|(name, _)| effect.site.is_of_tool(name));
+    let meant = tools
+        .iter()
+        .filter(|(name, _)| effect.site.is_of_tool(name));
     let loads = meant.filter_map(|(_, tool)| tool.load);
     let most = loads.fold(0.0, |most: f64, (kg, _)| most.max(kg));
     let added = effect.parameters[number];
@@ -330,10 +332,7 @@ pub(super) fn beyond_payload(
 
 /// The external axes that effects may belong to, and what an effect adds to a load beyond what the
 /// robot carries.
-type Judges<'a> = (
-    &'a ExternalAxes,
-    &'a dyn Fn(&Effect) -> Option<(f64, f64)>,
-);
+type Judges<'a> = (&'a ExternalAxes, &'a dyn Fn(&Effect) -> Option<(f64, f64)>);
 
 fn rows(
     joints: &Spanned<Vec<Spanned<file::JointFile>>>,

@@ -288,7 +288,8 @@ fn tools_and_frames_in_other_units_are_faults_with_their_place() {
 
 #[test]
 fn an_effect_that_makes_a_load_heavier_than_the_payload_says_that_it_is_meant() {
-    let tool = "{frame: {x_mm: 0, y_mm: 0, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.5}";
+    let tool =
+        "{frame: {x_mm: 0, y_mm: 0, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.5}";
     let with = |entry: &str| {
         let text = ur5_text(&format!("calibration:\n  effects:\n    - {entry}\n"));
         let text = text.replace("robot: {", "robot: {payload_kg: 5, ");
