@@ -136,6 +136,7 @@ impl Check {
             nominal.extend(with(Some(language), &paths)?);
             Some(nominal)
         };
+        self.ignored.warn_of_unused();
         let written = self.baseline.iter().filter(|_| self.update_baseline);
         let written = written.chain(&self.junit).map(PathBuf::as_path);
         self.report.refuse_over(&files, written)?;

@@ -168,6 +168,7 @@ impl Compensate {
             &self.ignored,
             &paths,
         )?);
+        self.ignored.warn_of_unused();
         let outputs = places.iter().flatten().map(PathBuf::as_path);
         self.report.refuse_over(&files, outputs)?;
         let request = Request {

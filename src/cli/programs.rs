@@ -1,14 +1,16 @@
 //! Program files on the command line: files, folders of them, and standard input.
 
 use super::files::{Files, Identity, PREFIX, is_stream};
+use super::screen;
 use crate::nearest;
-use crate::printable::name_of;
+use crate::printable::{name_of, printable};
 use crate::program::{LANGUAGES, Language, Source, has_extension};
 use crate::task::Failure;
 use crate::task::programs::LeftOut;
 use clap::Args;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
-use std::collections::HashSet;
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Bytes that tell whether a file is text.
@@ -21,6 +23,9 @@ pub(super) struct Ignored {
     /// summary lists them
     #[arg(long, value_name = "GLOB")]
     ignore: Vec<String>,
+    /// Which of them have meant something.
+    #[arg(skip)]
+    used: RefCell<BTreeSet<usize>>,
 }
 
 impl Ignored {
@@ -45,6 +50,17 @@ impl Ignored {
         }
         all.build()
             .map_err(|error| Failure::new(format!("--ignore: {error}")))
+    }
+
+    /// Warns of those that have meant nothing, once all files are read.
+    pub(super) fn warn_of_unused(&self) {
+        let used = self.used.borrow();
+        for (_, text) in (0..).zip(&self.ignore).filter(|(n, _)| !used.contains(n)) {
+            screen::warn(&format!(
+                "--ignore {}: no file or folder is called so, nothing is left out for it",
+                printable(text)
+            ));
+        }
     }
 }
 
@@ -121,16 +137,24 @@ struct Reading<'a> {
     files: &'a Files,
     asked: Option<&'static dyn Language>,
     ignored: GlobSet,
+    used: &'a RefCell<BTreeSet<usize>>,
     found: Gathered,
     /// What in folders can be neither read nor passed over, with the reason.
     wrong: Vec<String>,
 }
 
 impl Reading<'_> {
+    /// Whether `--ignore` means a path.
+    fn is_ignored(&self, below: &Path) -> bool {
+        let meant = self.ignored.matches(below);
+        self.used.borrow_mut().extend(&meant);
+        !meant.is_empty()
+    }
+
     /// A file that is named.
     fn file(&mut self, path: &Path) -> Result<(), Failure> {
         let below = path.file_name().map_or_else(|| path.into(), PathBuf::from);
-        if self.ignored.is_match(&below) {
+        if self.is_ignored(&below) {
             self.found.left_out.ignored.push(name_of(path));
             return Ok(());
         }
@@ -190,7 +214,7 @@ impl Reading<'_> {
             let is_own = entry.file_name().to_string_lossy().starts_with(PREFIX);
             let below = entry.path().strip_prefix(folder);
             let below = below.expect("a walk stays below its top").to_owned();
-            if is_own || self.ignored.is_match(&below) {
+            if is_own || self.is_ignored(&below) {
                 if is_folder {
                     walk.skip_current_dir();
                 }
@@ -278,6 +302,7 @@ pub(super) fn gather(
         files,
         asked,
         ignored: ignored.globs()?,
+        used: &ignored.used,
         found: Gathered {
             programs: Vec::new(),
             left_out: LeftOut::default(),

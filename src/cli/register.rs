@@ -164,8 +164,11 @@ impl Register {
             )));
         }
         let at = self.at.iter().map(|text| {
-            values::point(text)
-                .ok_or_else(|| Failure::new(format!("--at {text}: it must be x,y,z in mm")))
+            values::point(text).ok_or_else(|| {
+                Failure::new(format!(
+                    "--at {text}: it must be x,y,z in mm, at most 1e6 each"
+                ))
+            })
         });
         Ok(Options {
             sigma_m: self.sigma_mm.map(m_from_mm),

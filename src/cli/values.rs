@@ -8,9 +8,16 @@ use crate::model::profile::{Mounted, Profile};
 use crate::motion::Given;
 use crate::nearest;
 use crate::task::Failure;
+use std::f64::consts::TAU;
 
 /// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE_DEG: f64 = 720.0;
+
+/// No limit of a shift is larger: farther no correction of an arm goes, mm and degrees.
+const MOST_SHIFT_MM: f64 = 1000.0;
+const MOST_SHIFT_DEG: f64 = 180.0;
+/// No point is farther away, mm.
+const MOST_POINT_MM: f64 = 1e6;
 
 /// `30mm,3deg`, or the numbers alone.
 pub(super) fn max_shift(text: &str) -> Result<Separation, Failure> {
@@ -28,6 +35,14 @@ pub(super) fn max_shift(text: &str) -> Result<Separation, Failure> {
             "give millimetres and degrees: --max-shift 30mm,3deg",
         )
     })?;
+    if mm > MOST_SHIFT_MM || deg > MOST_SHIFT_DEG {
+        return Err(Failure::with_hint(
+            format!(
+                "--max-shift {text}: it is at most {MOST_SHIFT_MM} mm and {MOST_SHIFT_DEG} deg"
+            ),
+            "give millimetres and degrees: --max-shift 30mm,3deg",
+        ));
+    }
     Ok(Separation {
         distance_m: m_from_mm(mm),
         angle_rad: deg * DEG,
@@ -103,6 +118,24 @@ pub(super) fn start(text: Option<&str>, profile: &Profile) -> Result<Start, Fail
             "give the controller's joints in degrees: --start-joints 0,-90,90,0,90,0",
         ));
     };
+    let limits = profile
+        .mechanism
+        .joints
+        .map(|joint| [joint.min_rad, joint.max_rad]);
+    for (number, (q, [low, high])) in (1..).zip(joints.iter().zip(limits)) {
+        if !(low - TAU..=high + TAU).contains(&(q * DEG)) {
+            return Err(Failure::with_hint(
+                format!(
+                    "--start-joints {text}: joint {number} is {q:?} deg; its limits are {:.3} to \
+                     {:.3} deg",
+                    low / DEG,
+                    high / DEG
+                ),
+                "no posture is more than a rotation beyond the limits: is it in degrees? correct \
+                 it, or the limits of the profile",
+            ));
+        }
+    }
     let axes: Vec<Listed> = profile.external.listed().collect();
     if !external.is_empty() && external.len() != axes.len() {
         let units = axes.iter().map(|axis| {
@@ -236,5 +269,7 @@ fn list<const N: usize>(text: &str) -> Option<[f64; N]> {
 
 /// Three numbers `x,y,z` in mm.
 pub(super) fn point(text: &str) -> Option<Vector> {
-    list::<3>(text).map(|point| point.map(m_from_mm))
+    let near = |point: &[f64; 3]| point.iter().all(|x| x.abs() <= MOST_POINT_MM);
+    let point = list::<3>(text).filter(near)?;
+    Some(point.map(m_from_mm))
 }

@@ -32,6 +32,27 @@ pub enum UrdfError {
         /// The other.
         second: String,
     },
+    /// A name that is none, or that steers a terminal.
+    #[error("the name of {what} is `{shown}`, which {why}")]
+    Name {
+        /// Of what.
+        what: String,
+        /// The name, printable.
+        shown: String,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+    /// No joint that moves.
+    #[error("no joint of the file moves a link; a profile has 6 axes")]
+    NoAxes,
+    /// A mesh outside of its package.
+    #[error("the mesh `{file}` of link `{link}` leads out of its package")]
+    Outside {
+        /// As written.
+        file: String,
+        /// Its link.
+        link: String,
+    },
     /// A link that is not there.
     #[error("there is no link `{link}`")]
     NoLink {
@@ -184,6 +205,15 @@ impl UrdfError {
                 "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or \
                  --no-shapes"
                     .into()
+            }
+            Self::Name { .. } => "give it another name in the file".into(),
+            Self::NoAxes => "a URDF of the whole arm is needed, with its revolute joints".into(),
+            Self::Number { .. } => {
+                "correct it in the file: lengths are in metres, angles in radians, masses in kg"
+                    .into()
+            }
+            Self::Outside { .. } => {
+                "correct the path in the file, or leave the shapes out with --no-shapes".into()
             }
             Self::Scale { .. } => "--no-shapes leaves the shapes out".into(),
             _ => String::new(),

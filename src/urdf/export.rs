@@ -3,6 +3,7 @@
 use super::tree::EXACT;
 use crate::geometry::{Pose, Vector};
 use crate::model::Axes;
+use crate::printable::printable;
 
 /// What goes into a URDF.
 pub struct Drawing<'a> {
@@ -30,6 +31,16 @@ fn escaped(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
+/// Whether a name may stand in XML and on one line: of W3C, "Extensible Markup Language (XML) 1.0",
+/// `Char`, without the ends of lines.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    printable(text) == text && !text.contains(NO_XML)
+}
+
+/// Signs that are no control characters, and that XML has not.
+const NO_XML: [char; 2] = ['\u{fffe}', '\u{ffff}'];
+
 /// `xyz` and `rpy` of a frame: `Trans · Rz(yaw) · Ry(pitch) · Rx(roll)`.
 fn origin(pose: &Pose) -> String {
     let [yaw, pitch, roll] = pose.rotation.yaw_pitch_roll();
@@ -44,8 +55,9 @@ fn origin(pose: &Pose) -> String {
 pub fn urdf_text(drawing: &Drawing) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n<!--\n");
     for line in drawing.comments {
+        let line = printable(line).replace(NO_XML, "\u{fffd}");
         // two hyphens end a comment
-        out += &format!("  {}\n", escaped(line).replace("--", "- -"));
+        out += &format!("  {}\n", escaped(&line).replace("--", "- -"));
     }
     out += &format!(
         "  {EXACT}\n-->\n<robot name=\"{}\">\n",

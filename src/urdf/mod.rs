@@ -28,12 +28,13 @@
 mod chain;
 mod error;
 mod export;
+mod names;
 mod text;
 mod tree;
 mod write;
 
 pub use error::UrdfError;
-pub use export::{Drawing, urdf_text};
+pub use export::{Drawing, is_name, urdf_text};
 #[cfg(feature = "cli")]
 pub(crate) use text::is_xacro;
 pub use write::{About, Meshes, profile_text};

@@ -1,5 +1,6 @@
 //! The way from the base to the tip.
 
+use super::names::{judge_names, leads_out};
 use super::text::{has_macros, judge_size, without_comments, without_looks};
 use super::{Choice, UrdfArm, UrdfError, UrdfForm, UrdfJoint, UrdfShape};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -15,6 +16,10 @@ const ROUNDED_RAD: f64 = 3e-4;
 const MOST_LIMIT_RAD: f64 = 3600.0 * DEG;
 /// No frame is rotated beyond this about an axis: one revolution, and some rounding.
 const MOST_ANGLE_RAD: f64 = 361.0 * DEG;
+/// No frame is farther from the one before, and no shape larger, metres.
+const MOST_M: f64 = 1000.0;
+/// No link is heavier, kg.
+const MOST_MASS_KG: f64 = 1e4;
 /// Names that a flange has by convention, best first.
 const FLANGES: [&str; 4] = ["tool0", "fanuc_flange", "flange", "ee_link"];
 /// Names of links where controllers count from, best first, and whose convention that is.
@@ -118,6 +123,7 @@ fn place(pose: &Pose) -> String {
 
 impl<'a> Tree<'a> {
     fn of(robot: &'a Robot, exact: bool) -> Result<Self, UrdfError> {
+        judge_names(robot)?;
         let links: BTreeMap<&str, &Link> =
             robot.links.iter().map(|l| (l.name.as_str(), l)).collect();
         let mut above: BTreeMap<&str, &Joint> = BTreeMap::new();
@@ -278,6 +284,7 @@ impl<'a> Tree<'a> {
             .collect();
         match ends[..] {
             [one] => Ok(one),
+            [] => Err(UrdfError::NoAxes),
             _ => Err(UrdfError::SeveralTips {
                 ends: ends.join(", "),
             }),
@@ -409,15 +416,23 @@ impl<'a> Tree<'a> {
                 continue;
             }
             let mass = link.inertial.mass.value;
-            if !mass.is_finite() || mass < 0.0 {
+            if !(0.0..=MOST_MASS_KG).contains(&mass) {
                 return Err(UrdfError::Number {
                     what: "the mass",
                     name: (*name).into(),
-                    found: mass.to_string(),
+                    found: format!("{mass:?} kg; it is from 0 to {MOST_MASS_KG} kg"),
                 });
             }
             if mass > 0.0 && moved_by > 0 {
-                let cog = place.transform(link.inertial.origin.xyz.0);
+                let centre = link.inertial.origin.xyz.0;
+                if let Some(found) = centre.into_iter().find(|x| !is_near(*x)) {
+                    return Err(UrdfError::Number {
+                        what: "the centre of gravity",
+                        name: (*name).into(),
+                        found: format!("{found:?} m; the limit is {MOST_M} m"),
+                    });
+                }
+                let cog = place.transform(centre);
                 arm.masses.push((moved_by, mass, cog));
             }
             if choice.shapes {
@@ -443,6 +458,11 @@ fn no_link(link: &str, links: &BTreeMap<&str, &Link>) -> UrdfError {
     }
 }
 
+/// Whether a coordinate may be one of a robot, metres.
+fn is_near(x: f64) -> bool {
+    x.abs() <= MOST_M
+}
+
 fn finite(what: &'static str, name: &str, origin: &urdf_rs::Pose) -> Result<(), UrdfError> {
     let number = |found: String| UrdfError::Number {
         what,
@@ -452,6 +472,9 @@ fn finite(what: &'static str, name: &str, origin: &urdf_rs::Pose) -> Result<(), 
     let mut numbers = origin.xyz.0.into_iter().chain(origin.rpy.0);
     if let Some(found) = numbers.find(|x| !x.is_finite()) {
         return Err(number(found.to_string()));
+    }
+    if let Some(found) = origin.xyz.0.into_iter().find(|x| !is_near(*x)) {
+        return Err(number(format!("{found:?} m; the limit is {MOST_M} m")));
     }
     let mut angles = origin.rpy.0.into_iter();
     match angles.find(|angle| angle.abs() > MOST_ANGLE_RAD) {
@@ -529,12 +552,21 @@ fn form(link: &str, geometry: &Geometry) -> Result<UrdfForm, UrdfError> {
             (UrdfForm::Mesh(filename.clone(), s[0]), vec![s[0]])
         }
     };
-    match numbers.into_iter().find(|x| !(x.is_finite() && *x > 0.0)) {
+    if let UrdfForm::Mesh(file, _) = &form
+        && leads_out(file)
+    {
+        return Err(UrdfError::Outside {
+            file: file.clone(),
+            link: link.into(),
+        });
+    }
+    let is_size = |x: &f64| *x > 0.0 && *x <= MOST_M;
+    match numbers.into_iter().find(|x| !is_size(x)) {
         None => Ok(form),
         Some(found) => Err(UrdfError::Number {
             what: "a size of the collision shape",
             name: link.into(),
-            found: found.to_string(),
+            found: format!("{found:?}; it is above 0 and at most {MOST_M}"),
         }),
     }
 }

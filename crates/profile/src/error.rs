@@ -257,6 +257,16 @@ pub enum Fault {
         /// The limit, kg.
         payload: f64,
     },
+    /// An effect that makes a load heavier than the robot carries.
+    #[error("`{label}` makes the load {found} kg; robot.payload_kg is {payload}")]
+    LoadBeyondPayload {
+        /// The effect.
+        label: String,
+        /// The load with it, kg.
+        found: f64,
+        /// The limit, kg.
+        payload: f64,
+    },
     /// A tool so small that its lengths must be in another unit.
     #[error(
         "the frame of tool `{tool}` is {largest_mm} mm from the flange at most in each coordinate; \
@@ -399,6 +409,10 @@ impl ProfileError {
             Fault::BeyondPayload { .. } => "masses are in kg; correct the tool or \
                 robot.payload_kg"
                 .into(),
+            Fault::LoadBeyondPayload { .. } => "masses are in kg; correct the effect or \
+                robot.payload_kg; `large: true` with `reason: \"…\"` in the entry says that it is \
+                meant"
+                .into(),
             Fault::TinyTool { .. } => "lengths are in mm: 0.1 m is 100; write 0 for the flange \
                 itself"
                 .into(),
@@ -412,6 +426,7 @@ impl ProfileError {
                 "angles are in degrees".into()
             }
             Fault::OutOfRange { key, .. } if key.ends_with("_mm") => "lengths are in mm".into(),
+            Fault::OutOfRange { key: "mass_kg", .. } => "masses are in kg".into(),
             Fault::EndlessAngle { .. } => "angles are in degrees, between -360 and 360".into(),
             Fault::NotOfController { .. } => "it belongs under `calibration`".into(),
             Fault::UpAlong => "give `up` across the rail: for a lift [1, 0, 0]".into(),

@@ -21,6 +21,10 @@ const GRAVITY_M_S2: [f64; 2] = [9.7, 9.9];
 const MOST_LIMIT_DEG: f64 = 3600.0;
 /// No arm or tool is longer.
 const MOST_MM: f64 = 20_000.0;
+/// No link or tool is heavier, kg.
+const MOST_MASS_KG: f64 = 1e4;
+/// And none has its centre of gravity farther away.
+const MOST_COG_MM: f64 = 1e4;
 /// No arm is shorter, all its rows together.
 const LEAST_ARM_MM: f64 = 20.0;
 /// No frame is rotated by more: two whole revolutions.
@@ -38,12 +42,6 @@ impl Profile {
         let kinematics = file.kinematics;
         let mut large = Reasons::default();
         let external = file.external_axes.read()?;
-        let own_effects = own_effects(
-            file.controller.model,
-            file.controller.effects,
-            &mut large.controller,
-            &external,
-        )?;
         let payload_kg = match file.robot.payload_kg {
             Some(kg) if kg.value.0 <= 0.0 => {
                 let (key, found) = ("payload_kg", kg.value.0);
@@ -59,7 +57,7 @@ impl Profile {
             bodies.push(Body {
                 link: index("link", body.link, at)?,
                 mass_kg,
-                cog_m: metres(body.cog_mm),
+                cog_m: cog(body.cog_mm, at)?,
             });
         }
         // a wrist's own may be near its axes, those of all links are not
@@ -86,7 +84,7 @@ impl Profile {
                 return Err(Fault::SameTool { name, other }.at(tool.frame.defined));
             }
             let load = match (tool.mass_kg, tool.cog_mm) {
-                (Some(kg), cog) => {
+                (Some(kg), cog_mm) => {
                     if let Some(payload) = payload_kg.filter(|most| kg.value.0 > *most) {
                         let (tool, found) = (name, kg.value.0);
                         return Err(Fault::BeyondPayload {
@@ -96,7 +94,8 @@ impl Profile {
                         }
                         .at(kg.defined));
                     }
-                    Some((mass(kg.value, kg.defined)?, cog.map_or([0.0; 3], metres)))
+                    let cog_m = cog_mm.map_or(Ok([0.0; 3]), |mm| cog(mm, tool.frame.defined))?;
+                    Some((mass(kg.value, kg.defined)?, cog_m))
                 }
                 (None, Some(_)) => {
                     return Err(Fault::CogWithoutMass { tool: name }.at(tool.frame.defined));
@@ -140,6 +139,18 @@ impl Profile {
                 },
             );
         }
+        let beyond = |effect: &Effect| beyond_payload(payload_kg, &tools, effect);
+        let own_effects = own_effects(
+            file.controller.model,
+            file.controller.effects,
+            &mut large.controller,
+            (&external, &beyond),
+        )?;
+        let calibrated = effects(
+            file.calibration.effects,
+            &mut large.calibration,
+            (&external, &beyond),
+        )?;
         for frame in kinematics.base.iter().chain(&kinematics.flange) {
             check_angles(frame)?;
         }
@@ -190,7 +201,7 @@ impl Profile {
                 .into_iter()
                 .map(|(name, point)| (name, metres(point)))
                 .collect(),
-            effects: effects(file.calibration.effects, &mut large.calibration, &external)?,
+            effects: calibrated,
             large,
             tables: file.measurement,
             device: file
@@ -283,17 +294,45 @@ fn index(key: &'static str, number: u8, at: Location) -> Result<usize, ProfileEr
 }
 
 fn mass(kg: Number, at: Location) -> Result<f64, ProfileError> {
-    if kg.0 < 0.0 {
+    if !(0.0..=MOST_MASS_KG).contains(&kg.0) {
         return Err(Fault::OutOfRange {
             key: "mass_kg",
             found: kg.0,
             low: 0.0,
-            high: f64::INFINITY,
+            high: MOST_MASS_KG,
         }
         .at(at));
     }
     Ok(kg.0)
 }
+
+fn cog(mm: [Number; 3], at: Location) -> Result<Vector, ProfileError> {
+    for number in mm {
+        within("cog_mm", number, MOST_COG_MM, at)?;
+    }
+    Ok(metres(mm))
+}
+
+/// What a load comes to that an effect makes heavier than the robot carries, and how much that is,
+/// kg.
+pub(super) fn beyond_payload(
+    payload_kg: Option<f64>,
+    tools: &BTreeMap<String, ToolOfProfile>,
+    effect: &Effect,
+) -> Option<(f64, f64)> {
+    let (payload, number) = (payload_kg?, effect.definition().search.mass?);
+    let meant = tools
+        .iter()
+        .filter(|(name, _)| effect.site.is_of_tool(name));
+    let loads = meant.filter_map(|(_, tool)| tool.load);
+    let most = loads.fold(0.0, |most: f64, (kg, _)| most.max(kg));
+    let added = effect.parameters[number];
+    (added > 0.0 && most + added > payload).then_some((most + added, payload))
+}
+
+/// The external axes that effects may belong to, and what an effect adds to a load beyond what the
+/// robot carries.
+type Judges<'a> = (&'a ExternalAxes, &'a dyn Fn(&Effect) -> Option<(f64, f64)>);
 
 fn rows(
     joints: &Spanned<Vec<Spanned<file::JointFile>>>,
@@ -439,13 +478,13 @@ fn own_effects(
     model: ControllerModel,
     entries: Option<Vec<file::EffectFile>>,
     large: &mut BTreeMap<String, String>,
-    external: &ExternalAxes,
+    judges: Judges,
 ) -> Result<Option<Vec<Effect>>, ProfileError> {
     let Some(entries) = entries else {
         return Ok(None);
     };
     let places: Vec<Location> = entries.iter().map(|entry| entry.defined).collect();
-    let effects = effects(entries, large, external)?;
+    let effects = effects(entries, large, judges)?;
     for (effect, at) in effects.iter().zip(places) {
         if model == ControllerModel::Nominal {
             return Err(Fault::EffectsOfNominal.at(at));
@@ -473,7 +512,7 @@ fn own_effects(
 fn effects(
     entries: Vec<file::EffectFile>,
     large: &mut BTreeMap<String, String>,
-    external: &ExternalAxes,
+    (external, beyond_payload): Judges,
 ) -> Result<Vec<Effect>, ProfileError> {
     let mut out: Vec<Effect> = Vec::new();
     for mut entry in entries {
@@ -528,6 +567,17 @@ fn effects(
                         found,
                         limit,
                         unit: parameter.unit.symbol(),
+                    }
+                    .at(at));
+                }
+                if let Some((found, payload)) = beyond_payload(&effect) {
+                    let definition = effect.definition();
+                    let mass = definition.search.mass.map(|n| definition.parameters[n].key);
+                    let at = mass.and_then(|key| places.get(key)).copied().unwrap_or(at);
+                    return Err(Fault::LoadBeyondPayload {
+                        label: effect.label(),
+                        found,
+                        payload,
                     }
                     .at(at));
                 }

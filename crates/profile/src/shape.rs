@@ -182,7 +182,10 @@ impl Keys<'_> {
         }
         if let Some(p) = self.plane {
             let normal = p.normal.map(|n| n.0);
-            let long = norm(normal);
+            // in parts of its largest: squares of any are finite
+            let most = normal.iter().fold(0.0, |most: f64, n| most.max(n.abs()));
+            let part = normal.map(|n| n / most);
+            let long = if most > 0.0 { most * norm(part) } else { 0.0 };
             if long < 1e-9 {
                 return Err(Fault::NotPositive {
                     key: "the length of normal",
@@ -191,7 +194,7 @@ impl Keys<'_> {
                 .at(place));
             }
             forms.push(Form::Plane {
-                normal: scale(long.recip(), normal),
+                normal: scale(norm(part).recip(), part),
                 offset_m: m_from_mm(p.offset_mm.0),
             });
         }

@@ -176,6 +176,18 @@ fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
         ),
         ("{effect: base_frame, x_mm: 75}", "x_mm"),
         ("{effect: backlash, joint: 2, width_deg: 3}", "width_deg"),
+        ("{effect: payload_error, mass_kg: -3001}", "mass_kg"),
+        ("{effect: thermal_growth, per_k: 1.1e-4}", "per_k"),
+        ("{effect: settling, joint: 2, share: -1.1}", "share"),
+        ("{effect: joint_scale, joint: 2, ratio: 0.006}", "ratio"),
+        (
+            "{effect: joint_coupling, joint: 2, on: 3, ratio: -0.006}",
+            "ratio",
+        ),
+        (
+            "{effect: warm_up_drift, x_mm: 1, time_constant_s: 2e7}",
+            "time_constant_s",
+        ),
     ] {
         let error = with(entry).expect_err(entry);
         assert!(
@@ -221,10 +233,18 @@ fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
         "{effect: joint_compliance, joint: 2, rad_per_n_m: 4.9e-3}",
         "{effect: payload_error, mass_kg: 1, cog_x_mm: 50}",
         "{effect: base_frame, x_mm: 1, large: false}",
+        "{effect: joint_scale, joint: 2, ratio: 0.005}",
+        "{effect: settling, joint: 2, share: 1}",
+        "{effect: warm_up_drift, x_mm: 1, time_constant_s: 1800}",
     ] {
         assert!(with(entry).is_ok(), "{entry}: {:?}", with(entry));
     }
     assert!(with("{effect: base_frame, x_mm: .inf}").is_err());
+    for time in ["0", "-1800"] {
+        let entry = format!("{{effect: warm_up_drift, x_mm: 1, time_constant_s: {time}}}");
+        let error = with(&entry).expect_err(&entry).to_string();
+        assert!(error.contains("above 0 in s"), "{error}");
+    }
     let schema = Profile::schema().to_string();
     assert!(schema.contains("\"reason\"") && schema.contains("\"payload_kg\""));
 }
@@ -264,6 +284,70 @@ fn tools_and_frames_in_other_units_are_faults_with_their_place() {
     assert!(matches!(fault(twice), Fault::SameTool { .. }));
     let heavy = frame("100", "0") + ", mass_kg: 5.1}";
     assert!(matches!(fault(heavy), Fault::BeyondPayload { .. }));
+}
+
+#[test]
+fn an_effect_that_makes_a_load_heavier_than_the_payload_says_that_it_is_meant() {
+    let tool =
+        "{frame: {x_mm: 0, y_mm: 0, z_mm: 100, rx_deg: 0, ry_deg: 0, rz_deg: 0}, mass_kg: 2.5}";
+    let with = |entry: &str| {
+        let text = ur5_text(&format!("calibration:\n  effects:\n    - {entry}\n"));
+        let text = text.replace("robot: {", "robot: {payload_kg: 5, ");
+        let text = text.replace("tools: {}", &format!("tools:\n  gun: {tool}"));
+        (Profile::from_yaml(&text), text)
+    };
+    for (entry, load) in [
+        ("{effect: payload_error, tool: gun, mass_kg: 2.6}", 5.1),
+        ("{effect: payload_error, tool: other, mass_kg: 140}", 140.0),
+        ("{effect: payload_error, mass_kg: 3}", 5.5),
+    ] {
+        let (read, text) = with(entry);
+        let error = read.expect_err(entry);
+        assert!(
+            matches!(error.fault, Fault::LoadBeyondPayload { found, payload: 5.0, .. } if found == load),
+            "{error}"
+        );
+        let line = text.lines().position(|line| line.contains(entry));
+        assert_eq!(Some(error.line - 1), line, "{error}");
+        // one that was identified is written so that it can be read
+        let meant = entry.replace('}', ", large: true, reason: \"weighed\"}");
+        let (read, text) = with(&meant);
+        let mut profile = read.expect("meant");
+        profile.large = Reasons::default();
+        let again = rewritten(&text, &profile).expect("written");
+        assert!(again.contains("identified from measurements"), "{again}");
+    }
+    for entry in [
+        "{effect: payload_error, tool: gun, mass_kg: 2.5}",
+        "{effect: payload_error, tool: other, mass_kg: 4}",
+        "{effect: payload_error, mass_kg: -9}",
+    ] {
+        let (read, _) = with(entry);
+        assert!(read.is_ok(), "{entry}: {read:?}");
+    }
+}
+
+#[test]
+fn masses_and_centres_of_gravity_that_no_link_has_are_faults() {
+    let with = |mass: &str, cog: &str| {
+        let at = UR5.find("bodies:").expect("bodies");
+        let end = at + UR5[at..].find("gravity").expect("gravity");
+        let bodies = format!("bodies:\n  - {{link: 2, mass_kg: {mass}, cog_mm: [{cog}, 0, 0]}}\n");
+        Profile::from_yaml(&(UR5[..at].to_owned() + &bodies + &UR5[end..]))
+    };
+    assert!(with("400", "900").is_ok(), "{:?}", with("400", "900"));
+    for (mass, cog, key) in [
+        ("-1", "900", "mass_kg"),
+        ("1e5", "900", "mass_kg"),
+        ("400", "-1.1e4", "cog_mm"),
+    ] {
+        let error = with(mass, cog).expect_err(key);
+        assert!(
+            matches!(error.fault, Fault::OutOfRange { key: of, high: 1e4, .. } if of == key),
+            "{error}"
+        );
+        assert!(error.line > 0 && !error.hint().is_empty(), "{error}");
+    }
 }
 
 #[test]

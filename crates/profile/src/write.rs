@@ -1,6 +1,7 @@
 //! A profile file with another calibration: everything else stays as a person wrote it, comments
 //! included.
 
+use super::reading::beyond_payload;
 use super::text::gravity;
 use super::{Profile, ProfileError, Theirs};
 use crate::geometry::Pose;
@@ -115,7 +116,9 @@ fn calibration(profile: &Profile) -> String {
     for effect in effects {
         let mut entry = effect.to_entry();
         let reason = profile.large.calibration.get(&effect.label());
-        let identified = || effect.beyond_usual().map(|_| IDENTIFIED_LARGE);
+        let is_large = effect.beyond_usual().is_some()
+            || beyond_payload(profile.payload_kg, &profile.tools, effect).is_some();
+        let identified = || is_large.then_some(IDENTIFIED_LARGE);
         if let Some(reason) = reason.map(String::as_str).or_else(identified) {
             entry.push(("large", json!(true)));
             entry.push(("reason", json!(reason)));

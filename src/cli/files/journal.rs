@@ -310,9 +310,10 @@ pub(super) fn foreign(path: &Path, why: &str) -> Failure {
     Failure::with_hint(
         format!("{}: {why}", name_of(path)),
         format!(
-            "nothing is read or written in a folder with a run that was stopped and cannot be \
-             finished; to keep its files as they \
-             are, remove this one and those next to it that begin with {PREFIX}"
+            "nothing is read or written in a folder with a run that was stopped and can be neither \
+             finished nor undone: put back what its files held before (what ends in .old holds \
+             it), or keep them as they are; then remove this one and those next to it that begin \
+             with {PREFIX}"
         ),
     )
 }

@@ -75,7 +75,11 @@ fn settle(disk: &Disk, folder: &Path, is_main: bool) -> Result<Option<String>, F
     let done = match stage {
         Stage::Staging => work.clean().map(|()| undone),
         Stage::Undo => work.undo().map(|()| undone),
-        Stage::Commit => match work.forward().and_then(|()| work.clean()) {
+        Stage::Commit => match work
+            .refuse_damaged()
+            .and_then(|()| work.forward())
+            .and_then(|()| work.clean())
+        {
             Ok(()) => Ok(format!(
                 "finished what a run that was stopped had begun to write: new are {names}"
             )),

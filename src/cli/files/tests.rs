@@ -214,6 +214,93 @@ fn what_was_changed_after_a_kill_stays_and_the_rest_is_put_back() {
     assert!(seen > 1, "{seen}");
 }
 
+/// Worlds stopped between two renames: the first files of `a` are new, those of `b` are not.
+fn stopped_halfway() -> Vec<tempfile::TempDir> {
+    let worlds = (0..80).map(|last| {
+        let folder = world();
+        let _ = run(&stopped(move |step| step >= last).0, folder.path());
+        folder
+    });
+    let is_half = |folder: &tempfile::TempDir| {
+        let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("scratch");
+        text("a/1.mod") == "new 1" && text("b/report.html") == "old report"
+    };
+    worlds.filter(is_half).collect()
+}
+
+/// Files of a run next to their places, those of `a` and `b`.
+fn next_to(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let all = ["a", "b"].into_iter().flat_map(|name| {
+        let read = fs::read_dir(folder.join(name)).expect("scratch");
+        read.map(|found| found.expect("scratch").path())
+    });
+    let of_run = |path: &PathBuf| {
+        let name = path.file_name().expect("a name").to_string_lossy();
+        name.starts_with(".poseshift-") && name.ends_with(ending)
+    };
+    all.filter(of_run).collect()
+}
+
+/// What is done to a file.
+type Damage = fn(&Path);
+const DAMAGES: [Damage; 3] = [
+    |path| fs::write(path, "x").expect("scratch"),
+    |path| fs::write(path, "new 2, lonGer").expect("scratch"),
+    |path| fs::remove_file(path).expect("scratch"),
+];
+
+#[test]
+fn a_new_file_that_is_damaged_or_gone_comes_to_no_place_and_all_is_put_back() {
+    let mut seen = 0;
+    for damage in DAMAGES {
+        for folder in stopped_halfway() {
+            let waiting = next_to(folder.path(), ".new");
+            let Some(file) = waiting.iter().find(|path| path.is_file()) else {
+                continue;
+            };
+            damage(file);
+            seen += 1;
+            let said = settle(folder.path(), "a");
+            assert!(said[0].starts_with("undone"), "{said:?}");
+            assert_eq!(content(folder.path()), expected(false), "{said:?}");
+        }
+    }
+    assert!(seen > 5, "{seen}");
+}
+
+#[test]
+fn what_can_be_neither_finished_nor_undone_is_refused_and_stays_as_it_is() {
+    let mut seen = 0;
+    for damage in DAMAGES {
+        for folder in stopped_halfway() {
+            let waiting = next_to(folder.path(), ".new");
+            let Some(file) = waiting.iter().find(|path| path.is_file()) else {
+                continue;
+            };
+            damage(file);
+            // what was there before is lost as well
+            for backup in next_to(folder.path(), ".old") {
+                fs::remove_file(&backup).expect("scratch");
+                fs::write(&backup, "nothing of before").expect("scratch");
+            }
+            seen += 1;
+            let places = |folder: &Path| {
+                let mut all = content(folder);
+                all.retain(|path, _| !path.to_string_lossy().contains(".poseshift-"));
+                all
+            };
+            let before = places(folder.path());
+            let whole = folder.path().canonicalize().expect("scratch");
+            for _ in 0..2 {
+                let refused = recover(&Disk::default(), &whole.join("a")).expect_err("damaged");
+                assert!(refused.hint.contains(".old"), "{refused:?}");
+                assert_eq!(places(folder.path()), before);
+            }
+        }
+    }
+    assert!(seen > 5, "{seen}");
+}
+
 #[test]
 fn a_journal_from_elsewhere_reaches_no_file_outside_its_folder() {
     let folder = world();

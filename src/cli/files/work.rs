@@ -87,19 +87,34 @@ impl Work<'_> {
         }
     }
 
-    /// Whether at the place is what the run put there, and nothing else.
-    fn is_new(entry: &Entry) -> bool {
+    /// Whether at a path is what the run puts into the place of an entry, and nothing else.
+    fn is_new(entry: &Entry, at: &Path) -> bool {
         let whole = |(path, hash): &(PathBuf, String)| {
-            let path = if path.as_os_str().is_empty() {
-                entry.target.clone()
+            if path.as_os_str().is_empty() {
+                holds(at, hash)
             } else {
-                entry.target.join(path)
-            };
-            holds(&path, hash)
+                holds(&at.join(path), hash)
+            }
         };
-        let files = walkdir::WalkDir::new(&entry.target).into_iter();
+        let files = walkdir::WalkDir::new(at).into_iter();
         let files = files.filter(|found| !found.as_ref().is_ok_and(|f| f.file_type().is_dir()));
         files.count() == entry.new.len() && entry.new.iter().all(whole)
+    }
+
+    /// That every new file is as it was made, next to its place or in it.
+    pub(super) fn refuse_damaged(&self) -> Result<(), Stop> {
+        for entry in &self.entries {
+            let staged = self.staged(entry);
+            let (at, why) = if exists(&staged) {
+                (&staged, "it is not what the run wrote")
+            } else {
+                (&entry.target, "what the run wrote for it is gone")
+            };
+            if !Self::is_new(entry, at) {
+                return Err(Stop::at(at)(io::Error::other(why)));
+            }
+        }
+        Ok(())
     }
 
     /// Puts every new file into its place.
@@ -117,25 +132,43 @@ impl Work<'_> {
         self.sync()
     }
 
-    /// Puts everything back: what was replaced comes to its place again, what was not there goes.
-    fn backward(&self) -> Result<(), Stop> {
-        for entry in self.entries.iter().rev() {
-            let (staged, backup) = (self.staged(entry), self.backup(entry));
-            let stop = Stop::at(&entry.target);
-            if exists(&staged) {
-                continue;
+    /// What puts a place back: what is renamed to what; none where it is as before.
+    fn step_back(&self, entry: &Entry) -> Result<Option<(PathBuf, PathBuf)>, Stop> {
+        let (staged, backup) = (self.staged(entry), self.backup(entry));
+        let stop = |why: &str| Err(Stop::at(&entry.target)(io::Error::other(why)));
+        if exists(&staged) {
+            return Ok(None);
+        }
+        if Self::is_new(entry, &entry.target) {
+            match &entry.old {
+                // away in one step, whatever it holds
+                None => return Ok(Some((entry.target.clone(), staged))),
+                Some(hash) if holds(&backup, hash) => {
+                    return Ok(Some((backup, entry.target.clone())));
+                }
+                Some(_) if exists(&backup) => {
+                    return stop("what it held before was changed after a run was stopped");
+                }
+                Some(_) => {}
             }
-            if Self::is_new(entry) && (entry.old.is_none() || exists(&backup)) {
-                let undone = if entry.old.is_some() {
-                    self.disk.rename(&backup, &entry.target)
-                } else {
-                    // away in one step, whatever it holds
-                    self.disk.rename(&entry.target, &staged)
-                };
-                undone.map_err(stop)?;
-            } else if !Self::is_old(entry) {
-                let why = "it was changed after a run that wrote it was stopped";
-                return Err(stop(io::Error::other(why)));
+        }
+        if Self::is_old(entry) {
+            return Ok(None);
+        }
+        stop("it was changed after a run that wrote it was stopped")
+    }
+
+    /// Puts everything back: what was replaced comes to its place again, what was not there goes.
+    /// Where one cannot be, none is.
+    fn backward(&self) -> Result<(), Stop> {
+        let entries = self.entries.iter().rev();
+        let steps: Result<Vec<_>, Stop> = entries
+            .map(|entry| Ok((entry, self.step_back(entry)?)))
+            .collect();
+        for (entry, step) in steps? {
+            if let Some((from, to)) = step {
+                let renamed = self.disk.rename(&from, &to);
+                renamed.map_err(Stop::at(&entry.target))?;
             }
         }
         self.sync()

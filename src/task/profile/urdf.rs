@@ -7,10 +7,13 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::profile::{MAKERS, Maker, Profile, ToolOfProfile};
 use crate::model::{Chain, Conditions, Geometry, Model};
 use crate::nearest;
+use crate::printable::printable;
 use crate::program::Source;
 use crate::task::programs::language_by_id;
 use crate::task::{Document, Failure, text};
-use crate::urdf::{About, Choice, Drawing, Meshes, UrdfArm, UrdfError, profile_text, urdf_text};
+use crate::urdf::{
+    About, Choice, Drawing, Meshes, UrdfArm, UrdfError, is_name, profile_text, urdf_text,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -96,12 +99,23 @@ pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
 /// The text of a URDF of a profile with this geometry up to the flange.
 ///
 /// # Errors
-/// A text that, read again, is another arm.
+/// A name that no URDF can have; a text that, read again, is another arm.
 pub(super) fn to_urdf(
     profile: &Profile,
     flange: &Geometry,
     comments: &[String],
 ) -> Result<String, Failure> {
+    let keyed = profile.tools.keys().map(|name| ("tools", name));
+    let mut names = keyed.chain([("robot.model", &profile.model)]);
+    if let Some((key, name)) = names.find(|(_, name)| !is_name(name)) {
+        return Err(Failure::with_hint(
+            format!(
+                "{key}: the name {} holds signs that no URDF can have",
+                printable(name)
+            ),
+            "change it in the profile",
+        ));
+    }
     let chain = Chain::of(flange, &profile.mechanism);
     let axes = chain.axes();
     let mut limits = profile.mechanism.joints.map(|j| [j.min_rad, j.max_rad]);

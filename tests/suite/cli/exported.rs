@@ -226,3 +226,36 @@ fn a_factory_calibration_leaves_as_the_driver_reads_it() {
         (Some(0), Some(6))
     );
 }
+
+#[test]
+fn names_that_no_urdf_can_have_are_refused_with_their_key() {
+    let folder = scratch();
+    let path = folder.path().join("robot.yaml");
+    let nominal = std::fs::read_to_string(repository("robots/abb_irb120_thesis.yaml"));
+    let nominal = nominal.expect("a shipped profile");
+    for sign in ["\\x01", "\\x07", "\\x1b", "\\n", "\\uFFFE"] {
+        for (old, new, key) in [
+            (
+                "\"IRB 120-3/0.6\"",
+                format!("\"IRB{sign}\""),
+                "robot.model: ",
+            ),
+            ("  artifact:", format!("  \"art{sign}\":"), "tools: "),
+        ] {
+            assert!(nominal.contains(old), "{old}");
+            std::fs::write(&path, nominal.replacen(old, &new, 1)).expect("scratch");
+            let arguments = [
+                "profile",
+                "export",
+                "robot.yaml",
+                "--urdf",
+                "-o",
+                "robot.urdf",
+            ];
+            let (status, _, said) = reported(folder.path(), &arguments);
+            assert_eq!(status, Some(2), "{key} {sign}: {said}");
+            assert!(said.contains(key), "{key} {sign}: {said}");
+            assert!(!folder.path().join("robot.urdf").exists());
+        }
+    }
+}

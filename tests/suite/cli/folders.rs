@@ -241,6 +241,16 @@ fn what_is_left_out_stands_in_the_summary() {
             "{text}"
         );
         assert!(text.contains("(--ignore): in/Deburr copy.mod"), "{text}");
+        assert!(!text.contains("nothing is left out for it"), "{text}");
+    }
+    // one that means nothing is a misspelt one
+    for words in [vec!["check"], vec!["compensate", "-o", "out.mod"]] {
+        let ignored = ["--ignore", "zzz"];
+        let text = reported(&run(
+            path,
+            &[&words[..], &["in/Deburr.mod"], &ignored].concat(),
+        ));
+        assert!(text.contains("--ignore zzz: no file or folder"), "{text}");
     }
     let output = run(path, &["check", "in", "--ignore", "a[.mod"]);
     assert_eq!(output.status.code(), Some(2), "{}", reported(&output));

@@ -198,7 +198,7 @@ fn what_is_no_finite_number_is_never_an_answer() {
     let text =
         |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("scratch");
     let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
-    let effect = "  effects:\n    - {effect: joint_scale, joint: 1, ratio: 1e300}\n";
+    let effect = "  effects:\n    - {effect: joint_scale, joint: 1, ratio: 1e300, large: true, reason: wild}\n";
     text("wild.yaml", &truth.replacen("  effects:\n", effect, 1));
     text("truth.yaml", &truth);
     let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";

@@ -594,3 +594,46 @@ fn a_cell_in_metres_or_with_angles_of_no_frame_is_refused() {
     let (status, said) = check(&format!("sphere_mm: {{radius: 0.5}}, {}", at("0")));
     assert_eq!(status, 0, "{said}");
 }
+
+#[test]
+fn options_that_no_arm_can_follow_are_refused_with_their_limit() {
+    let (deburr, thesis) = (text(DEBURR), text(THESIS));
+    let start = |joints: &'static str| ["--start-joints", joints];
+    for (more, wanted) in [
+        (
+            ["--max-shift", "1e308,1e308"],
+            "at most 1000 mm and 180 deg",
+        ),
+        (
+            ["--max-shift", "1001mm,1deg"],
+            "at most 1000 mm and 180 deg",
+        ),
+        (["--max-shift", "1mm,181deg"], "at most 1000 mm and 180 deg"),
+        (start("1e308,0,0,0,30,0"), "joint 1 is 1e308 deg"),
+        // J6 goes from -400 to 400 deg
+        (
+            start("0,0,0,0,30,9999"),
+            "its limits are -400.000 to 400.000",
+        ),
+        (start("0,0,0,0,30,-761"), "more than a rotation beyond"),
+    ] {
+        let (status, said, written) = compensated("a.mod", &deburr, &thesis, &more);
+        assert_eq!(status, 2, "{more:?}: {said}");
+        assert!(said.contains(wanted), "{more:?}: {said}");
+        assert_eq!(written, None, "{more:?}");
+    }
+    for more in [["--max-shift", "1000mm,180deg"], start("0,0,0,0,30,759")] {
+        let (status, said, _) = compensated("a.mod", &deburr, &thesis, &more);
+        assert!(status < 2, "{more:?}: {said}");
+    }
+    let points = |name: &str| repository(&format!("tests/data/register/{name}.csv"));
+    let [from, to] = ["from", "to"].map(points);
+    let [from, to] = [&from, &to].map(|path| path.to_str().expect("a name"));
+    let folder = scratch();
+    for (at, status) in [("1e308,0,0", 2), ("0,-1.1e6,0", 2), ("1e5,0,0", 0)] {
+        let words = ["register", from, to, "--at", at];
+        let (found, said) = run_in(folder.path(), &words);
+        assert_eq!(found, status, "{at}: {said}");
+        assert_eq!(status == 2, said.contains("at most 1e6"), "{at}: {said}");
+    }
+}

@@ -352,6 +352,68 @@ fn what_cannot_be_taken_of_a_urdf_is_refused_with_what_was_meant() {
 }
 
 #[test]
+fn numbers_names_and_paths_of_a_urdf_that_none_has_are_named_with_their_element() {
+    let folder = scratch();
+    let link = |content: &str| {
+        let open = "<link name=\"link_3\">";
+        urdf("arm", "").replace(open, &format!("{open}{content}"))
+    };
+    let shape = |form: &str| {
+        link(&format!(
+            "<collision><geometry>{form}</geometry></collision>"
+        ))
+    };
+    let mesh = |file: &str| shape(&format!("<mesh filename=\"package://{file}\"/>"));
+    let mass = |kg: &str, x: &str| {
+        link(&format!(
+            "<inertial><origin xyz=\"{x} 0 0\"/><mass value=\"{kg}\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>"
+        ))
+    };
+    for (text, wanted) in [
+        (
+            mass("1e308", "0"),
+            "the mass of `link_3` is 1e308 kg; it is from 0 to 10000 kg",
+        ),
+        (mass("-1", "0"), "the mass of `link_3` is -1.0 kg"),
+        (mass("5", "1e9"), "the centre of gravity of `link_3`"),
+        (
+            shape("<box size=\"1 1e300 1\"/>"),
+            "of `link_3` is 1e300; it is above 0 and at most 1000",
+        ),
+        (
+            mesh("../../../etc/passwd"),
+            "of link `link_3` leads out of its package",
+        ),
+        (mesh("a/../../x.stl"), "leads out of its package"),
+        (mesh("/etc/passwd"), "leads out of its package"),
+        (
+            urdf("arm", "<link name=\"link_2\"/>"),
+            "is `link_2`, which another one has, too",
+        ),
+        (
+            "<robot name=\"a\"><link/></robot>".into(),
+            "the name of link number 1 is ``, which is none",
+        ),
+        (
+            "<robot name=\"a\"><link name=\"b\"/></robot>".into(),
+            "no joint of the file moves a link",
+        ),
+        (
+            urdf("a&#10;warning: all is well", ""),
+            "a\\u{a}warning: all is well`, which holds",
+        ),
+    ] {
+        std::fs::write(folder.path().join("a.urdf"), &text).expect("scratch");
+        let arguments = ["profile", "from-urdf", "a.urdf"];
+        let (status, out, error) = reported(folder.path(), &arguments);
+        assert_eq!((status, out.as_str()), (Some(2), ""), "{wanted}: {error}");
+        let error = words(&error);
+        assert!(error.contains(wanted), "{wanted}: {error}");
+        assert!(error.contains("a.urdf"), "{error}");
+    }
+}
+
+#[test]
 fn a_pedestal_is_reported_and_meshes_are_named_from_the_profile() {
     let folder = scratch();
     let package = folder.path().join("arm_support");

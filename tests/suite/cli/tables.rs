@@ -288,3 +288,30 @@ fn a_plan_of_too_few_configurations_names_its_own_options() {
         "{reported}"
     );
 }
+
+#[test]
+fn tables_of_more_columns_than_any_has_are_refused_with_their_number() {
+    let folder = scratch();
+    let path = folder.path().join("wide.csv");
+    let name = path.to_str().expect("a plain name");
+    let commas = ",".repeat(2_000_000);
+    let different: Vec<String> = (0..200_000).map(|n| format!("c{n}")).collect();
+    for (text, columns) in [
+        (format!("{commas}\n{commas}\n"), "2000001 columns"),
+        (different.join(",") + "\n", "200000 columns"),
+    ] {
+        std::fs::write(&path, text).expect("scratch");
+        for command in [
+            &["validate", "--measurements", name][..],
+            &["calibrate", "--measurements", name],
+            &["diagnose", "--measurements", name],
+            &["fk", "--joints", name],
+        ] {
+            let said = refused(&[command, &["--profile", PROFILE]].concat());
+            assert!(
+                said.contains(columns) && said.contains("at most 1000"),
+                "{command:?}: {said}"
+            );
+        }
+    }
+}

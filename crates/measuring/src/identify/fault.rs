@@ -14,8 +14,16 @@ const MOST: [(&str, (f64, &str)); 2] = [
 ];
 /// Of the other columns: seconds since 1970 are fewer.
 const MOST_OTHERS: (f64, &str) = (1e12, "1e12");
+/// Temperatures that a robot may have, degrees Celsius.
+const TEMPERATURES_C: (std::ops::RangeInclusive<f64>, &str) =
+    (-273.15..=1000.0, "-273 to 1000 degrees Celsius");
+
 /// The limit that a number of a column is beyond.
 pub(super) fn beyond(column: &str, number: f64) -> Option<&'static str> {
+    if column == "temperature_c" {
+        let (range, limit) = TEMPERATURES_C;
+        return (!range.contains(&number)).then_some(limit);
+    }
     let own = MOST.iter().find(|(ending, _)| column.ends_with(ending));
     let (most, limit) = own.map_or(MOST_OTHERS, |(_, most)| *most);
     (number.abs() > most).then_some(limit)
@@ -207,7 +215,8 @@ mod tests {
             ("1e300,2,3,1,20", "x_mm", "1e8 mm"),
             ("1,2,-2e8,1,20", "z_mm", "1e8 mm"),
             ("1,2,3,1e-320,20", "sigma_mm", "1e-9 mm"),
-            ("1,2,3,1,1e13", "temperature_c", "1e12"),
+            ("1,2,3,1,1e13", "temperature_c", "-273 to 1000"),
+            ("1,2,3,1,-400", "temperature_c", "-273 to 1000"),
         ] {
             let error = fault(&format!("1,2,3,4,5,6,{row}"));
             let text = error.to_string();

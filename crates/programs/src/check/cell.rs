@@ -319,6 +319,12 @@ pairs: [{a: gun, b: wall, clearance_mm: 0}, {a: link0, b: floor, allow: true}]
             offset_m: -0.01,
         };
         assert_eq!(cell.bodies[1].shape.form, plane);
+        // of any length
+        for long in ["1e200", "1e-8", "1.5e308"] {
+            let text = TEXT.replace("[0, 0, 2]", &format!("[0, 0, {long}]"));
+            let cell = Cell::from_yaml(&text).expect(long);
+            assert_eq!(cell.bodies[1].shape.form, plane, "{long}");
+        }
         assert_eq!(cell.pairs[1].clearance_m, None);
         assert_eq!(cell.attached[0].to, Carrier::Flange);
     }

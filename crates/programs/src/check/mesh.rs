@@ -149,6 +149,12 @@ impl Mesh {
         if all.iter().flatten().flatten().any(|x| !x.is_finite()) {
             return Err(MeshError::NotFinite);
         }
+        // a corner far away makes a triangle of which no area is left: its mesh is none, either
+        let farthest_m = side_m(&bounds(all));
+        if farthest_m > LARGEST_M {
+            let size_m = farthest_m;
+            return Err(MeshError::Size { size_m, scale });
+        }
         let has_area = |[a, b, c]: &&Triangle| {
             let (u, v, w) = (sub(*b, *a), sub(*c, *a), sub(*c, *b));
             let longest = norm(u).max(norm(v)).max(norm(w));
@@ -184,18 +190,13 @@ impl Mesh {
     /// The corner of least coordinates of the box about it, and that of largest, metres.
     #[must_use]
     pub fn bounds(&self) -> [Vector; 2] {
-        let corners = || self.triangles.iter().flatten();
-        let of = |start: f64, pick: fn(f64, f64) -> f64| {
-            std::array::from_fn(|i| corners().map(|c| c[i]).fold(start, pick))
-        };
-        [of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max)]
+        bounds(&self.triangles)
     }
 
     /// The longest side of that box, metres.
     #[must_use]
     pub fn longest_side_m(&self) -> f64 {
-        let [low, high] = self.bounds();
-        sub(high, low).into_iter().fold(0.0, f64::max)
+        side_m(&self.bounds())
     }
 
     /// Whether a point is inside: an odd number of triangles lies on a ray from it, or, where all
@@ -238,6 +239,20 @@ use formats::triangles;
 #[cfg(not(feature = "mesh"))]
 fn triangles(_: &str, _: &[u8], _: Neighbour) -> Result<Vec<Triangle>, MeshError> {
     Err(MeshError::NotBuilt)
+}
+
+/// The box about triangles: its corner of least coordinates, and that of largest.
+fn bounds(triangles: &[Triangle]) -> [Vector; 2] {
+    let corners = || triangles.iter().flatten();
+    let of = |start: f64, pick: fn(f64, f64) -> f64| {
+        std::array::from_fn(|i| corners().map(|c| c[i]).fold(start, pick))
+    };
+    [of(f64::INFINITY, f64::min), of(f64::NEG_INFINITY, f64::max)]
+}
+
+/// The longest side of a box.
+fn side_m([low, high]: &[Vector; 2]) -> f64 {
+    sub(*high, *low).into_iter().fold(0.0, f64::max)
 }
 
 /// A corner to be compared: 0.0 and -0.0 are one place.
@@ -294,6 +309,17 @@ mod tests {
         };
         let faces: String = faces.iter().map(face).collect();
         format!("solid t\n{faces}endsolid t\n")
+    }
+
+    #[test]
+    fn a_corner_far_away_is_refused_however_far_it_is() {
+        let near = tetrahedron(1000.0);
+        for far in ["1e5", "1e10", "1e18", "1e160", "-1e300"] {
+            let text = near.replacen("vertex 1000 0 0", &format!("vertex {far} 0 0"), 1);
+            assert_ne!(text, near);
+            let error = read("t.stl", &text, None).expect_err(far);
+            assert!(matches!(error, MeshError::Size { .. }), "{far}: {error}");
+        }
     }
 
     fn read(name: &str, text: &str, scale: Option<f64>) -> Result<Mesh, MeshError> {

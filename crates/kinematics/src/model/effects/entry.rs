@@ -100,7 +100,11 @@ const MOST_COG_MM: f64 = 2000.0;
 const ROUNDED: f64 = 1e-12;
 
 /// The largest value of a parameter that a profile takes without a reason; `None` where any is.
-fn usual_limit(parameter: &Parameter) -> Option<f64> {
+fn usual_limit(kind: Kind, parameter: &Parameter) -> Option<f64> {
+    let own = kind.largest().iter().find(|(key, _)| *key == parameter.key);
+    if let Some((_, largest)) = own {
+        return Some(*largest);
+    }
     match parameter.unit {
         Unit::Degree => Some(MOST_DEG),
         // where a load has its centre is no error of the arm
@@ -251,7 +255,7 @@ impl Effect {
         let parameters = self.parameters.iter().zip(self.definition().parameters);
         parameters
             .filter_map(|(value, parameter)| {
-                let limit = usual_limit(parameter)?;
+                let limit = usual_limit(self.kind, parameter)?;
                 Some((parameter, value / parameter.unit.in_si(), limit))
             })
             .find(|(parameter, value, limit)| {
@@ -406,14 +410,12 @@ fn number(
     parameter: &Parameter,
     value: &Value,
 ) -> Result<f64, EntryError> {
+    let is_time = parameter.unit == Unit::Second;
     let number = value.as_f64().filter(|n| n.is_finite());
-    number.ok_or_else(|| {
-        bad(
-            definition,
-            parameter.key,
-            value,
-            format!("a finite number in {}", parameter.unit.symbol()),
-        )
+    number.filter(|n| !is_time || *n > 0.0).ok_or_else(|| {
+        let above = if is_time { " above 0" } else { "" };
+        let expected = format!("a finite number{above} in {}", parameter.unit.symbol());
+        bad(definition, parameter.key, value, expected)
     })
 }
 
@@ -444,7 +446,12 @@ pub fn entry_schema() -> Value {
             }
         }
         for parameter in definition.parameters {
-            properties.insert(parameter.key.into(), json!({"type": "number"}));
+            let schema = if parameter.unit == Unit::Second {
+                json!({"type": "number", "exclusiveMinimum": 0})
+            } else {
+                json!({"type": "number"})
+            };
+            properties.insert(parameter.key.into(), schema);
             if !optional(definition) {
                 required.push(parameter.key);
             }

@@ -28,6 +28,8 @@ impl Equation for JointCoupling {
             ..Search::PLAIN
         },
     };
+    // 2 degrees in a whole rotation
+    const LARGEST: &'static [(&'static str, f64)] = &[("ratio", 2.0 / 360.0)];
 
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {

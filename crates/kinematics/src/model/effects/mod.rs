@@ -41,6 +41,10 @@ trait Equation {
     /// angles on its way.
     const READS_ANGLES: bool = true;
 
+    /// Parameters by key with the largest value, in the profile's unit, that a profile takes without
+    /// a reason, where their unit alone does not say it.
+    const LARGEST: &'static [(&'static str, f64)] = &[];
+
     /// Changes the arm's geometry, before any posture is known.
     fn change_geometry<S: Scalar>(
         site: &Site,
@@ -158,6 +162,11 @@ macro_rules! registry {
             #[must_use]
             pub const fn definition(self) -> &'static Definition {
                 match self { $(Kind::$name => const { &$file::$name::DEFINITION },)+ }
+            }
+
+            /// Largest values of parameters by key.
+            const fn largest(self) -> &'static [(&'static str, f64)] {
+                match self { $(Kind::$name => $file::$name::LARGEST,)+ }
             }
         }
 

@@ -38,6 +38,8 @@ impl Equation for PayloadError {
             ..Search::PLAIN
         },
     };
+    // what the largest robots carry, and half as much again
+    const LARGEST: &'static [(&'static str, f64)] = &[("mass_kg", 3000.0)];
 
     fn change_geometry<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], _: &Conditions, geometry: &mut Geometry<S>) {
         if site.is_of_tool(&geometry.tool_name) {

@@ -31,6 +31,8 @@ impl Equation for Settling {
             ..Search::PLAIN
         },
     };
+    // the whole move
+    const LARGEST: &'static [(&'static str, f64)] = &[("share", 1.0)];
     const READS_ANGLES: bool = false;
 
     #[inline(always)]

@@ -33,6 +33,8 @@ impl Equation for ThermalGrowth {
             ..Search::PLAIN
         },
     };
+    // four times aluminium
+    const LARGEST: &'static [(&'static str, f64)] = &[("per_k", 1e-4)];
     const READS_ANGLES: bool = false;
 
     #[inline(always)]

@@ -40,6 +40,8 @@ impl Equation for WarmUpDrift {
             ..Search::PLAIN
         },
     };
+    // four months
+    const LARGEST: &'static [(&'static str, f64)] = &[("time_constant_s", 1e7)];
     const READS_ANGLES: bool = false;
 
     #[inline(always)]

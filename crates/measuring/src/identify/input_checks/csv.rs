@@ -54,6 +54,22 @@ pub fn empty() -> NotCsv {
     }
 }
 
+/// Columns of a table: measurements have some dozen, and loggers some hundred.
+const MOST_COLUMNS: usize = 1000;
+
+/// A header of more columns than any table has.
+#[must_use]
+pub fn too_wide(line: usize, columns: usize) -> Option<NotCsv> {
+    (columns > MOST_COLUMNS).then(|| NotCsv {
+        line,
+        column: 1,
+        message: format!("{columns} columns; at most {MOST_COLUMNS} are read"),
+        hint: "is it a table? the first line names its columns; leave out those that are not \
+            needed"
+            .into(),
+    })
+}
+
 /// A row of twice as many cells as its header: every number with a decimal comma is two.
 #[must_use]
 pub fn doubled(line: usize, header: &str, first: Option<&str>) -> Option<NotCsv> {
@@ -97,6 +113,10 @@ pub fn not_csv(bytes: &[u8]) -> Option<NotCsv> {
         return Some(empty());
     };
     let first = lines.next().map(|(_, line)| line);
+    let columns = header.split(|b| *b == b',').count();
+    if let Some(found) = too_wide(number + 1, columns) {
+        return Some(found);
+    }
     // how many there are: the parts between, less one
     let count = |line: &[u8], separator: u8| line.split(|b| *b == separator).count() - 1;
     if count(header, b',') > 0 {
@@ -133,6 +153,10 @@ mod tests {
     fn separators_decimals_and_encodings_are_named() {
         assert_eq!(not_csv(b"a,b\n1,2\n"), None);
         assert_eq!(not_csv(b"a\n1\n"), None);
+        assert_eq!(not_csv("a,".repeat(999).as_bytes()), None);
+        let (line, _, message, _) = reported(("# x\n".to_owned() + &"a,".repeat(1000)).as_bytes());
+        assert_eq!(line, 2);
+        assert!(message.contains("1001 columns; at most 1000"), "{message}");
         let (line, _, message, hint) = reported(b"# x\na;b\n1,5;2,5\n");
         assert_eq!(line, 2);
         assert!(

@@ -1,7 +1,7 @@
 //! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign,
 //! header.
 
-use crate::identify::input_checks::csv::{NotCsv, doubled, empty, line_of_row};
+use crate::identify::input_checks::csv::{NotCsv, doubled, empty, line_of_row, too_wide};
 use std::ops::Range;
 
 /// What stands between cells.
@@ -179,6 +179,9 @@ impl Grid {
                 .collect()
         };
         let names = of_line(first);
+        if let Some(found) = too_wide(number + 1, names.len()) {
+            return Err(found);
+        }
         let numbers = names.iter().filter(|cell| is_number(cell)).count();
         let has_header = numbers < ROW_NUMBERS;
         let header = if has_header {
@@ -322,6 +325,22 @@ mod tests {
         assert_eq!(read.header, ["#1", "#2", "#3", "#4"]);
         assert_eq!(read.rows.len(), 2);
         assert_eq!(read.rows[1].0, 2);
+    }
+
+    #[test]
+    fn a_table_of_more_columns_than_any_has_is_refused_with_their_number() {
+        assert!(Grid::read("t", ";".repeat(999).as_bytes()).is_ok());
+        for header in [";".repeat(1000), "c\t".repeat(2_000_000)] {
+            let error = Grid::read("t", header.as_bytes()).expect_err("too wide");
+            let columns = header.matches([';', '\t']).count() + 1;
+            assert!(
+                error
+                    .message
+                    .contains(&format!("{columns} columns; at most 1000")),
+                "{}",
+                error.message
+            );
+        }
     }
 
     #[test]
