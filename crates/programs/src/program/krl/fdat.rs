@@ -87,19 +87,17 @@ impl Reader {
         if let Some(fdat) = self.fdat_of(name, at) {
             return self.part_of_fdat(fdat, part);
         }
-        match self.fdat_variable(name, at, part) {
-            Some(variable) => Expr::Variable(variable),
-            None => {
-                // data that are not in the files are of a tool that the robot holds, as all that are
-                let is_held = !self.declared.has_fixed_tools
-                    && self.names.datum(name, self.context()).is_none();
-                let unknown = Fdat {
-                    is_external: is_held.then_some(false),
-                    ..Fdat::default()
-                };
-                self.part_of_fdat(unknown, part)
-            }
+        if let Some(variable) = self.fdat_variable(name, at, part) {
+            return Expr::Variable(variable);
         }
+        // data that are not in the files are of a tool that the robot holds, as all that are
+        let is_held = !self.declared.has_fixed_tools
+            && self.names.datum(name, self.context()).is_none();
+        let unknown = Fdat {
+            is_external: is_held.then_some(false),
+            ..Fdat::default()
+        };
+        self.part_of_fdat(unknown, part)
     }
 
     /// The number of the tool, or of the base, of an FDAT.

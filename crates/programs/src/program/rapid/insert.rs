@@ -47,10 +47,8 @@ fn forbids(text: &[u8]) -> Option<&'static str> {
         let length = behind.iter().take_while(|b| is_letter(**b)).count();
         &behind[..length]
     });
-    options
-        .flat_map(|option| OF_WHOLE.iter().find(|of| option.eq_ignore_ascii_case(of.0)))
-        .map(|of| of.1)
-        .next()
+    let of_whole = |option| OF_WHOLE.iter().find(|of| of.0.eq_ignore_ascii_case(option));
+    options.filter_map(of_whole).map(|of| of.1).next()
 }
 
 /// External axes of a target, as they are written behind its other numbers.

@@ -414,6 +414,6 @@ fn a_frame_displaced_by_numbers_is_a_position() {
     assert_eq!(there.target, near.target);
     assert!(matches!(
         near.displacement,
-        crate::program::Displacement::By(_)
+        Displacement::By(_)
     ));
 }
