@@ -102,7 +102,10 @@ mod tests {
         let third = Quantity::counted(0.0, 1.0 / 3.0, Some(5));
         let expected = Quantity::counted(0.0, 1.0, Some(1));
         assert_eq!(of("INT", std::slice::from_ref(&third)), expected);
-        assert_eq!(of("roundUp", &[third.clone()]).ends(), Some((0.0, 2.0)));
+        assert_eq!(
+            of("roundUp", std::slice::from_ref(&third)).ends(),
+            Some((0.0, 2.0))
+        );
         // downwards, or to zero
         assert_eq!(of("int", &[third.times(-1.0)]).ends(), Some((-2.0, 0.0)));
         let whole = Quantity::counted(0.0, 0.1, Some(10));

@@ -56,7 +56,6 @@ impl Flow<'_> {
     /// What a call itself does before it goes anywhere: arguments are given away, what is shared is
     /// uncertain.
     pub(super) fn call(&mut self, instance: u32, call: &Call, site: Site, state: &mut State) {
-        let _ = instance;
         if !call.foreign {
             return;
         }
@@ -71,6 +70,7 @@ impl Flow<'_> {
                 let own = self.changed(variable);
                 let changed = self.holdings.one(own, site);
                 self.set(state, variable, changed);
+                self.share(instance, variable, state);
             }
         }
         let uncertain = self.holdings.one(Atom::Uncertain, site);
@@ -225,6 +225,11 @@ impl Flow<'_> {
                 }
             }
         }
+        // its own parameters are what the variables are that it is given for them
+        for (parameter, variable) in &*Rc::clone(&self.instances[instance as usize].same) {
+            let held = self.variable(&back, *variable);
+            self.hold(&mut back, *parameter, held);
+        }
         for argument in self.arguments(call) {
             if let (Some(parameter), Some(variable)) = (argument.parameter, argument.back)
                 && self.script.variables[parameter as usize].routine == Some(routine)
@@ -233,9 +238,57 @@ impl Flow<'_> {
                 let held = self.variable(exit, parameter);
                 let written = self.come_back(held, variable);
                 self.set(&mut back, variable, written);
+                self.share(instance, variable, &mut back);
             }
         }
         back
+    }
+
+    /// The parameters by reference of a routine that a call gives, and those of its callers, with the
+    /// variable that each is in the end.
+    pub(super) fn given_by(
+        &self,
+        caller: u32,
+        statement: u32,
+        routine: RoutineId,
+    ) -> Rc<[(VariableId, VariableId)]> {
+        let before = &self.instances[caller as usize].same;
+        let Statement::Call(call) = self.script.statements[statement as usize] else {
+            return Rc::clone(before);
+        };
+        let call = &self.script.calls[call as usize];
+        let given = self.arguments(call).iter().filter_map(|argument| {
+            let (parameter, variable) = (argument.parameter?, argument.back?);
+            let is_own = self.script.variables[parameter as usize].routine == Some(routine);
+            // not a part of it
+            let is_whole = argument.value == Expr::Variable(variable);
+            let known = before.iter().find(|(of, _)| *of == variable);
+            (is_own && is_whole).then(|| (parameter, known.map_or(variable, |(_, of)| *of)))
+        });
+        let given: Vec<_> = given.collect();
+        if given.is_empty() {
+            return Rc::clone(before);
+        }
+        before.iter().copied().chain(given).collect()
+    }
+
+    /// A variable is written: so it is under the other names that it has in a routine that is given
+    /// it by reference.
+    pub(super) fn share(&mut self, instance: u32, variable: VariableId, state: &mut State) {
+        let same = Rc::clone(&self.instances[instance as usize].same);
+        if same.is_empty() {
+            return;
+        }
+        let known = same.iter().find(|(parameter, _)| *parameter == variable);
+        let one = known.map_or(variable, |(_, one)| *one);
+        let held = self.variable(state, variable);
+        let names = same.iter().filter(|(_, of)| *of == one);
+        for other in names.map(|(parameter, _)| *parameter).chain([one]) {
+            if other != variable {
+                let held = self.come_back(held, other);
+                self.set(state, other, held);
+            }
+        }
     }
 
     /// What a variable holds that was given by reference: of its own position parts may have been

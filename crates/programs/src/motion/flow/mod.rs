@@ -74,6 +74,8 @@ struct Instance {
     depth: u32,
     /// Instance that calls it; [`NO_INSTANCE`] where several or none do.
     caller: u32,
+    /// Its parameters that are by reference, and what each is in the end: no other one's parameter.
+    same: Rc<[(VariableId, VariableId)]>,
     /// Stop of its first move.
     first_stop: Stop,
     entry: Option<State>,
@@ -142,9 +144,6 @@ pub(super) struct Flow<'a> {
     made_records: HashMap<Content, ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
-    /// Of variables of no routine the parameters that calls give them for by reference, also through
-    /// others.
-    aliases: HashMap<VariableId, Vec<VariableId>>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -217,7 +216,6 @@ impl<'a> Flow<'a> {
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
             reads: Vec::new(),
-            aliases: HashMap::new(),
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),
@@ -251,7 +249,6 @@ impl<'a> Flow<'a> {
         flow.track();
         flow.find_idle();
         flow.find_changing();
-        flow.find_aliases();
         for _ in 0..MOST_ROUNDS {
             let before = (
                 flow.started.clone(),

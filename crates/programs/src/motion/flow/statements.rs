@@ -8,7 +8,7 @@ use crate::motion::before::{ANYWHERE, Stop};
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::script::{
     Argument, Call, Condition, Expected, Expr, Held, Label, ModalId, RoutineId, Statement,
-    VariableId, Wanted, short,
+    VariableId, Wanted, Written, short,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -67,6 +67,7 @@ impl<'a> Flow<'a> {
             depth,
             caller,
             first_stop,
+            same: Rc::default(),
             entry: None,
             exit: None,
             waiting: BTreeSet::new(),
@@ -91,7 +92,9 @@ impl<'a> Flow<'a> {
         let length = self.script.routines[routine as usize].statements.len();
         let is_own = depth <= DEEPEST && !is_recursive && self.size + length <= most;
         let made = if is_own {
-            self.instance(routine, depth, caller)
+            let made = self.instance(routine, depth, caller);
+            self.instances[made as usize].same = self.given_by(caller, statement, routine);
+            made
         } else if let Some(&known) = self.merged.get(&routine) {
             known
         } else {
@@ -227,7 +230,16 @@ impl<'a> Flow<'a> {
             match statement {
                 Statement::Move(instruction) => self.go(instance, instruction, at, &mut state),
                 Statement::Write(write) => {
-                    self.write(&script.writes[write as usize], at, &mut state);
+                    let write = &script.writes[write as usize];
+                    self.write(write, at, &mut state);
+                    match write.variable {
+                        Written::One(variable) => self.share(instance, variable, &mut state),
+                        Written::AnyOf(table) => {
+                            for variable in script.tables[table as usize].entries.values() {
+                                self.share(instance, *variable, &mut state);
+                            }
+                        }
+                    }
                 }
                 Statement::Call(number) => {
                     let call = &script.calls[number as usize];

@@ -290,37 +290,8 @@ impl Flow<'_> {
         }
     }
 
-    /// Finds the parameters that variables of no routine stand behind.
-    pub(super) fn find_aliases(&mut self) {
-        let mut given: HashMap<VariableId, Vec<VariableId>> = HashMap::new();
-        for argument in &self.script.arguments {
-            if let (Some(parameter), Some(variable)) = (argument.parameter, argument.back) {
-                given.entry(variable).or_default().push(parameter);
-            }
-        }
-        for (&variable, first) in &given {
-            if self.script.variables[variable as usize].routine.is_some() {
-                continue;
-            }
-            let (mut open, mut all) = (first.clone(), Vec::new());
-            while let Some(parameter) = open.pop() {
-                if !all.contains(&parameter) {
-                    all.push(parameter);
-                    open.extend(given.get(&parameter).into_iter().flatten());
-                }
-            }
-            self.aliases.insert(variable, all);
-        }
-    }
-
     pub(super) fn set(&mut self, state: &mut State, variable: VariableId, holding: Holding) {
         self.last_modes = None;
-        // in a routine that is given the variable its parameter is that, too
-        for parameter in self.aliases.get(&variable).cloned().unwrap_or_default() {
-            let held = self.variable(state, parameter);
-            let either = self.holdings.join(held, holding);
-            self.hold(state, parameter, either);
-        }
         if self.is_concurrent {
             let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);

@@ -91,8 +91,8 @@ impl Reader {
             return Expr::Variable(variable);
         }
         // data that are not in the files are of a tool that the robot holds, as all that are
-        let is_held = !self.declared.has_fixed_tools
-            && self.names.datum(name, self.context()).is_none();
+        let is_held =
+            !self.declared.has_fixed_tools && self.names.datum(name, self.context()).is_none();
         let unknown = Fdat {
             is_external: is_held.then_some(false),
             ..Fdat::default()

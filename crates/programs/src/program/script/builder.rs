@@ -30,8 +30,10 @@ enum Block {
         /// Where the next branch begins.
         next: Option<Label>,
         end: Label,
-        /// Begun by [`Builder::begin_switch`], and of what.
-        switch: Option<Option<VariableId>>,
+        /// Begun by [`Builder::begin_choice`] or [`Builder::begin_switch`].
+        is_switch: bool,
+        /// What the variable is that its branches ask for.
+        of: Option<VariableId>,
     },
     Loop {
         top: Label,
@@ -184,7 +186,8 @@ impl Builder {
         self.open.push(Block::Choice {
             next: Some(next),
             end,
-            switch: None,
+            is_switch: false,
+            of: None,
         });
     }
 
@@ -200,7 +203,8 @@ impl Builder {
         self.open.push(Block::Choice {
             next: Some(next),
             end,
-            switch: Some(of),
+            is_switch: true,
+            of,
         });
     }
 
@@ -232,7 +236,7 @@ impl Builder {
     /// Likewise of a `CASE` of this number.
     pub fn pass_case(&mut self, number: Option<i64>) {
         let of = match self.open.last() {
-            Some(Block::Choice { switch, .. }) => switch.flatten(),
+            Some(Block::Choice { of, .. }) => *of,
             _ => None,
         };
         self.pass_branch(of.zip(number.map(Wanted::Number)));
@@ -328,7 +332,7 @@ impl Builder {
     pub fn leave_block(&mut self) {
         let end = self.open.iter().rev().find_map(|block| match block {
             Block::Loop { end, .. } => Some(*end),
-            Block::Choice { end, switch, .. } => switch.map(|_| *end),
+            Block::Choice { end, is_switch, .. } => is_switch.then_some(*end),
         });
         if let Some(end) = end {
             self.jump(end);

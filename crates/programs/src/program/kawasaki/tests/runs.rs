@@ -89,10 +89,32 @@ fn a_number_that_a_call_gives_chooses_the_branch() {
 }
 
 #[test]
-fn a_parameter_is_the_name_that_the_call_gives_also_where_that_is_written() {
+fn a_parameter_is_the_name_that_the_call_gives() {
+    // written by the one name or the other, in the program that is called or one that that calls
+    for (go, expected) in [
+        ("go(.p)\nPOINT p1 = p[2]\nLMOVE .p", ["p[2]"]),
+        ("go(.p)\nPOINT .p = p[2]\nLMOVE p1", ["p[2]"]),
+        (
+            "go(.p)\nCALL set\nLMOVE .p\n.END\n.PROGRAM set\nPOINT p1 = p[2]",
+            ["p[2]"],
+        ),
+        (
+            "go(.p)\nCALL inner(.p)\n.END\n.PROGRAM inner(.q)\nPOINT p1 = p[2]\nLMOVE .q",
+            ["p[2]"],
+        ),
+        (
+            "go(.p)\nCALL inner(.p)\nLMOVE .p\n.END\n.PROGRAM inner(.q)\nPOINT .q = p[2]\nLMOVE p1",
+            ["p[2]"],
+        ),
+        // another name stays what it is
+        ("go(.p)\nPOINT p[1] = p[2]\nLMOVE .p", ["p1"]),
+    ] {
+        let program = read_two("CALL go(p1)", go);
+        assert_eq!(targets(&program), expected, "{go}");
+    }
     let program = read_two(
         "HERE p[2]\nCALL go(p1)",
-        "go(.p)\nCALL inner(.p)\n.END\n.PROGRAM inner(.q)\nPOINT p1 = p[2]\nLMOVE .q",
+        "go(.p)\nPOINT p1 = p[2]\nLMOVE .p",
     );
     assert!(
         ids(&program).contains(&"run-time-position"),

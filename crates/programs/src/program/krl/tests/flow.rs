@@ -412,8 +412,5 @@ fn a_frame_displaced_by_numbers_is_a_position() {
         panic!("{:?}", program.moves);
     };
     assert_eq!(there.target, near.target);
-    assert!(matches!(
-        near.displacement,
-        Displacement::By(_)
-    ));
+    assert!(matches!(near.displacement, Displacement::By(_)));
 }
