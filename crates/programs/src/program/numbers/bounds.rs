@@ -104,10 +104,10 @@ fn bound_in(mut part: &[u8]) -> Option<(&[u8], bool, &[u8])> {
     let [before, behind] = [&part[..at], behind].map(<[u8]>::trim_ascii);
     // n<>10, and brackets that do not stand around the whole
     let is_one = |text: &[u8]| {
-        let open = text.iter().filter(|b| **b == b'(').count();
+        let open = memchr::memchr_iter(b'(', text).count();
         !text.is_empty()
             && !text.iter().any(|b| matches!(b, b'<' | b'>' | b'='))
-            && open == text.iter().filter(|b| **b == b')').count()
+            && open == memchr::memchr_iter(b')', text).count()
     };
     if !is_one(before) || !is_one(behind) {
         return None;

@@ -48,7 +48,7 @@ fn forbids(text: &[u8]) -> Option<&'static str> {
         &behind[..length]
     });
     options
-        .flat_map(|option| OF_WHOLE.iter().find(|of| option.eq_ignore_ascii_case(of.0)))
+        .filter_map(|option| OF_WHOLE.iter().find(|of| option.eq_ignore_ascii_case(of.0)))
         .map(|of| of.1)
         .next()
 }
