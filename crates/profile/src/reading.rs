@@ -24,7 +24,7 @@ const MOST_MM: f64 = 20_000.0;
 /// No link or tool is heavier, kg.
 const MOST_MASS_KG: f64 = 1e4;
 /// And none has its centre of gravity farther away.
-const MOST_COG_MM: f64 = 1e4;
+const MOST_COG_MM: f64 = 1e6;
 /// No arm is shorter, all its rows together.
 const LEAST_ARM_MM: f64 = 20.0;
 /// No frame is rotated by more: two whole revolutions.

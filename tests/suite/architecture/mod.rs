@@ -49,7 +49,10 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("xml", &[]),
-    ("urdf", &["geometry", "model", "nearest", "xml"]),
+    (
+        "urdf",
+        &["geometry", "model", "nearest", "printable", "xml"],
+    ),
     (
         "check",
         &[

@@ -543,7 +543,7 @@ ENDMODULE
 
 /// Where moves end in an exact stop their pieces do so, too.
 #[test]
-fn stops_that_come_in_are_told_once_a_file() {
+fn stops_that_come_in_are_reported_once_a_file() {
     // what ends in a corner then, and what marks lines that stop the robot
     let cases: [(&Case, [&str; 2], &[&str]); 3] = [
         (
@@ -581,11 +581,11 @@ fn stops_that_come_in_are_told_once_a_file() {
         let (written, stops, forms) = refined(&text);
         let added = lines_with(&written, stopping).len() - lines_with(&text, stopping).len();
         assert_eq!(stops.len(), 1, "{}{stops:?}", case.language);
-        let told = match added {
+        let said = match added {
             1 => "the target that comes in".to_owned(),
             _ => format!("{added} of the targets that come in"),
         };
-        assert!(added > 0 && stops[0].contains(&told), "{added}{stops:?}");
+        assert!(added > 0 && stops[0].contains(&said), "{added}{stops:?}");
         assert_eq!(
             forms.len(),
             usize::from(case.language == "krl"),

@@ -343,9 +343,8 @@ fn an_arm_that_is_nowhere_judges_neither_measurements_nor_programs() {
     let (folder, _) = measured();
     let at = folder.path();
     let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
-    let body = "{link: 2, mass_kg: 4.2,";
-    assert!(truth.contains(body));
-    let heavy = truth.replacen(body, "{link: 2, mass_kg: 1e300,", 1);
+    let scale = "  effects:\n    - {effect: joint_scale, joint: 1, ratio: 1e308, large: true, reason: wild}\n";
+    let heavy = truth.replacen("  effects:\n", scale, 1);
     std::fs::write(at.join("heavy.yaml"), heavy).expect("scratch");
     std::fs::write(at.join("truth.yaml"), truth).expect("scratch");
     let sample = std::fs::read_to_string(repository("programs/rapid/olp/in/Deburr.mod"));

@@ -392,7 +392,7 @@ fn numbers_names_and_paths_of_a_urdf_that_none_has_are_named_with_their_element(
         ),
         (
             "<robot name=\"a\"><link/></robot>".into(),
-            "the name of link number 1 is ``, which is none",
+            "missing field `name`",
         ),
         (
             "<robot name=\"a\"><link name=\"b\"/></robot>".into(),

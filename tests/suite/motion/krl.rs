@@ -330,8 +330,9 @@ fn what_an_fdat_says_besides_tool_and_frame_changes_nothing() {
     let data = "DEFDAT T\nDECL FDAT FP1={TOOL_NO 1,BASE_NO 0,IPO_FRAME #BASE,POINT2[] \" \",\
         TQ_STATE FALSE}\nDECL E6POS XP1={X 420.0,Y 0,Z 430.0,A 160,B 20,C 180,S 2,T 0}\nENDDAT\n";
     let run = |write: &str| {
-        let body =
-            format!("{UP}FDAT_ACT=FP1\nBAS(#PTP_PARAMS,100)\nPTP XP1\nEND\nDEF other()\n{write}\n");
+        let body = format!(
+            "{UP}other()\nFDAT_ACT=FP1\nBAS(#PTP_PARAMS,100)\nPTP XP1\nEND\nDEF other()\n{write}\n"
+        );
         errors(&done(
             &[PLAIN],
             &[("t.src", &module(&body)), ("t.dat", data)],

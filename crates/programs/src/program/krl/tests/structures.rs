@@ -100,7 +100,7 @@ fn functions_return_positions() {
     // each call returns its own
     let program = with_types("CIRC up(s.P),up(s.Q)\nXP1=up(s.Q)\nLIN XP1", pick);
     assert_eq!(to(&program), ["s.P", "s.Q", "s.Q"]);
-    // of two in one expression the last is not told from the first
+    // of two in one expression nobody knows which is the last
     let program = with_types("LIN up(up(s.P))", pick);
     assert_eq!(reported(&program), ["computed-target"]);
 }
