@@ -255,7 +255,11 @@ fn a_new_file_that_is_damaged_or_gone_comes_to_no_place_and_all_is_put_back() {
     for damage in DAMAGES {
         for folder in stopped_halfway() {
             let waiting = next_to(folder.path(), ".new");
-            let Some(file) = waiting.iter().find(|path| path.is_file()) else {
+            // without it `same.mod` is what it will be all the same
+            let changes = |path: &&PathBuf| {
+                fs::read_to_string(path).is_ok_and(|text| text.starts_with("new"))
+            };
+            let Some(file) = waiting.iter().find(changes) else {
                 continue;
             };
             damage(file);
@@ -274,7 +278,11 @@ fn what_can_be_neither_finished_nor_undone_is_refused_and_stays_as_it_is() {
     for damage in DAMAGES {
         for folder in stopped_halfway() {
             let waiting = next_to(folder.path(), ".new");
-            let Some(file) = waiting.iter().find(|path| path.is_file()) else {
+            // without it `same.mod` is what it will be all the same
+            let changes = |path: &&PathBuf| {
+                fs::read_to_string(path).is_ok_and(|text| text.starts_with("new"))
+            };
+            let Some(file) = waiting.iter().find(changes) else {
                 continue;
             };
             damage(file);

@@ -387,7 +387,9 @@ fn an_arm_that_is_nowhere_judges_neither_measurements_nor_programs() {
         refused(at, &[arguments, &profile].concat(), status, said);
         assert!(!at.join("c.yaml").exists());
     }
-    let check = ["check", "far.mod", "--profile", "truth.yaml", "--json"];
+    let check = ["check", "far.mod", "--profile", "truth.yaml"];
+    refused(at, &check, 2, "the limit is 1000000 mm");
+    let check = ["check", "a.mod", "--profile", "heavy.yaml", "--json"];
     let report = refused(at, &check, 1, "not-finite");
     let report: Value = serde_json::from_str(&report).expect("a report");
     assert_eq!(report["summary"]["max_target_error_mm"], Value::Null);
