@@ -2,8 +2,8 @@
 //!
 //! A position is `{X ..,Y ..,Z ..,A ..,B ..,C ..,S ..,T ..,E1 ..}`, mm and degrees, `R = Rz(A) ·
 //! Ry(B) · Rx(C)`; S and T tell the inverse solution (`status`) where the move is a PTP. Axes are
-//! `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes stay as they are, and are not understood where
-//! they are in use. The pose is that of $TOOL in $BASE. Both are variables of the controller, as
+//! `{A1 ..,...,A6 ..,E1 ..}`, degrees. External axes stay as they are; what they carry the
+//! profile says (docs/external-axes.md). The pose is that of $TOOL in $BASE. Both are variables of the controller, as
 //! are $LOAD, `$IPO_MODE`, what `FDAT_ACT` holds, and the entries of `TOOL_DATA`, `BASE_DATA`,
 //! `LOAD_DATA` (`frames`); `$TOOL=`, BAS, inline forms and WITH write them (`states`). Positions
 //! that a statement writes, or that are parameters, are variables too (`targets`); what of it
