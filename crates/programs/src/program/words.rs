@@ -245,6 +245,11 @@ impl<'a> Words<'a, '_> {
         is_number.then_some(is_negative)
     }
 
+    /// Whether these words are one number, however large.
+    pub(super) fn is_numeral(&self) -> bool {
+        self.is_number().is_some()
+    }
+
     /// The value of the number that these words are, with its sign.
     pub(super) fn value(&self) -> Option<f64> {
         let is_negative = self.is_number()?;

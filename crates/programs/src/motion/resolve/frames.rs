@@ -2,8 +2,13 @@
 
 use super::{Refused, Resolver};
 use crate::motion::holding::Atom;
-use crate::program::script::{Expr, Held, NOT_DISPLACED, NamedFrame, Place, ValueId};
-use crate::program::{Frame, FrameId, Load, ReadError, TargetId, Tool, ToolId, Value as Meaning};
+use crate::program::script::{Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark, ValueId};
+use crate::program::{
+    Frame, FrameId, Load, ReadError, Role, TargetId, Tool, ToolId, Value as Meaning,
+};
+
+/// No tool or frame is rotated by more, in the unit of the language: two revolutions in degrees.
+const MOST_ANGLE: f64 = 720.0;
 
 impl Resolver<'_, '_> {
     /// The pose, name and load of what a move has as a tool or frame.
@@ -70,6 +75,21 @@ impl Resolver<'_, '_> {
             offset: found.offset,
         };
         let name = found.name.clone().unwrap_or_default();
+        let numbers = program.numbers_of(found).iter();
+        let mut angles = numbers
+            .zip(self.language.roles(found.layout))
+            .filter(|(_, role)| **role == Role::Orientation)
+            .map(|(number, _)| number.value);
+        if let Some(angle) = angles.find(|angle| angle.abs() > MOST_ANGLE) {
+            let remark = Remark::error_about(
+                "angle-too-large",
+                format!(
+                    "tool or frame `{name}` has an angle of {angle}; the limit is {MOST_ANGLE}"
+                ),
+                "is it in the unit of the language? write angles of a few rotations at most",
+            );
+            return Err(Refused::Said(self.report.remark(remark)));
+        }
         let meaning = crate::program::meaning(self.language, program, self.settings, target);
         self.as_frames.entry(target).or_insert(place);
         match meaning.map(|decoded| decoded.value) {

@@ -24,6 +24,13 @@ pub(super) const PARTIAL: Remark = Remark::error(
     "write all six numbers of TRANS",
 );
 
+/// `TRANS(1e999,…)`
+pub(super) const TOO_LARGE: Remark = Remark::error(
+    "partial-target",
+    "a number of the target is larger than any that is meant",
+    "write it in mm, or degrees",
+);
+
 /// A target of an arm that has not six axes.
 pub(super) const AXES: Remark = Remark::error(
     "target-not-six-axes",

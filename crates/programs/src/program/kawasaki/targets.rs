@@ -2,7 +2,7 @@
 
 use super::plates::Object;
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, not_in_files};
+use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, not_in_files};
 use super::sections::Entry;
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
@@ -353,6 +353,7 @@ impl<'a> Reader<'a> {
             None if is_partial => PARTIAL,
             None => AXES,
             Some(part) if part.is_empty() => PARTIAL,
+            Some(part) if part.is_numeral() => TOO_LARGE,
             Some(_) => COMPUTED,
         };
         self.unknown(remark)

@@ -231,6 +231,7 @@ fn tools_are_followed_and_programs_called() {
 fn what_is_not_sure_is_refused_or_reported() {
     for (code, expected) in [
         ("LMOVE TRANS(1,2,3)", "partial-target"),
+        ("LMOVE TRANS(1,2,3,4,-1e999,6)", "partial-target"),
         ("LMOVE TRANS(1,2,3,4,5,x)", "computed-target"),
         ("LMOVE TRANS(1,2,3,4,5,6,7)", "target-not-six-axes"),
         ("POINT p1 = FRAME(a,b,c,d)\nLMOVE p1", "computed-target"),

@@ -415,3 +415,28 @@ fn a_target_of_whose_numbers_another_is_built_is_not_corrected() {
     let program = read("TOOL grip\nBASE NULL\nLMOVE p1\n.h = DZ(p1)\nTYPE DX(p1)");
     assert_eq!(ids(&program), [""; 0]);
 }
+
+#[test]
+fn a_tool_or_base_that_turns_many_times_is_in_another_unit() {
+    for (tool, base, expected) in [
+        ("700", "700", None),
+        ("2500", "0", Some("angle-too-large")),
+        ("0", "-1e5", Some("angle-too-large")),
+    ] {
+        let text = format!(
+            ".PROGRAM a()\nTOOL t\nBASE b\nJMOVE #h\nLMOVE p1\n.END\n.TRANS\nt 0 0 100 0 {tool} 0\nb 0 \
+             0 9 {base} 0 0\np1 400 0 300 0 180 0\n.END\n.JOINTS\n#h 0 0 -90 0 -60 0\n.END\n"
+        );
+        let program = read_files(&[&text]).expect("a program");
+        let errors = program
+            .findings
+            .iter()
+            .filter(|f| f.severity == Severity::Error);
+        let ids: Vec<_> = errors.map(|f| f.id).collect();
+        assert_eq!(
+            ids,
+            expected.into_iter().collect::<Vec<_>>(),
+            "{tool} {base}"
+        );
+    }
+}
