@@ -241,7 +241,7 @@ pub const TABLE: &[Kind] = &[
     row("too-many-uses", Error, "the robot comes to a move, or data to a place, in more cases than are followed; the rest is not checked", "compensate the parts of the program on their own", &["compensate", "check"], &[]),
     row("tool-coordinates", Error, "POSTYPE TOOL or MTOOL: the position hangs on where the arm stands", "write the position in base, robot or user coordinates", &["compensate", "check"], &["inform"]),
     row("tool-elsewhere", Warning, "the measured point is far from where the profile has the tool", "is another point or tool measured, or a joint counted in the other direction?", &["calibrate", "validate", "diagnose", "axes"], &[]),
-    row("tool-unit", Error, "a tool is off the flange by less than 1 mm in each coordinate: metres are meant; a warning of `check`", "write it in the unit of the language, or 0 for the flange itself", &["compensate", "check"], &[]),
+    row("tool-unit", Error, "a tool is off the flange by less than 1 mm in each coordinate: metres are meant; a warning of `check`, and in URScript", "write it in the unit of the language, or 0 for the flange itself", &["compensate", "check"], &[]),
     row("track-extrapolated", Warning, "a move goes beyond the part of the rail that was measured, and the rail's errors are powers of the place", "measure the rail as far as programs use it", &["compensate", "check"], &[]),
     row("two-robots", Error, "another robot carries the work piece or moves with this one", "moves relative to another robot are not compensated", &["compensate", "check"], &["rapid", "krl"]),
     row("unmatched-ids", Warning, "rows without a partner are left out", "see that both files name their points alike", &["register"], &[]),

@@ -132,11 +132,17 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
                 "{named} is {} mm from the flange at most in each coordinate; below 1 mm {}",
                 (mm_from_m(largest) * 1e6).round() / 1e6,
                 if in_metres {
-                    "no tool is meant: the language is in metres"
+                    "mostly no tool is meant: the language is in metres"
                 } else {
                     "metres are taken for millimetres"
                 }
             );
+            // what a controller of metres was taught on the bare flange is as small
+            let severity = if in_metres {
+                Severity::Warning
+            } else {
+                severity
+            };
             findings.push(ground.at_move(
                 "tool-unit",
                 severity,
