@@ -241,6 +241,13 @@ fn next_to(folder: &Path, ending: &str) -> Vec<PathBuf> {
     all.filter(of_run).collect()
 }
 
+/// A new file that waits for its place; not that of `same.mod`, which is the same without it.
+fn waiting(folder: &Path) -> Option<PathBuf> {
+    let changes =
+        |path: &PathBuf| fs::read_to_string(path).is_ok_and(|text| text.starts_with("new"));
+    next_to(folder, ".new").into_iter().find(changes)
+}
+
 /// What is done to a file.
 type Damage = fn(&Path);
 const DAMAGES: [Damage; 3] = [
@@ -254,15 +261,10 @@ fn a_new_file_that_is_damaged_or_gone_comes_to_no_place_and_all_is_put_back() {
     let mut seen = 0;
     for damage in DAMAGES {
         for folder in stopped_halfway() {
-            let waiting = next_to(folder.path(), ".new");
-            // without it `same.mod` is what it will be all the same
-            let changes = |path: &&PathBuf| {
-                fs::read_to_string(path).is_ok_and(|text| text.starts_with("new"))
-            };
-            let Some(file) = waiting.iter().find(changes) else {
+            let Some(file) = waiting(folder.path()) else {
                 continue;
             };
-            damage(file);
+            damage(&file);
             seen += 1;
             let said = settle(folder.path(), "a");
             assert!(said[0].starts_with("undone"), "{said:?}");
@@ -277,15 +279,10 @@ fn what_can_be_neither_finished_nor_undone_is_refused_and_stays_as_it_is() {
     let mut seen = 0;
     for damage in DAMAGES {
         for folder in stopped_halfway() {
-            let waiting = next_to(folder.path(), ".new");
-            // without it `same.mod` is what it will be all the same
-            let changes = |path: &&PathBuf| {
-                fs::read_to_string(path).is_ok_and(|text| text.starts_with("new"))
-            };
-            let Some(file) = waiting.iter().find(changes) else {
+            let Some(file) = waiting(folder.path()) else {
                 continue;
             };
-            damage(file);
+            damage(&file);
             // what was there before is lost as well
             for backup in next_to(folder.path(), ".old") {
                 fs::remove_file(&backup).expect("scratch");

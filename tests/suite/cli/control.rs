@@ -259,7 +259,14 @@ fn names_of_a_urdf_are_quoted_and_its_comments_stay_comments() {
     };
     let axes = ["0 0 1", "0 1 0", "0 1 0", "0 0 1", "0 1 0", "0 0 1"];
     let joints: String = (1..7).map(|k| joint(k, axes[k - 1])).collect();
-    for name in ["no", "1e3", "a: b #"] {
+    for (name, status) in [
+        ("no", 0),
+        ("1e3", 0),
+        ("a: b #", 0),
+        // what could forge a line is refused
+        ("x&#10;tools: {evil: 1}", 2),
+        ("x\u{85}y", 2),
+    ] {
         let urdf = format!("<robot name=\"{name}\"><link name='l0'/>{joints}</robot>");
         std::fs::write(path.join("a\ntools: 1.urdf"), urdf).expect("scratch");
         let _ = std::fs::remove_file(path.join("p.yaml"));
@@ -277,7 +284,16 @@ fn names_of_a_urdf_are_quoted_and_its_comments_stay_comments() {
             .output()
             .expect("the program starts");
         let reported = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{name}: {reported}");
+        assert_eq!(output.status.code(), Some(status), "{name}: {reported}");
+        assert_eq!(path.join("p.yaml").exists(), status == 0, "{name}");
+        if status == 2 {
+            let stray = reported.chars().find(|c| c.is_control() && *c != '\n');
+            assert!(
+                stray.is_none() && reported.contains("the name of the robot"),
+                "{reported}"
+            );
+            continue;
+        }
         let written = std::fs::read_to_string(path.join("p.yaml")).expect("written");
         let stray = written.chars().find(|c| c.is_control() && *c != '\n');
         assert_eq!(stray, None, "{name}");

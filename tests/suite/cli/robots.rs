@@ -395,6 +395,10 @@ fn numbers_names_and_paths_of_a_urdf_that_none_has_are_named_with_their_element(
             "missing field `name`",
         ),
         (
+            "<robot name=\"a\"><link name=\"\"/></robot>".into(),
+            "the name of link number 1 is ``, which is none",
+        ),
+        (
             "<robot name=\"a\"><link name=\"b\"/></robot>".into(),
             "no joint of the file moves a link",
         ),

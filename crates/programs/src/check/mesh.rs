@@ -150,9 +150,8 @@ impl Mesh {
             return Err(MeshError::NotFinite);
         }
         // a corner far away makes a triangle of which no area is left: its mesh is none, either
-        let farthest_m = side_m(&bounds(all));
-        if farthest_m > LARGEST_M {
-            let size_m = farthest_m;
+        let size_m = side_m(&bounds(all));
+        if size_m > LARGEST_M {
             return Err(MeshError::Size { size_m, scale });
         }
         let has_area = |[a, b, c]: &&Triangle| {

@@ -77,7 +77,7 @@ impl Compensation {
             self.put_together(file);
             self.compensated[file] |= done.contains(&true);
         }
-        self.tell_forms(language, &sources[file], program, &wanted);
+        self.report_forms(language, &sources[file], program, &wanted);
         self.inserted.retain(|motion, _| !of_file(motion));
         self.inserted.extend(wanted);
         self.added = Added::default();
@@ -89,7 +89,7 @@ impl Compensation {
     }
 
     /// Lines of forms that were written over: once a file.
-    fn tell_forms(
+    fn report_forms(
         &mut self,
         language: &dyn Language,
         source: &Source,

@@ -63,7 +63,8 @@ impl Differing {
         ];
         let names: Vec<&str> = all.iter().filter(|of| of.0).map(|of| of.1).collect();
         match names.as_slice() {
-            [] => "where they begin".into(),
+            // the rest of what distinguishes approaches
+            [] => "whether configuration data count".into(),
             [one] => (*one).into(),
             [some @ .., last] => format!("{} and {last}", some.join(", ")),
         }

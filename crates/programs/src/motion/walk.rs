@@ -414,10 +414,10 @@ impl Walker<'_, '_> {
             &wanted,
             &configuration,
             (start, via.as_ref(), ride.clone()),
-            start
-                .is_none()
-                .then(|| self.arrivals.last_known(before))
-                .flatten(),
+            match start {
+                Some(_) => None,
+                None => self.arrivals.last_known(before),
+            },
         ) else {
             return nowhere;
         };

@@ -137,10 +137,12 @@ impl Reader {
     /// Where it is broken.
     pub(super) fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
         self.begin(source, file);
-        let names = [&b"#TCP"[..], b"#tcp", b"#Tcp"];
-        let mut names = names.iter();
-        self.declared.has_fixed_tools |=
-            names.any(|name| memchr::memmem::find(&source.bytes, name).is_some());
+        let bytes = &source.bytes;
+        let is_fixed_tool = |at: usize| {
+            let name = bytes.get(at + 1..at + 4);
+            name.is_some_and(|name| name.eq_ignore_ascii_case(b"TCP"))
+        };
+        self.declared.has_fixed_tools |= memchr::memchr_iter(b'#', bytes).any(is_fixed_tool);
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {

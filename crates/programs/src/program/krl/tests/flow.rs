@@ -392,7 +392,7 @@ fn what_is_set_behind_something_unknown_is_known() {
             "{set}"
         );
         // somewhere the robot holds the work piece: with data that are not in the files it may, too
-        let held = read("DEF s()\n$IPO_MODE=#TCP\nLIN XP3\nEND\n");
+        let held = read("DEF s()\n$IPO_MODE=#tCp\nLIN XP3\nEND\n");
         let is_unknown = reported(&held).contains(&"frame-chosen-at-run-time");
         assert_eq!(is_unknown, unknown.contains("FHOME"), "{set}");
     }
