@@ -147,6 +147,7 @@ fn a_reader_that_has_gone_makes_no_success() {
             .and_then(|line| line.parse::<i32>().ok());
         (status.expect("a status"), reported)
     };
+    let closed = |line: &str| shell(folder.path(), &format!("p {line} >&-"));
     let plain = shell(folder.path(), &format!("p {NO}"));
     assert_eq!(plain.status.code(), Some(1), "{}", reported(&plain));
     assert_eq!(gone(NO).0, 1);
@@ -175,7 +176,17 @@ fn a_reader_that_has_gone_makes_no_success() {
         let (status, reported) = gone(line);
         assert_eq!(status, 2, "{line}: {reported}");
         assert_eq!(files_below(folder.path()), before, "{line}: {reported}");
+        // nor one that was never there
+        let output = closed(line);
+        let reported = self::reported(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {reported}");
+        assert!(
+            reported.contains("standard output") || line.starts_with("--"),
+            "{line}: {reported}"
+        );
+        assert_eq!(files_below(folder.path()), before, "{line}: {reported}");
     }
+    assert_eq!(closed(NO).status.code(), Some(1));
     // at status 1, too, nothing is written that could not be known
     assert_eq!(gone(&format!("{NO} --report r.html --junit j.xml")).0, 1);
     assert_eq!(files_below(folder.path()), before);

@@ -289,9 +289,7 @@ impl Reader<'_> {
                 let id = short(self.parsed.literals.len() - 1);
                 Ok(Some(self.parsed.add(Expr::Literal(id))))
             }
-            Found::TooLarge(from, to) => {
-                self.fail(Fault::bad_value(from..to, "number", "it is too large"))
-            }
+            Found::Bad(from, to, why) => self.fail(Fault::bad_value(from..to, "number", why)),
             Found::Else => Ok(None),
         }
     }

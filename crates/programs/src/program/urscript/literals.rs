@@ -12,8 +12,8 @@ pub(super) enum Found {
     Six(Content, usize),
     /// Not six numbers.
     Else,
-    /// A number too large for any robot, at this place.
-    TooLarge(usize, usize),
+    /// A number that no robot can take, at this place, and why.
+    Bad(usize, usize, &'static str),
 }
 
 fn blanks(bytes: &[u8], mut at: usize) -> usize {
@@ -21,6 +21,25 @@ fn blanks(bytes: &[u8], mut at: usize) -> usize {
         at += 1;
     }
     at
+}
+
+/// The end of a word that stands for a number which is not finite, where no variable has its name.
+fn word_without_value(bytes: &[u8], start: usize) -> Option<usize> {
+    let rest = &bytes[start..];
+    let is_of_word = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let length = rest.iter().position(|byte| !is_of_word(byte))?;
+    let word = &rest[..length];
+    if !["nan", "inf", "infinity"]
+        .iter()
+        .any(|name| word.eq_ignore_ascii_case(name.as_bytes()))
+    {
+        return None;
+    }
+    let is_assigned = memchr::memmem::find_iter(bytes, word).any(|at| {
+        let behind = blanks(bytes, at + length);
+        bytes.get(behind) == Some(&b'=') && bytes.get(behind + 1) != Some(&b'=')
+    });
+    (!is_assigned).then_some(start + length)
 }
 
 /// Reads six numbers from the byte behind the opening bracket into `numbers`, which stays as it was
@@ -49,11 +68,11 @@ pub(super) fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Numb
                 let text = std::str::from_utf8(&rest[..length]).ok();
                 let digits = rest[sign..length].first().is_some_and(u8::is_ascii_digit);
                 let value = text.and_then(|text| text.parse::<f64>().ok());
-                return if digits && value.is_some_and(f64::is_infinite) {
-                    Found::TooLarge(at, at + length)
-                } else {
-                    Found::Else
-                };
+                if digits && value.is_some_and(f64::is_infinite) {
+                    return Found::Bad(at, at + length, "it is too large");
+                }
+                let word = word_without_value(bytes, at + sign);
+                return word.map_or(Found::Else, |end| Found::Bad(at, end, "it is not finite"));
             };
             (value, length)
         };

@@ -424,6 +424,16 @@ fn broken_text_is_refused_with_its_place() {
             (2, 11),
             "number",
         ),
+        (
+            "def a():\nmovel(p[1,-NaN,3,0,0,0])\nend",
+            (2, 11),
+            "not finite",
+        ),
+        (
+            "def a():\nmovej([0,inf ,3,0,0,0])\nend",
+            (2, 10),
+            "not finite",
+        ),
         ("def a:\nend", (1, 6), "bracket"),
         ("def a():\nx=1)\nend", (2, 4), "bracket"),
     ] {
@@ -432,6 +442,12 @@ fn broken_text_is_refused_with_its_place() {
         assert_eq!((line, column), place, "{text} {error}");
         assert!(error.to_string().contains(word), "{error}");
     }
+    // a variable may have any name
+    let named = path("inf = 0.4\nmovel(p[inf,2,3,0,0,0])\nmovel(p[infeed,2,3,0,0,0])");
+    assert_eq!(
+        ids(&named),
+        ["target-has-expressions", "target-has-expressions"]
+    );
     assert!(matches!(
         read_file(b"hello world"),
         Err(ReadError::NotThisLanguage { .. })
