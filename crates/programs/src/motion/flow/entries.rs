@@ -32,12 +32,13 @@ impl Flow<'_> {
             self.forget();
             let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
-                let state = match self.started.get(&routine).cloned() {
-                    Some(state) => self.with_concurrent(state),
+                let state = match self.started.get(&routine) {
+                    Some(state) => state.clone(),
                     // nothing has been seen to start it yet
                     None if by_others[routine as usize] => continue,
                     None => declared.clone(),
                 };
+                let state = self.with_concurrent(state);
                 let instance = self.instance(routine, 0, NO_INSTANCE);
                 self.enter(instance, &state);
             }

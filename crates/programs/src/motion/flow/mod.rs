@@ -20,7 +20,7 @@ pub(super) use moved::OF_MOVE;
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Statement, TableId, ValueId,
+    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start, Statement, TableId, ValueId,
     VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -144,6 +144,8 @@ pub(super) struct Flow<'a> {
     made_records: HashMap<Content, ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
+    /// The position of the robot itself that a move reads and goes to.
+    here: Option<ValueId>,
     /// Slots of the variables of each routine's own.
     locals: HashMap<RoutineId, Vec<u32>>,
     /// The slot of each variable that is tracked.
@@ -188,9 +190,11 @@ pub(super) struct Flow<'a> {
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
     is_concurrent: bool,
+    /// Whether routines run at any time, or concurrently with others.
+    has_concurrent: bool,
     /// With what routines are started concurrently with others.
     started: HashMap<RoutineId, State>,
-    /// What those that start others write, by variable.
+    /// What the others write, by variable.
     concurrent: HashMap<VariableId, Holding>,
     /// The instance whose text is gone through that nothing reaches.
     dead: Option<u32>,
@@ -216,6 +220,7 @@ impl<'a> Flow<'a> {
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
             reads: Vec::new(),
+            here: None,
             locals: HashMap::new(),
             slots: Vec::new(),
             fixed: Vec::new(),
@@ -242,10 +247,13 @@ impl<'a> Flow<'a> {
             given_away: Vec::new(),
             by_operator: Vec::new(),
             is_concurrent: false,
+            has_concurrent: false,
             started: HashMap::new(),
             concurrent: HashMap::new(),
             dead: None,
         };
+        let mut routines = script.routines.iter();
+        flow.has_concurrent = routines.any(|routine| routine.start == Start::Concurrent);
         flow.track();
         flow.find_idle();
         flow.find_changing();
@@ -258,7 +266,7 @@ impl<'a> Flow<'a> {
             flow.forget();
             flow.run_concurrent();
             flow.run_entries();
-            if flow.started.is_empty()
+            if !flow.has_concurrent
                 || before
                     == (
                         flow.started.clone(),

@@ -316,9 +316,16 @@ impl<'a> Flow<'a> {
         let stop = of.first_stop + (at - first);
         let target = match instruction.target {
             Expr::Value(value)
-                if matches!(script.values[value as usize], Held::ActualWith { .. }) =>
+                if let Held::ActualWith { tool, frame } = script.values[value as usize] =>
             {
-                Some(self.evaluate(state, instruction.target, site))
+                let modal = &script.modals[instruction.modal as usize];
+                // read where it is gone to
+                Some(if (modal.tool, modal.frame) == (tool, frame) {
+                    let here = self.here();
+                    self.holdings.one(Atom::Value(here), site)
+                } else {
+                    self.evaluate(state, instruction.target, site)
+                })
             }
             Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => None,
             other if self.is_choice(other) => {

@@ -229,11 +229,24 @@ impl Flow<'_> {
         }
     }
 
+    /// The value of where the robot is, whatever holds its tool and its work frame.
+    pub(super) fn here(&mut self) -> ValueId {
+        *self.here.get_or_insert_with(|| {
+            self.made.push(Held::Actual);
+            short(self.script.values.len() + self.made.len() - 1)
+        })
+    }
+
     /// The value of where the robot is, with what holds its tool and its work frame.
     fn read_with(&mut self, with: [Holding; 2]) -> ValueId {
         let with = with.map(|of| {
             let atoms = self.holdings.of(of).iter();
-            let atoms = atoms.map(|(atom, _)| (*atom, DECLARED)).collect();
+            let atoms = atoms.map(|(atom, site)| match atom {
+                // another one each time
+                Atom::Unknown(_) if *site != DECLARED => (Atom::Anything, DECLARED),
+                atom => (*atom, DECLARED),
+            });
+            let atoms = atoms.collect();
             self.holdings.intern(atoms)
         });
         if let Some((value, _)) = self.reads.iter().find(|(_, known)| *known == with) {
@@ -254,14 +267,25 @@ impl Flow<'_> {
             return false;
         };
         let one = |holding: Holding| {
-            let atoms = self.holdings.of(holding).iter().map(|(atom, _)| *atom);
-            let mut atoms = atoms.filter(|atom| *atom != Atom::Uncertain);
-            let first = atoms.next().filter(|atom| matches!(atom, Atom::Value(_)));
-            first.filter(|_| atoms.next().is_none())
+            let mut atoms = self.holdings.of(holding).iter();
+            let mut known = atoms.by_ref().filter(|(atom, _)| *atom != Atom::Uncertain);
+            let (first, site) = known.next()?;
+            let is_one = known.next().is_none();
+            let is_known = match first {
+                Atom::Value(_) | Atom::Target { .. } => true,
+                // what the robot has when the program starts
+                Atom::Unknown(_) => *site == DECLARED,
+                _ => false,
+            };
+            (is_one && is_known).then_some(*first)
         };
         let of = |modes: &Modes| [modes.tool, modes.frame].map(one);
         let own = of(&self.modes[reached.modes as usize]);
+        let modes = self.modes[reached.modes as usize];
+        let raw = [modes.tool, modes.frame];
         (0..2).all(|at| match with[at] {
+            // positions have frames of their own, wherever they are
+            NOTHING if raw[at] == NOTHING => true,
             _ if own[at].is_none() => false,
             // that of the move before
             NOTHING => self.modes.iter().all(|modes| of(modes)[at] == own[at]),
@@ -296,7 +320,7 @@ impl Flow<'_> {
             let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
             self.anytime.insert(variable, joined);
-        } else if !self.started.is_empty() {
+        } else if self.has_concurrent {
             let before = self.concurrent.get(&variable).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
             self.concurrent.insert(variable, joined);

@@ -128,6 +128,13 @@ impl Flow<'_> {
                     }));
                     continue;
                 }
+                // a part of where the robot was is computed
+                Atom::Value(value)
+                    if somehow.is_some()
+                        && matches!(self.value(value), Held::Actual | Held::ActualWith { .. }) =>
+                {
+                    Atom::Anything
+                }
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
                     None => match self.with_parts(value, first, parts.clone()) {

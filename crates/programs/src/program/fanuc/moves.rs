@@ -60,17 +60,16 @@ impl Reader<'_> {
         };
         let mut points = vec![(first, at..at + length)];
         let mut behind = at + length;
-        if letter == b'C' {
-            let rest = text[behind..].iter();
-            behind += rest
-                .take_while(|b| b.is_ascii_whitespace() || **b == b':')
-                .count();
-            if let Some((end, length)) = position(&text[behind..]) {
-                points.push((end, behind..behind + length));
-                behind += length;
-            }
+        let end = (letter == b'C').then(|| end_of_arc(text, behind)).flatten();
+        // what stands behind the middle of an arc and in front of its end
+        let mut middle = None;
+        if let Some((end, span)) = end {
+            middle = Some(Words::of(&text[..span.start], behind));
+            behind = span.end;
+            points.push((end, span));
         }
         let mut words = Words::of(text, behind);
+        let of_middle = middle.map(|middle| words.add(middle)).unwrap_or_default();
         words.against[Why::LineTracking as usize] = self.listing.tracks_line;
         words.against[Why::Coordinated as usize] &= !self.listing.is_carried;
         let is_arc = points.len() == 2;
@@ -95,6 +94,7 @@ impl Reader<'_> {
         };
         let listed = self.builder.script.instructions.len();
         let named: Vec<Named> = points.iter().map(|(named, _)| *named).collect();
+        let mut last = listed;
         for (index, (named, span)) in points.into_iter().enumerate() {
             let motion = match (letter, is_arc, index) {
                 (b'J', ..) => Motion::Joint,
@@ -104,6 +104,7 @@ impl Reader<'_> {
             };
             // what is more than a move to its points cannot be repeated
             let target_span = is_repeatable.then(|| Span::of(start + span.start..start + span.end));
+            last = self.builder.script.instructions.len();
             self.go_to(
                 named,
                 &Instruction {
@@ -116,11 +117,18 @@ impl Reader<'_> {
         }
         self.row(is_row, listed);
         self.known.moves();
-        if !words.offsets.is_empty() {
-            let here = listed..self.builder.script.instructions.len();
-            let offsets = words.offsets.iter();
-            let offsets = offsets.map(|(axes, at)| (*axes, at.clone().map(|at| &text[at])));
-            self.displace(here, &offsets.collect::<Vec<_>>(), &named);
+        let end = self.builder.script.instructions.len();
+        // options behind the middle of an arc are its own, else those behind the end are of both
+        let (all, of_first) = match of_middle.is_empty() {
+            true => (listed..end, listed..listed),
+            false => (last..end, listed..last),
+        };
+        for (here, offsets) in [(of_first, of_middle), (all, words.offsets)] {
+            if !offsets.is_empty() {
+                let offsets = offsets.into_iter();
+                let offsets = offsets.map(|(axes, at)| (axes, at.map(|at| &text[at])));
+                self.displace(here, &offsets.collect::<Vec<_>>(), &named);
+            }
         }
         // what else it does may write registers
         if !words.is_harmless {
@@ -370,6 +378,19 @@ impl Words {
         words
     }
 
+    /// With what stands behind the middle of an arc, but for its offsets, which come back.
+    fn add(&mut self, middle: Self) -> Vec<(Axes, Option<Range<usize>>)> {
+        for (of, more) in self.against.iter_mut().zip(middle.against) {
+            *of |= more;
+        }
+        self.wrist_joint |= middle.wrist_joint;
+        self.may_stop |= middle.may_stop;
+        self.is_plain &= middle.is_plain;
+        self.is_harmless &= middle.is_harmless;
+        self.then.extend(middle.then);
+        middle.offsets
+    }
+
     /// One word; whether the name of a program that is called follows.
     fn take(&mut self, text: &[u8], at: Range<usize>) -> bool {
         let word = text[..word_length(text)].to_ascii_uppercase();
@@ -402,6 +423,21 @@ impl Words {
             return false;
         }
         true
+    }
+}
+
+/// The position at the end of an arc, and its bytes: the next word behind the middle, or the first
+/// of the next line where options stand in between.
+fn end_of_arc(text: &[u8], behind: usize) -> Option<(Named, Range<usize>)> {
+    let mut from = behind;
+    loop {
+        let gap = text[from..].iter();
+        let gap = gap.take_while(|b| b.is_ascii_whitespace() || **b == b':');
+        let at = from + gap.count();
+        if let Some((end, length)) = position(&text[at..]) {
+            return Some((end, at..at + length));
+        }
+        from = at + memchr::memchr2(b'\n', b'\r', &text[at..])?;
     }
 }
 

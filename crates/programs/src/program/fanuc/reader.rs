@@ -284,7 +284,7 @@ fn listing(
         lines: sections.lines.clone(),
         tracks_line: tracks_line(&bytes[sections.head.clone()]),
         is_carried: names.carries_every_frame,
-        uses_active: has(b"PR["),
+        uses_active: has(b"PR[") || has(b"LPOS"),
         uses_arguments: has(b"AR["),
         ..Listing::default()
     };

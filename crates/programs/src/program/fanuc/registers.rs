@@ -1,6 +1,7 @@
 //! Position registers and points as programs write them: copies of points, and what displaces these.
 
 use super::content::{Entered, canonical};
+use super::controller::Kind;
 use super::numbers::{ELEMENTS, MOST_NUMBER, of_position};
 use super::offsets::Copied;
 use super::reader::Reader;
@@ -11,7 +12,8 @@ use crate::program::TargetId;
 use crate::program::displacing::grown_by_any;
 use crate::program::quantity::Quantity;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, How, NOT_DISPLACED, UNBOUNDED, VariableId, Written,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, NOT_DISPLACED, UNBOUNDED, VariableId,
+    Written,
 };
 use std::rc::Rc;
 
@@ -286,8 +288,13 @@ impl Reader<'_> {
     /// The position that a value is: a point, another register, where the robot is, or what is
     /// computed of these: of which positions, where that is a sum.
     fn position_value(&mut self, value: &[u8]) -> (Expr, Option<Bases>) {
-        if matches!(value, b"LPOS" | b"JPOS") {
+        if value == b"JPOS" {
             return (Expr::Value(self.controller.actual), None);
+        }
+        if value == b"LPOS" {
+            let [tool, frame] = [Kind::Tool, Kind::Frame].map(|kind| self.controller.active(kind));
+            let here = Held::ActualWith { tool, frame };
+            return (self.builder.script.held(here), None);
         }
         if let Some(frame) = self.other_frame(value) {
             return (frame, None);

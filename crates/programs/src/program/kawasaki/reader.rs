@@ -391,7 +391,7 @@ impl<'a> Reader<'a> {
                     let here = if is_sum {
                         self.unknown(COMPUTED)
                     } else {
-                        self.builder.script.held(Held::Actual)
+                        self.robot(name.is_joints())
                     };
                     self.write_name(&name, How::Whole(here));
                 }
@@ -537,13 +537,14 @@ impl<'a> Reader<'a> {
         // joints of a pose, and a pose of joints, are those of the tool, base and posture of that
         // moment
         let is_here = value.is_word(usize::from(value.is(0, b'#')), b"HERE");
-        let is_converted = is_joints(value) != name.is_joints() && !is_here;
-        if is_sum || is_converted {
-            let value = self.unknown(COMPUTED);
-            return self.write_name(&name, How::Whole(value));
-        }
-        let position = self.position(value);
-        let value = self.expr(&position);
+        let value = if is_sum || !is_here && is_joints(value) != name.is_joints() {
+            self.unknown(COMPUTED)
+        } else if is_here {
+            self.robot(name.is_joints())
+        } else {
+            let position = self.position(value);
+            self.expr(&position)
+        };
         self.write_name(&name, How::Whole(value));
     }
 

@@ -130,6 +130,16 @@ impl<'a> Reader<'a> {
         self.builder.script.unknown(remark)
     }
 
+    /// Where the robot itself is.
+    pub(super) fn robot(&mut self, is_joints: bool) -> Expr {
+        let [tool, frame] = [self.tool, self.base].map(Expr::Variable);
+        self.builder.script.held(if is_joints {
+            Held::Actual
+        } else {
+            Held::ActualWith { tool, frame }
+        })
+    }
+
     // ---- what is declared
 
     /// A name of `.TRANS` or `.JOINTS`.
@@ -331,8 +341,9 @@ impl<'a> Reader<'a> {
                 return self.position(inside.part(0..by)).along(&[x, y, z]);
             }
         }
-        if part.is_word(0, b"HERE") || part.is(0, b'#') && part.is_word(1, b"HERE") {
-            return Position::plain(self.builder.script.held(Held::Actual));
+        let is_joints = part.is(0, b'#');
+        if part.is_word(usize::from(is_joints), b"HERE") {
+            return Position::plain(self.robot(is_joints));
         }
         match Name::of(part) {
             Some((name, words)) if words == part.len() => Position::plain(self.named(&name)),

@@ -2,7 +2,7 @@
 
 use super::aggregate;
 use super::components::part_of;
-use super::frames::pose_of;
+use super::frames::{State, pose_of};
 use super::names::{DataKind, Index};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, COPIED};
@@ -39,8 +39,8 @@ enum Operand {
     Returned(Expr),
     /// Where the robot is, and whether that is asked as a pose.
     Here(bool),
-    /// Where the robot was.
-    Actual,
+    /// Where the robot was, and whether that is asked as a pose.
+    Actual(bool),
     /// Of the controller, and no position of the robot.
     System,
     Other,
@@ -130,10 +130,10 @@ impl Reader {
                         Operand::Here(word.starts_with(b"$POS"))
                     });
                 }
-                b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR" | b"$POS_INT"
-                | b"$POS_RET" | b"$POS_BACK" | b"$POS_FOR" => {
+                word @ (b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR"
+                | b"$POS_INT" | b"$POS_RET" | b"$POS_BACK" | b"$POS_FOR") => {
                     cursor.brackets()?;
-                    return Ok(Operand::Actual);
+                    return Ok(Operand::Actual(word.starts_with(b"$POS")));
                 }
                 _ => {}
             }
@@ -183,17 +183,22 @@ impl Reader {
             }
             Operand::Here(is_pose) => {
                 (point.is_here, point.is_pose) = (true, is_pose);
-                self.actual()
+                self.actual(is_pose)
             }
-            Operand::Actual => self.actual(),
+            Operand::Actual(is_pose) => self.actual(is_pose),
             Operand::Returned(value) => value,
             Operand::System | Operand::Other => self.computed(mentions),
         };
         point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
     }
 
-    fn actual(&mut self) -> Expr {
-        self.builder.script.held(Held::Actual)
+    fn actual(&mut self, is_pose: bool) -> Expr {
+        let [tool, frame] = [State::Tool, State::Base].map(|of| self.states.expr(of));
+        self.builder.script.held(if is_pose {
+            Held::ActualWith { tool, frame }
+        } else {
+            Held::Actual
+        })
     }
 
     /// A position that only the running program knows.
@@ -257,7 +262,7 @@ impl Reader {
                 datum.is_some_and(has_value) || self.names.touched.contains(&name)
             }
             // where the robot is may be anywhere
-            Operand::Here(_) | Operand::Actual => true,
+            Operand::Here(_) | Operand::Actual(_) => true,
             Operand::System => false,
         }
     }

@@ -39,7 +39,7 @@ pub(super) struct Reader {
     pub(super) refused: HashSet<(u32, &'static str)>,
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
-    pub(super) concurrent: Vec<(Symbol, Context)>,
+    pub(super) concurrent: Vec<super::calls::Concurrent>,
     /// What interrupts and triggers assign or hand to routines: the routine that the words stand in,
     /// and their bytes.
     pub(super) actions: Vec<(Option<u32>, usize, usize)>,

@@ -332,11 +332,16 @@ impl Reader {
             }
             b"INTERRUPT" | b"TRIGGER" => {
                 self.is_referred |= word == b"TRIGGER" && refers_to_end(cursor);
-                if let Some((name, rest)) = action(cursor)
-                    && is_kept(rest)
-                {
-                    let (routine, start) = (self.context().routine, name.start as usize);
-                    self.actions.push((routine, start, rest.end));
+                match action(cursor) {
+                    Some((name, rest)) if is_kept(rest) => {
+                        let (routine, start) = (self.context().routine, name.start as usize);
+                        self.actions.push((routine, start, rest.end));
+                    }
+                    Some((name, rest)) if word == b"TRIGGER" && rest.peek().is(b'(') => {
+                        self.interrupts(cursor, Some((name, rest)));
+                    }
+                    None => self.interrupts(cursor, None),
+                    Some(_) => {}
                 }
                 return Ok(());
             }

@@ -37,6 +37,22 @@ impl Reader<'_> {
         }
         let mark = self.mark();
         let steps = short(self.parsed.steps.len());
+        // `go(p10);`
+        if first.is(b'(') {
+            self.advance()?;
+            let point = self.point(None, 0)?;
+            if self.token.is(b')')
+                && let Some(Written::Base(base)) = point
+            {
+                self.advance()?;
+                if self.argument_ends() {
+                    let steps = (steps, short(self.parsed.steps.len()));
+                    return Ok(Expression::Point { base, steps });
+                }
+            }
+            self.rewind(mark);
+            return self.expression().map(Expression::Computed);
+        }
         match self.point(of, 0)? {
             Some(Written::Base(base)) => {
                 let steps = (steps, short(self.parsed.steps.len()));

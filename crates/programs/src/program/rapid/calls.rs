@@ -227,6 +227,17 @@ impl Translator<'_> {
         (gives.is_target() || gives.is_frame()).then(|| self.result(routine))
     }
 
+    /// The trap of this name may run from here on.
+    pub(super) fn connect(&mut self, trap: Symbol) {
+        let callee = Callee::Named(trap);
+        let callees = self
+            .resolved
+            .callees(callee, (0, 0), self.context, self.here.file);
+        let name = self.resolved.spelling(trap);
+        let call = Call::of(self.here, callees.routines.into(), name, 0..0);
+        self.builder.start(call);
+    }
+
     /// A call of routines with arguments.
     fn goes_to(&mut self, callees: &Callees, all: &[Argument], name: Box<str>, leads: bool) {
         let mut given = Vec::new();

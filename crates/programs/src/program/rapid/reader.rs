@@ -225,8 +225,7 @@ impl<'a> Reader<'a> {
                 }
                 self.advance()
             }
-            // `CONNECT i1 WITH trap;` calls nothing: traps run at any time as it is
-            b"connect" => self.skip_statement(),
+            b"connect" => self.connect(first.start),
             b"alias" => {
                 self.advance()?;
                 let of = self.type_name();
@@ -240,6 +239,21 @@ impl<'a> Reader<'a> {
             word if is_block_word(word) => self.block(first.start, word),
             _ => self.assignment_or_call(),
         }
+    }
+
+    /// `CONNECT i1 WITH trap;`
+    fn connect(&mut self, start: u32) -> Result<(), Fault> {
+        while !self.is_word(b"with") && !matches!(self.token.kind, Kind::Sign(b';') | Kind::End) {
+            self.advance()?;
+        }
+        if self.is_word(b"with") {
+            self.advance()?;
+            if self.token.kind == Kind::Name {
+                let trap = self.parsed.symbols.intern(self.text(self.token));
+                self.note(start, StatementKind::Connect(trap));
+            }
+        }
+        self.skip_statement()
     }
 
     /// What follows `LOCAL`, or a declaration or routine without it; whether it is of the language,

@@ -494,6 +494,8 @@ pub(super) enum StatementKind {
     Leave,
     Label(Symbol),
     Goto(Symbol),
+    /// From here on the trap of this name may run at any time.
+    Connect(Symbol),
     /// `ERROR`, `UNDO`, `BACKWARD`: what follows may run between any statements before it.
     Handler,
     /// `RETRY`, `TRYNEXT`

@@ -287,6 +287,7 @@ impl Translator<'_> {
             StatementKind::Leave => self.builder.leave_loop(),
             StatementKind::Label(name) => self.builder.label(u64::from(name.0)),
             StatementKind::Goto(name) => self.builder.go_to(u64::from(name.0)),
+            StatementKind::Connect(trap) => self.connect(trap),
             StatementKind::Handler => self.handler(at),
             StatementKind::Retry => self.retry(),
             StatementKind::Return(value) => {

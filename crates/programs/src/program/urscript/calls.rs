@@ -116,7 +116,9 @@ impl<'a> Reader<'a> {
                 tcp: at(4, &[b"tcp", b"tcp_offset"]),
             }),
             // `get_forward_kin()` is of the present joints
-            verbs::PoseCall::Actual => arguments.is_empty().then_some(Expr::Actual),
+            verbs::PoseCall::Actual { is_pose } => {
+                arguments.is_empty().then_some(Expr::Actual { is_pose })
+            }
         };
         Ok(expression.map_or(OTHER, |expression| self.parsed.add(expression)))
     }

@@ -12,7 +12,6 @@ const BASE: &str = "base";
 /// Values and remarks that several places name.
 pub(super) struct Common {
     pub base: ValueId,
-    pub actual: ValueId,
     pub computed: RemarkId,
     pub expressions: RemarkId,
     not_called: RemarkId,
@@ -60,7 +59,6 @@ impl Common {
         ));
         Self {
             base,
-            actual: script.value(Held::Actual),
             computed,
             expressions,
             not_called,

@@ -80,7 +80,8 @@ impl Reader<'_> {
                 Kind::Word => {
                     let text = self.text(token);
                     let is_call = ahead.peek().is(b'(');
-                    asks |= is_call && verbs::value_of(text) == Some(PoseCall::Actual);
+                    asks |=
+                        is_call && matches!(verbs::value_of(text), Some(PoseCall::Actual { .. }));
                     let dot = memchr::memchr(b'.', text);
                     let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
                     let known = &self.parsed.composed[first..];
@@ -141,7 +142,7 @@ impl Variables<'_, '_> {
         let mentioned = self.mentioned_in_parts.get(&assignment.offset);
         let mut open = mentioned.cloned().unwrap_or_default();
         self.add_behind(assignment.value, assignment.function, &mut open);
-        value != Expr::Actual && self.are_own_numbers(open)
+        !matches!(value, Expr::Actual { .. }) && self.are_own_numbers(open)
     }
 
     /// Whether some coordinate of a pose with expressions comes from no target and not from where
@@ -190,7 +191,8 @@ impl Variables<'_, '_> {
                 continue;
             }
             for source in self.sources(variable) {
-                *is_actual |= self.parsed.expression(source.value) == Expr::Actual;
+                let value = self.parsed.expression(source.value);
+                *is_actual |= matches!(value, Expr::Actual { .. });
                 self.add_behind(source.value, source.function, &mut open);
             }
             open.extend(self.mentioned.get(&variable).into_iter().flatten());
@@ -224,7 +226,7 @@ impl Variables<'_, '_> {
                     let given = parsed.arguments_of(&parsed.calls[call as usize]);
                     values.extend(given.iter().map(|(_, value)| *value));
                 }
-                Expr::Actual | Expr::Number(_) | Expr::Other => {}
+                Expr::Actual { .. } | Expr::Number(_) | Expr::Other => {}
             }
         }
     }

@@ -8,7 +8,8 @@ use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::program::quantity::Quantity;
 use crate::program::script::{
-    self, Builder, DISPLACED_SOMEHOW, DisplacementId, Remark, RemarkId, Span, UNBOUNDED, VariableId,
+    self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, Remark, RemarkId, Span, UNBOUNDED,
+    VariableId,
 };
 use crate::program::{Displacement, Shift, TargetId};
 use foldhash::HashMap;
@@ -65,6 +66,7 @@ pub(super) struct Goals<'m, 'n, 'a> {
     pub variables: &'m Variables<'n, 'a>,
     pub builder: &'m mut Builder,
     pub common: &'m mut Common,
+    pub tcp: VariableId,
     /// By variable of the program.
     pub held: Vec<Facets>,
     /// By literal.
@@ -113,7 +115,15 @@ impl Goals<'_, '_, '_> {
                 }
                 None => self.unknown(),
             },
-            Expr::Actual => Goal::to(script::Expr::Value(self.common.actual)),
+            Expr::Actual { is_pose } => {
+                let tool = script::Expr::Variable(self.tcp);
+                let frame = script::Expr::Value(self.common.base);
+                Goal::to(self.builder.script.held(if is_pose {
+                    Held::ActualWith { tool, frame }
+                } else {
+                    Held::Actual
+                }))
+            }
             Expr::Kinematics { pose, near, tcp } => {
                 let goal = self.goal_within(pose, function, steps);
                 let own = tcp.map(|tcp| self.tool(tcp, function));

@@ -47,7 +47,7 @@ pub(super) enum Expr {
     /// What a function of the file returns: index in [`Parsed::calls`].
     Call(u32),
     /// Where the robot is.
-    Actual,
+    Actual { is_pose: bool },
     /// A number that is a load's mass, or all that a variable is assigned.
     Number(f64),
     /// Anything else.

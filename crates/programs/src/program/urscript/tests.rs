@@ -210,6 +210,21 @@ fn what_the_program_computes_stays_and_is_reported() {
             Severity::Note,
         ),
         (
+            "x=get_actual_tcp_pose()\nset_tcp(p[0,0,.2,0,0,0])\nmovel(x)",
+            "computed-target",
+            Severity::Warning,
+        ),
+        (
+            "movel(pose_trans(p[1,0,0,0,0,0],get_actual_tcp_pose()))",
+            "computed-target",
+            Severity::Warning,
+        ),
+        (
+            "q=get_actual_joint_positions()\nset_tcp(p[0,0,.2,0,0,0])\nmovej(q)",
+            "run-time-position",
+            Severity::Note,
+        ),
+        (
             "q=get_actual_joint_positions()\nq[5]=0\nmovej(q)",
             "computed-target",
             Severity::Warning,

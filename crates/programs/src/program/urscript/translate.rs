@@ -119,6 +119,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 variables,
                 builder,
                 common,
+                tcp,
                 held: vec![Facets::default(); variables.list.len()],
                 targets: vec![None; parsed.literals.len()],
                 unknown: HashMap::new(),

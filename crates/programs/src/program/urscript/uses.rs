@@ -276,7 +276,7 @@ impl Variables<'_, '_> {
             return false;
         };
         match self.parsed.expression(value) {
-            Expr::Actual => true,
+            Expr::Actual { .. } => true,
             Expr::Trans(a, _) | Expr::Add(a, _) => self.comes_from_actual(a, function, steps),
             Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
                 let mut sources = self.sources(variable).filter(|s| !s.way.is_part());

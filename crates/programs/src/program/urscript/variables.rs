@@ -422,9 +422,10 @@ impl<'n, 'a> Variables<'n, 'a> {
             Expr::Literal(_)
             | Expr::List(_)
             | Expr::Element(..)
-            | Expr::Actual
             | Expr::Number(_)
             | Expr::Other => true,
+            // a pose is that of the tool which is set where it is read
+            Expr::Actual { is_pose } => !is_pose || !self.sets_tool,
             Expr::Name(name, _) => {
                 named.extend(self.meaning(name, function));
                 true

@@ -83,7 +83,7 @@ pub(super) enum PoseCall {
     Add,
     Inverse,
     Kinematics,
-    Actual,
+    Actual { is_pose: bool },
 }
 
 /// What a function of this name does.
@@ -198,11 +198,12 @@ pub(super) fn value_of(name: &[u8]) -> Option<PoseCall> {
         b"pose_add" => Some(PoseCall::Add),
         b"pose_inv" => Some(PoseCall::Inverse),
         b"get_inverse_kin" => Some(PoseCall::Kinematics),
-        b"get_actual_tcp_pose"
-        | b"get_target_tcp_pose"
-        | b"get_actual_joint_positions"
-        | b"get_target_joint_positions"
-        | b"get_forward_kin" => Some(PoseCall::Actual),
+        b"get_actual_tcp_pose" | b"get_target_tcp_pose" | b"get_forward_kin" => {
+            Some(PoseCall::Actual { is_pose: true })
+        }
+        b"get_actual_joint_positions" | b"get_target_joint_positions" => {
+            Some(PoseCall::Actual { is_pose: false })
+        }
         _ => None,
     }
 }

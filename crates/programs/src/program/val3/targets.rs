@@ -468,7 +468,11 @@ impl<'a> Reader<'a> {
         let is_call = words.is_name(0) && words.is(1, b'(') && depth < DEEPEST;
         let arguments = if is_call { words.rest_list(1) } else { None };
         match (words.text(0), arguments.as_deref()) {
-            (b"here" | b"herej", Some(_)) => self.builder.script.held(Held::Actual),
+            (b"herej", Some(_)) => self.builder.script.held(Held::Actual),
+            (b"here", Some([tool, ..])) => {
+                let (tool, frame) = (self.tool(*tool), Expr::Absent);
+                self.builder.script.held(Held::ActualWith { tool, frame })
+            }
             (b"appro", Some([_, _])) => {
                 let mut displacing = Displacing::new();
                 let base = self.approached(words, depth, &mut displacing);

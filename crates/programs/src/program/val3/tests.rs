@@ -363,6 +363,9 @@ fn what_the_running_program_changes_is_refused_or_reported() {
     // where the robot itself stood is right
     let program = project(&points, "pNo=here(tA,fA)\nmovel(pNo,tA,m)");
     assert!(ids(&program).contains(&"run-time-position"));
+    // as a pose of the flange it is not where the tool goes
+    let program = project(&points, "pNo=here(flange,world)\nmovel(pNo,tA,m)");
+    assert!(ids(&program).contains(&"computed-target"));
     // any element of one frame
     let program = project(&points, "movel(pA[nIndex],tA,m)");
     assert_eq!(program.moves.len(), 2);

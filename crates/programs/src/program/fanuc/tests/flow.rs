@@ -443,3 +443,35 @@ fn blocks_inside_moves_are_read_as_instructions() {
     let last = program.moves.last().expect("moves");
     assert_eq!(program.tools[last.tool].name, "3");
 }
+
+#[test]
+fn options_behind_the_middle_of_an_arc_do_not_hide_its_end() {
+    let points: String = ["1", "2", "3"].map(usual).concat();
+    let arc = |middle: &str, end: &str| {
+        let text = format!("J P[1] 1% FINE ;\nC P[2]{middle}\n    :  P[3] 9mm/sec FINE{end} ;");
+        read(&text, &points)
+    };
+    for (middle, end, displaced) in [
+        ("", "", [false, false]),
+        (" Offset,PR[5]", "", [true, false]),
+        (" Tool_Offset,PR[5]", " Offset,PR[6]", [true, true]),
+        ("", " Offset,PR[5]", [true, true]),
+        (" ACC50", "", [false, false]),
+    ] {
+        let program = arc(middle, end);
+        let found: Vec<_> = program
+            .moves
+            .iter()
+            .map(|of| {
+                let target = of.target.and_then(|of| program.targets[of].name.as_deref());
+                (target, of.displacement != Displacement::None)
+            })
+            .collect();
+        let wanted = [
+            (Some("P[1]"), false),
+            (Some("P[2]"), displaced[0]),
+            (Some("P[3]"), displaced[1]),
+        ];
+        assert_eq!(found, wanted, "{middle}|{end}: {:?}", program.findings);
+    }
+}

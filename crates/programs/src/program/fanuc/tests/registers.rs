@@ -51,6 +51,24 @@ fn where_the_robot_was_is_a_note() {
         assert_eq!(ids(&program), ["run-time-position"], "{line}");
         assert_eq!(program.findings[0].severity, Severity::Note);
     }
+    // a pose is that of its tool and frame
+    for (line, id) in [
+        (
+            "PR[1]=LPOS ;\nUTOOL_NUM=2 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nUFRAME_NUM=3 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=JPOS ;\nUTOOL_NUM=2 ;\nJ PR[1] 9% FINE ;",
+            "run-time-position",
+        ),
+    ] {
+        let program = read(&format!("J P[1] 1% FINE ;\n{line}"), &usual("1"));
+        assert_eq!(ids(&program), [id], "{line}");
+    }
 }
 
 #[test]

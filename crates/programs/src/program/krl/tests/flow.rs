@@ -116,6 +116,22 @@ fn moves_to_positions_nobody_knows_are_moves() {
 }
 
 #[test]
+fn where_the_robot_was_is_a_pose_of_its_tool_and_base() {
+    for (text, id) in [
+        (
+            "E6POS here\nhere=$POS_ACT\nBAS(#BASE,0)\nLIN here",
+            "computed-target",
+        ),
+        (
+            "E6AXIS here\nhere=$AXIS_ACT\nBAS(#BASE,0)\nPTP here",
+            "run-time-position",
+        ),
+    ] {
+        assert_eq!(reported(&path(&format!("DECL {text}"))), [id], "{text}");
+    }
+}
+
+#[test]
 fn run_time_positions_are_kept_in_variables() {
     let program =
         path("DECL E6POS here\nhere=$POS_ACT\nLIN XP1\nLIN here\nhere.Z=here.Z+10\nLIN here");
@@ -178,7 +194,7 @@ fn routines_of_interrupts_run_at_any_time() {
         "TRIGGER WHEN DISTANCE=1 DELAY=0 DO stop() PRIO=-1",
     ] {
         let text = format!(
-            "DEF M()\n{decl}\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN XP1\nLIN XP2\nEND\nDEF \
+            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{decl}\nINTERRUPT ON\nLIN XP1\nLIN XP2\nEND\nDEF \
              stop()\nBRAKE\n$BASE=$WORLD\nLIN XP3\nEND\n"
         );
         let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
@@ -193,6 +209,27 @@ fn routines_of_interrupts_run_at_any_time() {
         assert!(found.contains(&"BASE_DATA[1]"), "{decl}");
         assert_eq!(chain(&program)[4].1, [None], "{decl}");
     }
+}
+
+#[test]
+fn routines_of_interrupts_move_with_what_the_program_has_set() {
+    let program = read_files(&[
+        (
+            "m.src",
+            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nINTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop()\n\
+             INTERRUPT ON 5\nLIN XP1\nBAS(#BASE,0)\nLIN XP2\nEND\nDEF stop()\nBRAKE\nLIN XP3\nEND\n",
+        ),
+        ("m.dat", DATA),
+    ]);
+    let moves = program.moves.iter().zip(to(&program));
+    let of_routine = moves.filter(|(_, target)| *target == "XP3");
+    let mut bases: Vec<_> = of_routine
+        .map(|(m, _)| program.frames[m.frame].name.as_str())
+        .collect();
+    bases.sort_unstable();
+    bases.dedup();
+    assert_eq!(bases.len(), 2, "{bases:?}");
+    assert!(bases.contains(&"BASE_DATA[1]"), "{bases:?}");
 }
 
 #[test]

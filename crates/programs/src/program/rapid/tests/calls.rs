@@ -184,12 +184,51 @@ fn handlers_may_run_between_any_statements() {
 }
 
 #[test]
+fn an_argument_in_parentheses_is_what_stands_in_them() {
+    for call in [
+        "sub(p1);",
+        "sub (p1);",
+        "sub(Offs(p1,0,0,5));",
+        "sub(p1),5;",
+    ] {
+        let program = path(&format!(
+            "{call}\nENDPROC\nPROC sub(robtarget q,\\num n)\nMoveL q,v5,z5,t;"
+        ));
+        assert_eq!(to(&program), ["p1"], "{call}");
+        assert_eq!(ids(&program), [""; 0], "{call}");
+    }
+    let program = path("MoveL (p1),v5,z5,(t);");
+    assert_eq!((to(&program), program.tools.len()), (vec!["p1"], 1));
+}
+
+#[test]
 fn traps_may_run_at_any_place() {
     let program = path("MoveL p3,v5,z5,t;\nENDPROC\nTRAP tr\np3:=CRobT();\nENDTRAP\nPROC last()");
     assert_eq!(
         (to(&program), ids(&program)),
         (vec!["p3", "?"], vec!["run-time-position"])
     );
+}
+
+#[test]
+fn a_trap_moves_with_what_the_interrupted_program_has_set() {
+    for (connect, first) in [("CONNECT i1 WITH tr;\n", 120.0), ("", 100.0)] {
+        let program = path(&format!(
+            "t.tframe.trans.z:=120;\n{connect}MoveL p1,v5,z5,t;\nt.tframe.trans.z:=140;\nMoveL \
+             p2,v5,z5,t;\nENDPROC\nTRAP tr\nMoveL p3,v5,z5,t;\nENDTRAP\nPROC last()"
+        ));
+        let of_trap = program.moves.iter().zip(to(&program));
+        let of_trap = of_trap.filter(|(_, target)| *target == "p3");
+        let length = |m: &crate::program::Move| {
+            let tool = program.tools[m.tool].flange_from_tool.expect("a tool");
+            (tool.translation[2] * 1e3).round()
+        };
+        let mut lengths: Vec<_> = of_trap.map(|(m, _)| length(m)).collect();
+        lengths.sort_by(f64::total_cmp);
+        lengths.dedup();
+        // what is set before the interrupt is connected may hold later, too
+        assert_eq!((lengths[0], lengths[lengths.len() - 1]), (first, 140.0));
+    }
 }
 
 #[test]
