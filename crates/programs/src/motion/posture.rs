@@ -12,6 +12,8 @@ use crate::program::{Configuration, TargetId};
 /// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both
 /// sides.
 const BORDER_RAD: f64 = 0.05 * DEG;
+/// Likewise where another posture is on the side that is asked for: the controller takes that one.
+const ROUNDED_RAD: f64 = 0.01 * DEG;
 /// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
 pub(super) const LIMIT_RAD: f64 = 2.0 * DEG;
 /// Name of the finding about a target that the nominal arm does not reach.
@@ -24,6 +26,8 @@ pub(super) struct Posture {
     pub q: [f64; 6],
     /// It is all that the configuration data ask for.
     pub configured: bool,
+    /// Its joints stand where that asks, but for rounding.
+    pub exactly: bool,
     /// Its joints are in the ranges that the configuration data name.
     pub in_ranges: bool,
 }
@@ -89,7 +93,8 @@ pub(super) fn choose(
     let is_certain = !honoured || !configuration.partly_understood;
     if let Some(before) = start.as_ref().filter(|_| is_certain) {
         let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
-        if let Some(same) = same.filter(|same| same.configured && is_close(&same.q, before)) {
+        let fits = |same: &Posture| same.configured && same.exactly;
+        if let Some(same) = same.filter(|same| fits(same) && is_close(&same.q, before)) {
             return Some(same);
         }
     }
@@ -117,7 +122,9 @@ pub(super) fn choose(
         let suffice = configuration.ranges_suffice || !honoured;
         nearest(&|posture| posture.in_ranges && suffice)
     };
-    if let Some(posture) = nearest(&|posture| posture.configured).or_else(by_ranges) {
+    let exactly = nearest(&|posture| posture.configured && posture.exactly);
+    let about = || nearest(&|posture| posture.configured);
+    if let Some(posture) = exactly.or_else(about).or_else(by_ranges) {
         let is_other = |other: &Posture| other.configured && other.branch != posture.branch;
         if let Some(other) = postures.iter().find(|other| is_other(other)) {
             if start.is_none() {
@@ -331,7 +338,7 @@ fn configured(
     configuration: &Configuration,
 ) -> Option<Posture> {
     let mechanism = arm.mechanism();
-    let mut in_ranges = true;
+    let (mut in_ranges, mut exactly) = (true, true);
     for i in 0..6 {
         let limits = (
             mechanism.joints[i].min_rad - LIMIT_RAD,
@@ -344,8 +351,10 @@ fn configured(
             let angles = ranges.flatten().filter_map(turned);
             angles.min_by(|a, b| (a - q[i]).abs().total_cmp(&(b - q[i]).abs()))
         };
-        if let Some(angle) = nearest(0.0).or_else(|| nearest(BORDER_RAD)) {
+        if let Some(angle) = nearest(0.0).or_else(|| nearest(ROUNDED_RAD)) {
             q[i] = angle;
+        } else if let Some(angle) = nearest(BORDER_RAD) {
+            (q[i], exactly) = (angle, false);
         } else {
             in_ranges = false;
             q[i] = turned((f64::NEG_INFINITY, f64::INFINITY))?;
@@ -360,6 +369,7 @@ fn configured(
         branch,
         q,
         configured,
+        exactly,
         in_ranges,
     })
 }
@@ -411,6 +421,7 @@ fn out_of_reach(
             branch,
             q: stretched.q,
             configured: false,
+            exactly: false,
             in_ranges: false,
         });
     }

@@ -155,6 +155,7 @@ impl Walker<'_, '_> {
             branch,
             q,
             configured: false,
+            exactly: false,
             in_ranges: false,
         };
         let arm = &ground.arm_with(motion.tool).arm;

@@ -197,7 +197,8 @@ impl<'a> Sections<'a> {
                 (open, opened_at, is_one) = (Open::Program, line.start, true);
             } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
                 (open, opened_at, is_one) = (Open::Entries, line.start, true);
-            } else if matches!(open, Open::Nothing) && text.starts_with(b".") {
+            } else if matches!(open, Open::Nothing | Open::Other) && text.starts_with(b".") {
+                // a line such as `.*header` or `.NETCONF …` has no end of its own
                 let is_system = opens(text, b".SYSDATA");
                 open = match () {
                     () if is_system => Open::System,

@@ -301,6 +301,21 @@ fn other_sections_are_passed_over() {
             "{text}"
         );
     }
+    // a line in front of a section
+    let height = |before: &str| {
+        let text = format!(
+            "{before}.REALS\nhh = 30\n.END\n.PROGRAM a()\nTOOL NULL\nBASE NULL\nLAPPRO \
+             p1,hh\n.END\n{POINTS}"
+        );
+        format!(
+            "{:?}",
+            read_files(&[&text]).expect("a save").moves[0].displacement
+        )
+    };
+    for before in [".*header\n", ".NETCONF 192.168.0.2,\"x\"\n"] {
+        assert_eq!(height(before), height(""));
+    }
+    assert_ne!(height(".REALS\nhh = 40\n.END\n"), height(""));
     let error = read_files(&[".TRANS\np1 1 2 x\n.END\n"]).expect_err("no number");
     assert!(error.to_string().contains("0.as:2:8"), "{error}");
     // what a transfer has cut

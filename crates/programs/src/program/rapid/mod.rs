@@ -210,7 +210,10 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     let mut dead = HashSet::new();
     for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];
-        if !resolved.is_written_target(bad.target) {
+        // zeros are data without a value; a move to them is an error of the running program
+        let numbers = &script.numbers[target.numbers.start as usize..target.numbers.end as usize];
+        let is_blank = numbers.len() > 6 && numbers[3..7].iter().all(|number| number.value == 0.0);
+        if !resolved.may_be_another(bad.target, is_blank) {
             return Err(bad.fault.in_source(&sources[target.file as usize]));
         }
         // its value is that of the last run, or none yet

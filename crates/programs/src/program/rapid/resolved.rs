@@ -571,16 +571,18 @@ impl<'a> Resolved<'a> {
         changed
     }
 
-    /// Whether the value that a target is declared with is written over, so that it may be
-    /// anything.
-    pub(super) fn is_written_target(&self, target: usize) -> bool {
+    /// Whether the value that a target is declared with may be another one when the program runs:
+    /// something writes it, or it has none yet and is no constant.
+    pub(super) fn may_be_another(&self, target: usize, is_blank: bool) -> bool {
         let declares = |datum: &Datum| match datum.value {
             Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]
                 .contains(&super::syntax::Element::Target(target)),
             _ => false,
         };
         let found = self.parsed.data.iter().position(declares);
-        found.is_some_and(|at| self.written[at])
+        found.is_some_and(|at| {
+            self.written[at] || is_blank && self.parsed.data[at].storage != Storage::Constant
+        })
     }
 }
 

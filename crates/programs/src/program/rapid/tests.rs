@@ -512,9 +512,12 @@ fn arcs_on_which_the_tool_rotates_otherwise_are_blocked() {
 
 #[test]
 fn an_active_displacement_blocks_what_it_may_reach() {
-    let program =
-        path("MoveL p1,v5,z5,t;\nPDispSet d;\nMoveL p2,v5,z5,t;\nPDispOff;\nMoveL p3,v5,z5,t;");
-    assert_eq!(blocked(&program), ["p2"]);
+    for set in ["PDispSet d", "PDispAdd d"] {
+        let program = path(&format!(
+            "MoveL p1,v5,z5,t;\n{set};\nMoveL p2,v5,z5,t;\nPDispOff;\nMoveL p3,v5,z5,t;"
+        ));
+        assert_eq!(blocked(&program), ["p2"], "{set}");
+    }
     let program = path(
         "PDispOn p9,t;\nsub;\nPDispOff;\nENDPROC\nPROC sub()\nMoveL p1,v5,z5,t;\nENDPROC\nPROC \
          c()\nMoveL p2,v5,z5,t;",

@@ -136,7 +136,7 @@ pub(super) fn verb(spelling: &[u8]) -> Verb {
         b"confj" => Verb::Mode(Mode::ConfJ, Set::ByOption),
         b"cirpathmode" => Verb::Mode(Mode::Circle, Set::ByOption),
         b"singarea" => Verb::Mode(Mode::Wrist, Set::ByOption),
-        b"pdispon" | b"pdispset" => Verb::Mode(Mode::ProgramDisplacement, Set::On),
+        b"pdispon" | b"pdispset" | b"pdispadd" => Verb::Mode(Mode::ProgramDisplacement, Set::On),
         b"pdispoff" => Verb::Mode(Mode::ProgramDisplacement, Set::Off),
         b"eoffson" => Verb::Mode(Mode::ExternalOffset, Set::On),
         b"eoffsset" => Verb::Mode(Mode::ExternalOffset, Set::Given),

@@ -199,7 +199,11 @@ impl<'a> World<'a> {
             match tag.name {
                 b"Parameters" | b"parameters" => {
                     let unit = tag.attribute(b"millimeterUnit")?;
-                    if let Some(unit) = unit.filter(|unit| unit.value == b"false") {
+                    let is_mm = |value: &[u8]| {
+                        let value = value.trim_ascii();
+                        value.eq_ignore_ascii_case(b"true") || value == b"1"
+                    };
+                    if let Some(unit) = unit.filter(|unit| !is_mm(&unit.value)) {
                         return Err(Fault::bad_value(
                             unit.start..unit.end - 1,
                             "millimeterUnit that is read",

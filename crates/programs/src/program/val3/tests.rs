@@ -401,12 +401,14 @@ fn libraries_are_found_by_their_paths() {
     let program = read_files(&files).expect("a project");
     assert_eq!(target(&program, &program.moves[0]), Some("pA"));
     assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
-    let inches = [("m.pjx", pjx.replace("\"true\"", "\"false\""))];
-    let error = read_files(&inches).expect_err("inches").to_string();
-    assert!(
-        error.contains("millimeterUnit") && error.contains(":1:"),
-        "{error}"
-    );
+    for unit in ["false", " false ", "FALSE", "0", ""] {
+        let inches = [("m.pjx", pjx.replace("\"true\"", &format!("\"{unit}\"")))];
+        let error = read_files(&inches).expect_err(unit).to_string();
+        assert!(
+            error.contains("millimeterUnit") && error.contains(":1:"),
+            "{error}"
+        );
+    }
 }
 
 #[test]

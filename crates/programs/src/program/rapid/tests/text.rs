@@ -184,3 +184,30 @@ fn types_have_other_names() {
     let program = read_files(&[data, alias, other]).expect("a program");
     assert!(to(&program).iter().all(|name| *name == "?"));
 }
+
+#[test]
+fn data_without_an_orientation_yet_are_an_error_of_the_move_to_them() {
+    let blank = "[[0,0,0],[0,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let module = |data: &str, statements: &str| {
+        read_files(&[&format!(
+            "MODULE m\nPERS robtarget q{data};\nPERS tooldata \
+                 t:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\nCONST robtarget \
+                 p:=[[1,2,3],[1,0,0,0],{CONF};\nPROC main()\nMoveL p,v5,z5,t;\n{statements}\n\
+                 ENDPROC\nENDMODULE"
+        )])
+    };
+    for data in [format!(":={blank}"), format!("{{2}}:=[{blank},{blank}]")] {
+        let program = module(&data, "").expect("a program");
+        assert_eq!(ids(&program), [""; 0], "{data}");
+    }
+    let used = module(&format!(":={blank}"), "MoveL q,v5,z5,t;").expect("a program");
+    assert_eq!(ids(&used), ["computed-target"]);
+    assert!(
+        module(
+            ":=[[0,0,0],[0.5,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]",
+            ""
+        )
+        .is_err()
+    );
+    assert!(module("", &format!("MoveL {blank},v5,z5,t;")).is_err());
+}
