@@ -192,7 +192,19 @@ pub fn refuse_other_origin(
             let mut all = all.iter();
             all.any(|digits| hash.starts_with(digits.as_str()))
         };
-        if !found.profiles.is_empty() && !begins(&profile.sha256, &found.profiles) {
+        for (hashes, what) in [
+            (&found.profiles, "profile"),
+            (&found.sources, "original program"),
+        ] {
+            if hashes.is_empty() {
+                let message = format!(
+                    "this file is compensated, and the line of its marker with the SHA-256 of its \
+                     {what} is missing: nothing tells whether that is the one given"
+                );
+                return fail(message, what);
+            }
+        }
+        if !begins(&profile.sha256, &found.profiles) {
             let message = format!(
                 "this file was compensated with a profile of SHA-256 {}…; {} has {}…",
                 short(&found.profiles[0]),
@@ -207,7 +219,7 @@ pub fn refuse_other_origin(
             of_name(&source.name, originals)
         };
         let known = |of: &usize| begins(&hashes[*of], &found.sources);
-        if !found.sources.is_empty() && !compared.iter().any(known) {
+        if !compared.iter().any(known) {
             let each = compared.iter().take(3);
             let each: Vec<String> = each
                 .map(|of| format!("{} has {}…", originals[*of].name, short(&hashes[*of])))

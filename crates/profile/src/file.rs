@@ -132,7 +132,8 @@ pub struct ControllerFile {
     pub effects: Option<Vec<EffectFile>>,
     /// Encoder pulses of one degree of each joint, for programs that count in pulses (INFORM).
     #[serde(default)]
-    pub pulses_per_deg: Option<[Number; 6]>,
+    #[schemars(with = "Option<[Number; 6]>")]
+    pub pulses_per_deg: Option<Spanned<[Number; 6]>>,
 }
 
 /// What the controller computes with.

@@ -262,6 +262,13 @@ impl Profile {
         }
     }
 
+    /// Farther from its frame, in metres, the centre of gravity of a body or load of this arm is not:
+    /// twice the lengths of all rows.
+    #[must_use]
+    pub fn farthest_cog_m(&self) -> f64 {
+        reading::MOST_REACHES * reading::reach_m(&self.links)
+    }
+
     /// The effects of the arm as it really is: those of the calibration. Where there are none,
     /// nothing better is known than what the controller computes with.
     #[must_use]

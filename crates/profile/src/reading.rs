@@ -27,6 +27,14 @@ const MOST_MASS_KG: f64 = 1e4;
 const MOST_COG_MM: f64 = 1e6;
 /// No arm is shorter, all its rows together.
 const LEAST_ARM_MM: f64 = 20.0;
+/// No base, flange or body is farther away.
+pub(super) const MOST_FAR_MM: f64 = 1e6;
+/// Rows of nearly parallel axes may be very far from each other.
+const MOST_D_MM: f64 = 1e8;
+/// No encoder has more pulses for a degree of its joint.
+const MOST_PULSES: f64 = 1e6;
+/// How many times the lengths of all rows the centre of gravity of a body or load may be away.
+pub(super) const MOST_REACHES: f64 = 2.0;
 /// No frame is rotated by more: two whole revolutions.
 const MOST_ANGLE_DEG: f64 = 720.0;
 
@@ -104,14 +112,7 @@ impl Profile {
             };
             let flange_from_tool = pose(&tool.frame)?;
             check_angles(&tool.frame)?;
-            let frame = &tool.frame.value;
-            for (key, length) in [
-                ("x_mm", frame.x_mm),
-                ("y_mm", frame.y_mm),
-                ("z_mm", frame.z_mm),
-            ] {
-                within(key, length, MOST_MM, tool.frame.defined)?;
-            }
+            check_lengths(&tool.frame, MOST_MM)?;
             if let Some((_, cog_m)) = load.filter(|(_, cog_m)| is_tiny(cog_m)) {
                 let largest = cog_m.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
                 return Err(Fault::TinyCog {
@@ -153,8 +154,20 @@ impl Profile {
         )?;
         for frame in kinematics.base.iter().chain(&kinematics.flange) {
             check_angles(frame)?;
+            check_lengths(frame, MOST_FAR_MM)?;
         }
         let (links, joints) = rows(&kinematics.joints)?;
+        let reach_mm = mm_from_m(reach_m(&links));
+        for body in &file.bodies {
+            for number in body.value.cog_mm {
+                within("cog_mm", number, MOST_REACHES * reach_mm, body.defined)?;
+            }
+        }
+        if let Some(pulses) = &file.controller.pulses_per_deg {
+            for number in pulses.value {
+                within("pulses_per_deg", number, MOST_PULSES, pulses.defined)?;
+            }
+        }
         let mut joint_speeds = [None; 6];
         for (speed, joint) in joint_speeds.iter_mut().zip(&kinematics.joints.value) {
             if let Some(number) = joint.value.speed_deg_s {
@@ -177,7 +190,7 @@ impl Profile {
             pulses_per_deg: file
                 .controller
                 .pulses_per_deg
-                .map(|pulses| pulses.map(|n| n.0)),
+                .map(|pulses| pulses.value.map(|n| n.0)),
             world_from_base: kinematics
                 .base
                 .as_ref()
@@ -263,7 +276,12 @@ fn gravity(file: &Spanned<[Number; 3]>) -> Result<Vector, ProfileError> {
 }
 
 /// A number of a key that may not be beyond a limit in either direction.
-fn within(key: &'static str, number: Number, most: f64, at: Location) -> Result<(), ProfileError> {
+pub(super) fn within(
+    key: &'static str,
+    number: Number,
+    most: f64,
+    at: Location,
+) -> Result<(), ProfileError> {
     if number.0.abs() > most {
         return Err(Fault::OutOfRange {
             key,
@@ -274,6 +292,14 @@ fn within(key: &'static str, number: Number, most: f64, at: Location) -> Result<
         .at(at));
     }
     Ok(())
+}
+
+/// The lengths of all rows together.
+pub(super) fn reach_m(links: &[Link; 6]) -> f64 {
+    links
+        .iter()
+        .map(|link| link.a_m.abs() + link.d_m.abs())
+        .sum()
 }
 
 pub(super) fn metres(mm: [Number; 3]) -> Vector {
@@ -354,6 +380,14 @@ fn rows(
         within("max_deg", joint.max_deg, MOST_LIMIT_DEG, at)?;
         // the d of nearly parallel axes may be any
         within("a_mm", joint.a_mm, MOST_MM, at)?;
+        within("d_mm", joint.d_mm, MOST_D_MM, at)?;
+        for (key, angle) in [
+            ("alpha_deg", joint.alpha_deg),
+            ("theta_deg", joint.theta_deg),
+            ("offset_deg", joint.offset_deg),
+        ] {
+            within(key, angle, MOST_ANGLE_DEG, at)?;
+        }
         let link = Link {
             alpha_rad: joint.alpha_deg.0 * DEG,
             a_m: m_from_mm(joint.a_mm.0),
@@ -372,8 +406,7 @@ fn rows(
     let six: [_; 6] = rows
         .try_into()
         .map_err(|rows: Vec<_>| Fault::NotSix { found: rows.len() }.at(joints.defined))?;
-    let lengths = six.iter().map(|(link, _)| link.a_m.abs() + link.d_m.abs());
-    let found_mm = mm_from_m(lengths.sum::<f64>());
+    let found_mm = mm_from_m(reach_m(&six.each_ref().map(|(link, _)| *link)));
     if found_mm > 0.0 && found_mm < LEAST_ARM_MM {
         let limit_mm = LEAST_ARM_MM;
         return Err(Fault::TinyArm { found_mm, limit_mm }.at(joints.defined));
@@ -435,6 +468,14 @@ pub fn check_angles(file: &Spanned<PoseFile>) -> Result<(), ProfileError> {
         }
     }
     Ok(())
+}
+
+/// That a frame is not farther away than this in any direction.
+pub(super) fn check_lengths(file: &Spanned<PoseFile>, most_mm: f64) -> Result<(), ProfileError> {
+    let (at, frame) = (file.defined, &file.value);
+    within("x_mm", frame.x_mm, most_mm, at)?;
+    within("y_mm", frame.y_mm, most_mm, at)?;
+    within("z_mm", frame.z_mm, most_mm, at)
 }
 
 /// The pose that six numbers, or three and a quaternion, of a file describe: metres.

@@ -1,7 +1,7 @@
 //! Shapes as profile and cell files write them.
 
 use super::file::{Number, PoseFile};
-use super::reading::{check_angles, metres, pose};
+use super::reading::{MOST_FAR_MM, check_angles, check_lengths, metres, pose, within};
 use super::{Fault, ProfileError, TINY_M};
 use crate::geometry::units::{m_from_mm, mm_from_m};
 use crate::geometry::{Pose, norm, scale, sub};
@@ -144,6 +144,7 @@ impl Keys<'_> {
     /// None of the keys, several, or a number that is no size; at the key, or at `place`.
     pub fn shape(self, place: Location) -> Result<Shape, ProfileError> {
         let length = |key: &'static str, number: Number| {
+            within(key, number, MOST_FAR_MM, place)?;
             if number.0 > 0.0 {
                 Ok(m_from_mm(number.0))
             } else {
@@ -156,6 +157,12 @@ impl Keys<'_> {
         };
         let mut forms = Vec::new();
         if let Some(c) = self.capsule {
+            for number in c.from {
+                within("from", number, MOST_FAR_MM, place)?;
+            }
+            for number in c.to {
+                within("to", number, MOST_FAR_MM, place)?;
+            }
             forms.push(Form::Capsule {
                 from_m: metres(c.from),
                 to_m: metres(c.to),
@@ -228,6 +235,7 @@ impl Keys<'_> {
         }
         if let Some(at) = self.at {
             check_angles(at)?;
+            check_lengths(at, MOST_FAR_MM)?;
         }
         Ok(Shape {
             form,

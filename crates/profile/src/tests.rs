@@ -340,6 +340,7 @@ fn masses_and_centres_of_gravity_that_no_link_has_are_faults() {
         ("-1", "900", "mass_kg"),
         ("1e5", "900", "mass_kg"),
         ("400", "-1.1e6", "cog_mm"),
+        ("400", "3000", "cog_mm"),
     ] {
         let error = with(mass, cog).expect_err(key);
         assert!(
@@ -373,6 +374,25 @@ fn numbers_of_the_chain_in_other_units_are_faults() {
             "{bad}: {error}"
         );
         assert!(error.line > 0 && error.hint().contains("m/s²"), "{bad}");
+    }
+    for (old, new, wanted) in [
+        ("theta_deg: 0", "theta_deg: 1e12", "theta_deg"),
+        ("alpha_deg: 90", "alpha_deg: 9e5", "alpha_deg"),
+        ("d_mm: 0", "d_mm: 1e300", "d_mm"),
+        ("base: {x_mm: 0", "base: {x_mm: 1e308", "x_mm"),
+        ("radius: 78", "radius: 1e308", "radius"),
+        ("from: [0,", "from: [1e308,", "from"),
+        (
+            "model: nominal",
+            "model: nominal, pulses_per_deg: [1e308, 1, 1, 1, 1, 1]",
+            "pulses_per_deg",
+        ),
+    ] {
+        let error = changed(old, new).expect_err(new);
+        assert!(
+            matches!(error.fault, Fault::OutOfRange { key, .. } if key == wanted),
+            "{new}: {error}"
+        );
     }
     let limits = changed("max_deg: 360", "max_deg: 9190").expect_err("limits");
     assert!(matches!(

@@ -388,7 +388,7 @@ fn an_arm_that_is_nowhere_judges_neither_measurements_nor_programs() {
         assert!(!at.join("c.yaml").exists());
     }
     let check = ["check", "far.mod", "--profile", "truth.yaml"];
-    refused(at, &check, 2, "the limit is 1000000 mm");
+    refused(at, &check, 2, "the centre of gravity of tool `rdkTool`");
     let check = ["check", "a.mod", "--profile", "heavy.yaml", "--json"];
     let report = refused(at, &check, 1, "not-finite");
     let report: Value = serde_json::from_str(&report).expect("a report");

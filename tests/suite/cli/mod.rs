@@ -15,6 +15,7 @@ mod jobs_and_tables_of_poses;
 mod limits;
 mod marked;
 mod mistakes;
+mod out_of_bounds;
 mod outputs;
 mod outputs_kept;
 mod planning;

@@ -304,7 +304,8 @@ pub fn check_telling(
         .map_err(CheckError::Nominal)?;
     let of_original = original.iter().map(|original| &original.program);
     let programs: Vec<&Program> = std::iter::once(&walk.program).chain(of_original).collect();
-    setting::check_given(&programs, &options.given).map_err(CompensateError::from)?;
+    setting::check_given(subject.language, subject.profile, &programs, &options.given)
+        .map_err(CompensateError::from)?;
     let parts = original
         .as_ref()
         .map(|original| nominal::align(&walk, original, subject, options))

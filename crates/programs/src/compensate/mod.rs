@@ -329,7 +329,7 @@ fn with(
         &mut findings,
     );
     setting::check_measured(&program, &options.given)?;
-    setting::check_given(&[&program], &options.given)?;
+    setting::check_given(language, profile, &[&program], &options.given)?;
     if options.each_for_itself {
         let joints = options.correct_joint_targets;
         setting::block_unplaced(

@@ -4,12 +4,13 @@
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Vector;
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::Conditions;
 use crate::model::effects::{Effect, same_tool};
 use crate::nearest;
 use crate::profile::{ToolOfProfile, is_tiny};
 use crate::program::Move;
+use std::f64::consts::TAU;
 
 /// The way out where a number is not finite.
 pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in the effects, masses \
@@ -68,14 +69,20 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
                 unit,
             })
         };
-        let far = |what: String, point: &Vector| {
-            beyond(
-                what,
-                mm_from_m(farthest(point)),
-                mm_from_m(FARTHEST_M),
-                "mm",
-            )
+        let far = |what: String, point: &Vector, most_m: f64| {
+            beyond(what, mm_from_m(farthest(point)), mm_from_m(most_m), "mm")
         };
+        if let Some(near) = ground.program.near(motion) {
+            for (i, (q, joint)) in near
+                .iter()
+                .zip(&ground.profile.mechanism.joints)
+                .enumerate()
+            {
+                let most = joint.min_rad.abs().max(joint.max_rad.abs()) + TAU;
+                let what = format!("joint {} near which this move goes to its target", i + 1);
+                beyond(what, (q / DEG).abs(), most / DEG, "deg")?;
+            }
+        }
         if !std::mem::replace(&mut seen[motion.tool], true)
             && let Some(tool) = &ground.setting.tools[motion.tool]
         {
@@ -83,6 +90,7 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
             far(
                 format!("the distance of tool `{name}` from the flange"),
                 &tool.flange_from_tool.translation,
+                FARTHEST_M,
             )?;
             if let Some((mass_kg, cog_m)) = tool.load {
                 beyond(
@@ -91,7 +99,29 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
                     MOST_LOAD_KG,
                     "kg",
                 )?;
-                far(format!("the centre of gravity of tool `{name}`"), &cog_m)?;
+                let farthest_m = ground.profile.farthest_cog_m();
+                far(
+                    format!("the centre of gravity of tool `{name}`"),
+                    &cog_m,
+                    farthest_m,
+                )?;
+                let effects = ground.profile.real_effects();
+                let effects = effects
+                    .iter()
+                    .filter(|effect| effect.site.is_of_tool(&tool.name));
+                let added = effects.filter_map(|effect| {
+                    let number = effect.definition().search.mass?;
+                    Some(effect.parameters[number])
+                });
+                let missing = -(mass_kg + added.sum::<f64>());
+                beyond(
+                    format!(
+                        "what the profile's effects take from the load of tool `{name}` more than it has"
+                    ),
+                    missing,
+                    0.0,
+                    "kg",
+                )?;
             }
         }
         if !std::mem::replace(&mut seen_frames[motion.frame], true)
@@ -101,6 +131,7 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
             far(
                 format!("the distance of work frame `{name}`"),
                 &frame.nominal.translation,
+                FARTHEST_M,
             )?;
         }
     }

@@ -118,10 +118,10 @@ pub enum GivenError {
         /// The name.
         name: String,
     },
-    /// The files tell all of them.
+    /// All of them are known.
     #[error(
-        "{option} without a name: the files define every {what} that they use themselves, and the \
-         controller computes with that"
+        "{option} without a name: every {what} that the files use is known without it, from the \
+         files, the profile or another option"
     )]
     Needless {
         /// The option.
@@ -150,7 +150,12 @@ impl GivenError {
 
 /// Tools and work frames that are given by name must be used, and not be known already; those that
 /// are given for any name must be needed. The programs are those of one run.
-pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), GivenError> {
+pub(crate) fn check_given(
+    language: &dyn Language,
+    profile: &Profile,
+    programs: &[&Program],
+    given: &Given,
+) -> Result<(), GivenError> {
     let tools = programs.iter().flat_map(|program| &program.tools);
     let tools: Vec<(&str, bool)> = tools
         .map(|tool| (tool.name.as_str(), tool.flange_from_tool.is_some()))
@@ -193,18 +198,58 @@ pub(crate) fn check_given(programs: &[&Program], given: &Given) -> Result<(), Gi
             return Err(GivenError::Defined { option, what, name });
         }
     }
+    // the same tool by its name in the profile does no harm
+    let is_other = |known: &Mounted| given.tools.get(&None) != Some(known);
+    let is_tool_known = |name: &str| {
+        let named = given.tools.get(&Some(name.to_owned())).cloned();
+        named
+            .or(profile.tool(name))
+            .is_some_and(|known| is_other(&known))
+    };
+    let is_frame_known = |name: &str| {
+        let is_given = given.frames.contains_key(&Some(name.to_owned()));
+        is_given || given.measured_frames.contains_key(name)
+    };
+    let all = |known: &[(&str, bool)], is_known: &dyn Fn(&str) -> bool| {
+        let mut all = known.iter();
+        !(known.is_empty() && is_changed)
+            && all.all(|(name, is_defined)| *is_defined || is_known(name))
+    };
+    let is_unused = |program: &&Program| has_unused(program);
+    let is_for_unused =
+        || !language.has_framed_positions() && programs.iter().any(|program| is_unused(program));
+    // joints need no work frame
+    let needs = |program: &&Program| {
+        let mut needs = vec![false; program.frames.len()];
+        for motion in program
+            .moves
+            .iter()
+            .filter(|motion| program.goes_to_pose(motion))
+        {
+            needs[motion.frame] = true;
+        }
+        needs
+    };
+    let needed = programs.iter().flat_map(needs);
+    let frames = frames.iter().copied().zip(needed);
+    let frames: Vec<_> = frames
+        .filter(|(_, needs)| *needs)
+        .map(|(frame, _)| frame)
+        .collect();
     let unnamed = [
-        ("--tool", "tool", given.tools.contains_key(&None), &tools),
+        (
+            "--tool",
+            "tool",
+            given.tools.contains_key(&None) && all(&tools, &is_tool_known),
+        ),
         (
             "--frame",
             "work frame",
-            given.frames.contains_key(&None),
-            &frames,
+            given.frames.contains_key(&None) && all(&frames, &is_frame_known),
         ),
     ];
-    for (option, what, is_given, known) in unnamed {
-        let all_defined = !known.is_empty() && known.iter().all(|(_, is_defined)| *is_defined);
-        if given.is_needed && is_given && all_defined && !programs.iter().any(|p| has_unused(p)) {
+    for (option, what, is_needless) in unnamed {
+        if given.is_needed && is_needless && !is_for_unused() {
             return Err(GivenError::Needless { option, what });
         }
     }

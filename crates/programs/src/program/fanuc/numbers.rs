@@ -118,25 +118,35 @@ impl Known {
         self.clear();
         let path = std::mem::take(&mut self.path);
         let last_jump = path.jumps.iter().map(|(at, _)| *at).max().unwrap_or(0);
-        let mut passed = vec![0_i32; path.order as usize + 2];
+        // by jumps that come to something else of the program, and by any
+        let mut passed = vec![[0_i32; 2]; path.order as usize + 2];
         for (at, label) in &path.jumps {
             let to = path.labels.get(label).copied().unwrap_or(path.order + 1);
             let comes_to_uses = *label == ANY_LABEL || to <= path.last_use || last_jump > to;
-            if to > *at && comes_to_uses {
-                passed[*at as usize] += 1;
-                passed[to as usize] -= 1;
+            if to > *at {
+                let by = [i32::from(comes_to_uses), 1];
+                for k in 0..2 {
+                    passed[*at as usize][k] += by[k];
+                    passed[to as usize][k] -= by[k];
+                }
             }
         }
-        let mut over = 0;
+        let mut over = [0, 0];
         for passed in &mut passed {
-            over += *passed;
+            over = [over[0] + passed[0], over[1] + passed[1]];
             *passed = over;
         }
         let steps = path.steps.into_iter().filter_map(|(at, step)| {
-            let is_sure = at.is_some_and(|at| passed[at as usize] == 0);
+            let by = at.map(|at| passed[at as usize]);
+            let [is_sure, at_end] = [0, 1].map(|k| by.is_some_and(|by| by[k] == 0));
             match step {
-                Step::Writes(_) if !is_sure => None,
-                Step::Calls { routine, .. } => Some(Step::Calls { routine, is_sure }),
+                Step::Writes { .. } if !is_sure => None,
+                Step::Writes { number, .. } => Some(Step::Writes { number, at_end }),
+                Step::Calls { routine, .. } => Some(Step::Calls {
+                    routine,
+                    is_sure,
+                    at_end,
+                }),
                 step => Some(step),
             }
         });
@@ -180,7 +190,14 @@ impl Known {
         self.moves();
         let at = Some(self.path.order).filter(|_| is_one && self.path.depth == 0);
         let is_sure = at.is_some();
-        self.path.steps.push((at, Step::Calls { routine, is_sure }));
+        self.path.steps.push((
+            at,
+            Step::Calls {
+                routine,
+                is_sure,
+                at_end: is_sure,
+            },
+        ));
     }
 
     /// A program is started next to this one.
@@ -330,7 +347,13 @@ impl Known {
         self.path.order += 1;
         self.reads(&entered);
         if self.path.depth == 0 && !entered.is_own {
-            let step = (Some(self.path.order), Step::Writes(number));
+            let step = (
+                Some(self.path.order),
+                Step::Writes {
+                    number,
+                    at_end: true,
+                },
+            );
             self.path.steps.push(step);
         }
         let written = Written {

@@ -13,7 +13,9 @@ use crate::geometry::units::{DEG, MM};
 use crate::program::displacing::Displacing;
 use crate::program::notation::pose_of_angles;
 use crate::program::quantity::Quantity;
-use crate::program::script::{DISPLACED_SOMEHOW, Expr, RoutineId, UNBOUNDED, VariableId};
+use crate::program::script::{
+    DISPLACED_SOMEHOW, Expr, RoutineId, Statement, UNBOUNDED, VariableId,
+};
 use crate::program::{Displacement, Shape, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::ops::Range;
@@ -363,9 +365,18 @@ impl Reader<'_> {
             Which::Condition => {
                 let is_one = |of: &&Condition| of.axes == amount.axes;
                 let all: Vec<_> = self.conditions.iter().filter(is_one).collect();
-                let mut here: Vec<_> = all.clone();
-                here.retain(|of| of.routine == offset.routine);
-                let all = if here.is_empty() { all } else { here };
+                let is_own = |of: &&&Condition| of.routine == offset.routine;
+                // whether the condition of a program that was called stays is not known: both count
+                let all = if all.iter().any(|of| is_own(&of)) {
+                    let called = self.called_by(offset.routine, &all);
+                    let of_called = |of: &&&Condition| called.contains(&of.routine);
+                    all.iter()
+                        .filter(|of| is_own(of) || of_called(of))
+                        .copied()
+                        .collect()
+                } else {
+                    all
+                };
                 let mut is_followed = true;
                 let mut values: Vec<Vec<Quantity>> = Vec::new();
                 for of in all {
@@ -387,6 +398,27 @@ impl Reader<'_> {
                 (any.collect(), is_followed)
             }
         }
+    }
+
+    /// The programs that one calls, and those that these call; none where no condition is set
+    /// elsewhere.
+    fn called_by(&self, routine: RoutineId, conditions: &[&Condition]) -> HashSet<RoutineId> {
+        let script = &self.builder.script;
+        let mut called = HashSet::default();
+        let mut open = vec![routine];
+        if conditions.iter().all(|of| of.routine == routine) {
+            open.clear();
+        }
+        while let Some(next) = open.pop() {
+            let of = &script.routines[next as usize].statements;
+            for statement in &script.statements[of.start as usize..of.end as usize] {
+                if let Statement::Call(call) = *statement {
+                    let callees = script.calls[call as usize].callees.iter();
+                    open.extend(callees.filter(|callee| called.insert(**callee)));
+                }
+            }
+        }
+        called
     }
 
     /// The numbers of a register anywhere, and which it is.

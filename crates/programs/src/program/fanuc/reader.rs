@@ -81,6 +81,8 @@ pub(super) struct Reader<'a> {
     pub controller: Controller,
     /// Routines by the names of their programs, and whether they select by arguments.
     pub by_name: HashMap<Box<str>, Vec<(RoutineId, bool)>>,
+    /// Programs that change no register.
+    pub quiet: HashSet<RoutineId>,
     pub arguments: HashMap<(RoutineId, u32), VariableId>,
     /// Registers that hold something the files know, and those that something reads.
     pub aliased: BTreeSet<u32>,
@@ -223,6 +225,7 @@ fn of_controller(
         place: Place::NOWHERE,
         controller,
         by_name,
+        quiet: HashSet::new(),
         arguments: HashMap::new(),
         aliased: BTreeSet::new(),
         read: BTreeSet::new(),
@@ -246,10 +249,46 @@ fn of_controller(
         let bytes = &reader.sources[listing.file as usize].bytes;
         starts_others(&bytes[listing.lines.clone()], &reader.by_name)
     });
+    let quiet = listings.iter().filter(|listing| {
+        let bytes = &reader.sources[listing.file as usize].bytes;
+        is_quiet(&bytes[listing.lines.clone()])
+    });
+    reader.quiet = quiet.map(|listing| listing.routine).collect();
     for listing in listings {
         reader.listing(listing);
     }
     reader.finish()
+}
+
+/// Whether the lines of a program change no register: signals, waits, messages, moves and jumps.
+fn is_quiet(lines: &[u8]) -> bool {
+    const KNOWN: [&str; 18] = [
+        "DO[", "RO[", "GO[", "AO[", "F[", "M[", "SO[", "WAIT", "LBL[", "JMP", "IF ", "END",
+        "MESSAGE[", "UALM[", "J ", "L ", "P[", "!",
+    ];
+    let has = |text: &[u8]| memchr::memmem::find(lines, text).is_some();
+    // another program, or any register but RO[
+    let changes = [
+        &b"CALL"[..],
+        b"RUN",
+        b"PR[",
+        b" R[",
+        b"=R[",
+        b"AR[",
+        b"SR[",
+        b"(R[",
+    ];
+    let is_known = |line: &[u8]| {
+        let text = match memchr::memchr(b':', line) {
+            Some(at) if line[..at].trim_ascii().iter().all(u8::is_ascii_digit) => &line[at + 1..],
+            _ => line,
+        };
+        let text = text.trim_ascii();
+        text.is_empty()
+            || text == b";"
+            || KNOWN.iter().any(|known| text.starts_with(known.as_bytes()))
+    };
+    !changes.into_iter().any(has) && lines.split(|b| *b == b'\n').all(is_known)
 }
 
 fn frames_rounded(source: &Source) -> Finding {

@@ -11,13 +11,26 @@ pub(super) enum Step {
     Reads(u32),
     /// A number of a position register, whichever.
     ReadsAny,
-    /// Whatever way the program goes.
-    Writes(u32),
+    Writes {
+        number: u32,
+        /// Also where the program ends: no jump to its end passes it by.
+        at_end: bool,
+    },
     /// It runs another; whatever way it goes, or on some.
     Calls {
         routine: RoutineId,
         is_sure: bool,
+        at_end: bool,
     },
+}
+
+impl Step {
+    fn counts_at_end(&self) -> bool {
+        match self {
+            Self::Writes { at_end, .. } | Self::Calls { at_end, .. } => *at_end,
+            Self::Reads(_) | Self::ReadsAny => false,
+        }
+    }
 }
 
 /// The steps of all programs, in the order of their texts.
@@ -44,7 +57,7 @@ impl Steps {
     pub(super) fn read_before(&self, positions: &[u32]) -> HashSet<u32> {
         let writes = self.until_stable(|steps, writes| {
             let mut written: HashSet<u32> = HashSet::default();
-            for step in steps {
+            for step in steps.iter().filter(|step| step.counts_at_end()) {
                 add_written(&mut written, step, writes);
             }
             written
@@ -57,7 +70,7 @@ impl Steps {
                 match step {
                     Step::Reads(number) => read.extend(Some(number).filter(is_open)),
                     Step::ReadsAny => read.extend(positions.iter().filter(is_open)),
-                    Step::Writes(_) => {}
+                    Step::Writes { .. } => {}
                     Step::Calls { routine, .. } => {
                         read.extend(reads.get(routine).into_iter().flatten().filter(is_open));
                     }
@@ -120,10 +133,11 @@ impl Steps {
 /// What is written behind a step whatever way a program goes.
 fn add_written(written: &mut HashSet<u32>, step: &Step, writes: &Sets) {
     match step {
-        Step::Writes(number) => _ = written.insert(*number),
+        Step::Writes { number, .. } => _ = written.insert(*number),
         Step::Calls {
             routine,
             is_sure: true,
+            ..
         } => written.extend(writes.get(routine).into_iter().flatten()),
         _ => {}
     }

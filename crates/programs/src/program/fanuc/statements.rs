@@ -255,7 +255,10 @@ impl Reader<'_> {
                 self.give(parameter, value);
             }
         }
-        self.known.clear();
+        let is_quiet = |(routine, _): &(RoutineId, bool)| self.quiet.contains(routine);
+        if callees.is_empty() || is_chosen(text) || !callees.iter().all(is_quiet) {
+            self.known.clear();
+        }
         let callees = callees.iter().map(|(routine, _)| *routine).collect();
         let arguments = first..short(self.builder.script.arguments.len());
         let mut call = Call::of(self.place, callees, name, arguments);

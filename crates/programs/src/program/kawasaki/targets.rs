@@ -6,6 +6,7 @@ use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, not_in_files}
 use super::sections::Entry;
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
+use crate::program::kit::angle_too_large;
 use crate::program::quantity::Quantity;
 use crate::program::script::{
     Expr, Held, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
@@ -15,6 +16,9 @@ use crate::program::words::{Kind, Word, Words, six};
 use crate::program::{Layout, Number, Shape, Source, Target, TargetId};
 use foldhash::HashMap;
 use std::ops::Range;
+
+/// Tools and bases have no larger angle, degrees: two whole rotations.
+const MOST_ANGLE: f64 = 720.0;
 
 /// A name as the text uses it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -123,6 +127,19 @@ impl Position {
         along(way, &plate.rotation.transpose(), &mut self.by);
         self
     }
+}
+
+/// An angle of a transformation that is written out which turns a tool or base many times.
+fn endless_angle(part: Words) -> Option<f64> {
+    let terms = part.terms();
+    let written = terms.iter().filter(|(_, term)| term.is_word(0, b"TRANS"));
+    let mut angles = written.flat_map(|(_, term)| {
+        let list = term.rest_list(1).unwrap_or_default();
+        let angles = list.iter().skip(3);
+        let angles = angles.filter_map(|angle| Some(angle.number()?.value));
+        angles.collect::<Vec<_>>()
+    });
+    angles.find(|angle| angle.abs() > MOST_ANGLE)
 }
 
 impl<'a> Reader<'a> {
@@ -393,6 +410,17 @@ impl<'a> Reader<'a> {
                 } else {
                     self.frame_value(&name.text(), None)
                 }
+            }
+            _ if let Some(angle) = endless_angle(part) => {
+                let hint = "O, A and T are in degrees: write them between -360 and 360";
+                let name = Source::text(part.whole());
+                self.unknown(angle_too_large(
+                    "angle-too-large",
+                    &name,
+                    angle,
+                    MOST_ANGLE,
+                    hint,
+                ))
             }
             _ => match self.steps(part).exact() {
                 Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),

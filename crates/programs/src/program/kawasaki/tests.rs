@@ -251,6 +251,8 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("LDEPART 5", "relative-move"),
         ("LMOVE p1\nTOOL grip\nLDEPART 5", "relative-move"),
         ("TOOL grip+q\nLMOVE p1", "frame-assigned-at-run-time"),
+        ("TOOL TRANS(0,0,150,0,1000,0)\nLMOVE p1", "angle-too-large"),
+        ("BASE p[2]+TRANS(0,0,0,-1500)\nLMOVE p1", "angle-too-large"),
         ("CALL elsewhere(p1)", "target-passed-to-routine"),
     ] {
         let program = read(&format!("TOOL NULL\nBASE NULL\n{code}"));

@@ -147,6 +147,46 @@ fn a_register_keeps_what_it_held_where_it_is_written_behind_the_move() {
 }
 
 #[test]
+fn a_program_that_is_called_may_pass_by_its_writes_or_set_another_condition() {
+    let by = |main: &str, called: &str| {
+        let main = listing(main, &usual("1"));
+        let called = listing(called, "").replace("TEST", "SET");
+        last(&[("m.ls", &main), ("s.ls", &called)])
+    };
+    let some = format!("{ZERO}PR[7,3]=100 ;");
+    let main = format!("CALL SET ;\n{GO}");
+    assert_eq!(by(&main, &some), up(0.1));
+    for passes in [
+        format!("IF DI[2]=OFF,JMP LBL[1] ;\n{some}\nLBL[1] ;"),
+        format!("IF (DI[2]) THEN ;\n{some}\nENDIF ;"),
+    ] {
+        let by = by(&main, &passes);
+        assert!(matches!(by, Displacement::AtLeast(_)), "{passes}: {by:?}");
+    }
+    // behind one that changes no register all is as before
+    let main = |end: &str| format!("{some}\n{GO}CALL SET ;\n{GO}{end}");
+    let quiet = "RO[1]=ON ;\nWAIT    .50(sec) ;\n! PART IN ;\nIF DI[1]=ON,JMP LBL[1] ;\nLBL[1] ;";
+    assert_eq!(by(&main("PR[7,3]=300 ;"), quiet), up(0.1));
+    for other in [
+        "WELD_IT ;",
+        "R[1]=5 ;",
+        "CALL MORE ;",
+        "IF R[1]=5,PR[7,3]=1 ;",
+    ] {
+        let other = format!("{quiet}\n{other}");
+        assert_ne!(by(&main("PR[7,3]=300 ;"), &other), up(0.1), "{other}");
+    }
+    let main = |call: &str| {
+        format!("{some}\nOFFSET CONDITION PR[7] ;\n{call}L P[1] 9mm/sec FINE Offset ;")
+    };
+    let other = "PR[8]=PR[8]-PR[8] ;\nPR[8,3]=300 ;\nOFFSET CONDITION PR[8] ;";
+    assert_eq!(by(&main(""), other), up(0.1));
+    let either = by(&main("CALL SET ;\n"), other);
+    let ends = between(&either).expect("the text tells it");
+    assert!(ends[1] > 0.3 - 1e-9, "{ends:?}");
+}
+
+#[test]
 fn loops_count_and_jumps_do_not() {
     let grown = |head: &str, end: &str| {
         let step = "R[1]=R[1]+50 ;\nPR[7,3]=R[1] ;\n";

@@ -1,0 +1,174 @@
+//! Numbers that no robot has, and options that nothing needs, in every language that has them.
+
+use super::limits::{changed, compensated, run_in};
+use crate::support::{repository, scratch, text};
+
+const DEBURR: &str = "programs/rapid/olp/in/Deburr.mod";
+const THESIS: &str = "robots/abb_irb120_thesis.yaml";
+
+/// Compensates a folder of samples with options; its status and all that is said.
+fn sample(folder: &str, profile: &str, more: &[&str]) -> (i32, String) {
+    let at = scratch();
+    let (input, profile) = (repository(folder), repository(profile));
+    let mut words = vec![
+        "compensate",
+        input.to_str().expect("a plain name"),
+        "--profile",
+    ];
+    words.extend([profile.to_str().expect("a plain name"), "-o", "out"]);
+    words.extend(more);
+    run_in(at.path(), &words)
+}
+
+#[test]
+fn options_without_a_name_that_nothing_needs_are_refused_in_every_language() {
+    let (tool, frame) = (["--tool", "0,0,500,0,0,0"], ["--frame", "100,2,3,0,0,0"]);
+    let nest = ["--frame", "nest=430,-40,-120,0,0,20"];
+    let fixture = ["--frame", "4=1400,350,-200,0,0,-15"];
+    for (folder, profile, needed, needless) in [
+        ("csv/poses/in", "inform", &nest[..], tool),
+        ("inform/olp/in", "inform", &[], tool),
+        ("fanuc/olp/in", "fanuc", &fixture, tool),
+        ("fanuc/olp/in", "fanuc", &fixture, frame),
+        ("val3/olp/in", "val3", &[], frame),
+        ("kawasaki/olp/in", "kawasaki", &[], frame),
+        ("krl/olp/in", "krl", &[], tool),
+        ("urscript/olp/in", "urscript", &[], frame),
+    ] {
+        let folder = format!("programs/{folder}");
+        let profile = format!("programs/{profile}/profile.yaml");
+        let (status, said) = sample(&folder, &profile, needed);
+        assert_eq!(status, 0, "{folder}: {said}");
+        let (status, said) = sample(&folder, &profile, &[needed, &needless].concat());
+        let word = format!("{} without a name", needless[0]);
+        assert!(status == 2 && said.contains(&word), "{folder}: {said}");
+    }
+}
+
+#[test]
+fn loads_that_no_arm_carries_are_refused_wherever_they_stand() {
+    let far = changed(DEBURR, "[1.4,[0,0,60]", "[1.4,[0,0,60000]");
+    let heavy = |kg: &str| {
+        let entry = format!(
+            "  effects:\n    - {{effect: payload_error, tool: rdkTool, mass_kg: {kg}, large: true, \
+             reason: test}}\n"
+        );
+        changed(THESIS, "  effects:\n", &entry)
+    };
+    for (program, profile, words) in [
+        (far, text(THESIS), ["`rdkTool`", "60000", "mm"]),
+        (
+            text(DEBURR),
+            heavy("-50"),
+            ["`rdkTool`", "48.6", "kg"].map(|w| match w {
+                "48.6" => "4.86e1",
+                other => other,
+            }),
+        ),
+    ] {
+        let (status, said, written) = compensated("a.mod", &program, &profile, &[]);
+        assert!(status == 2 && written.is_none(), "{said}");
+        for word in words {
+            assert!(
+                said.contains(word) || word == "60000" && said.contains("6e4"),
+                "{word}: {said}"
+            );
+        }
+        let folder = scratch();
+        std::fs::write(folder.path().join("a.mod"), &program).expect("scratch");
+        std::fs::write(folder.path().join("robot.yaml"), &profile).expect("scratch");
+        let (status, said) = run_in(
+            folder.path(),
+            &["check", "a.mod", "--profile", "robot.yaml"],
+        );
+        assert_eq!(status, 2, "{said}");
+    }
+    // no more is taken away than there is
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &heavy("-1"), &[]);
+    assert_eq!(status, 0, "{said}");
+}
+
+#[test]
+fn joints_that_an_inverse_starts_from_are_those_of_the_arm() {
+    let folder = scratch();
+    let table = text("programs/csv/poses/in/inspection.csv");
+    let line = table
+        .lines()
+        .find(|line| line.starts_with("P1,"))
+        .expect("P1");
+    let near = "world,5,15,-15,-5,-95,-5";
+    assert!(line.contains(near), "{line}");
+    let profile = repository("programs/inform/profile.yaml");
+    for (value, status) in [("5", 0), ("755", 2), ("1e308", 2)] {
+        let other = table.replacen(
+            near,
+            &near.replacen("world,5", &format!("world,{value}"), 1),
+            1,
+        );
+        std::fs::write(folder.path().join("inspection.csv"), other).expect("scratch");
+        let (found, said) = run_in(
+            folder.path(),
+            &[
+                "compensate",
+                "inspection.csv",
+                "--profile",
+                profile.to_str().expect("a plain name"),
+                "--frame",
+                "nest=430,-40,-120,0,0,20",
+                "-o",
+                "out.csv",
+            ],
+        );
+        assert_eq!(found, status, "{value}: {said}");
+        assert_eq!(
+            status == 2,
+            said.contains("joint 1 near which"),
+            "{value}: {said}"
+        );
+    }
+}
+
+#[test]
+fn a_marker_without_its_hashes_is_compared_with_nothing() {
+    for (language, program) in [
+        ("urscript", "olp/in/Deburr_bracket.script"),
+        ("kawasaki", "olp/in/TRIM.pg"),
+        ("rapid", "olp/in/Deburr.mod"),
+    ] {
+        let folder = scratch();
+        let name = program.rsplit('/').next().expect("a name");
+        let original = repository(&format!("programs/{language}/{program}"));
+        let profile = match language {
+            "rapid" => repository(THESIS),
+            _ => repository(&format!("programs/{language}/profile.yaml")),
+        };
+        let [original, profile] = [&original, &profile].map(|path| path.to_str().expect("plain"));
+        let made = ["compensate", original, "--profile", profile, "-o", name];
+        let (status, said) = run_in(folder.path(), &made);
+        assert_eq!(status, 0, "{language}: {said}");
+        let fake = std::fs::read_to_string(folder.path().join(name)).expect("written");
+        let check = ["check", name, "--nominal", original, "--profile", profile];
+        let whole = run_in(folder.path(), &check);
+        for lost in ["profile ", "source "] {
+            let is_hash = |line: &&str| {
+                let mut words = line.split_once(lost).map_or("", |(_, rest)| rest).chars();
+                words
+                    .by_ref()
+                    .take(64)
+                    .filter(char::is_ascii_hexdigit)
+                    .count()
+                    == 64
+            };
+            let kept: Vec<&str> = fake.lines().filter(|line| !is_hash(line)).collect();
+            assert!(kept.len() < fake.lines().count(), "{language}: {lost}");
+            std::fs::write(folder.path().join(name), kept.join("\n") + "\n").expect("scratch");
+            let (status, said) = run_in(folder.path(), &check);
+            assert!(
+                status == 2 && said.contains("marker") && said.contains("--force"),
+                "{language}, {lost}: {said}"
+            );
+            let (status, _) = run_in(folder.path(), &[&check[..], &["--force"]].concat());
+            assert_eq!(status, whole.0, "{language}, {lost}");
+        }
+    }
+}
