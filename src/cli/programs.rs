@@ -241,6 +241,7 @@ impl Reading<'_> {
             self.wrong.push(format!("{name}: {why}"));
             return;
         }
+        let file = entry.file_name().to_string_lossy();
         let asked = |l: &&&dyn Language| self.asked.is_none_or(|a| a.about().id == l.about().id);
         let known: Vec<&dyn Language> = LANGUAGES
             .iter()
@@ -270,6 +271,8 @@ impl Reading<'_> {
         let recognised = known.iter().any(|language| language.recognises(&source));
         if let Some(why) = why {
             self.wrong.push(format!("{}: {why}", source.name));
+        } else if !recognised && known.iter().all(|language| language.is_record(&file)) {
+            self.found.left_out.other.push(source.name);
         } else if !recognised {
             let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
             let why = format!(

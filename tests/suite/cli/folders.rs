@@ -196,6 +196,42 @@ fn files_and_folders_without_permission_are_named() {
 }
 
 #[test]
+fn logs_of_a_backup_are_passed_over_and_listed() {
+    let folder = scratch();
+    let path = folder.path();
+    std::fs::create_dir_all(path.join("in")).expect("scratch");
+    let sample = repository("programs/fanuc/olp/in/seal.ls");
+    std::fs::copy(sample, path.join("in/seal.ls")).expect("scratch");
+    for name in ["ERRALL.LS", "logbook.ls", "posreg.va", "sysmast.va"] {
+        std::fs::write(path.join("in").join(name), "F Number: F00000\n").expect("scratch");
+    }
+    let profile = repository("programs/fanuc/profile.yaml");
+    std::fs::copy(profile, path.join("p.yaml")).expect("scratch");
+    let check = ["check", "in", "--frame", "4=1400,350,-200,0,0,-15"];
+    let output = run(path, &[&check[..], &["--json"]].concat());
+    let report: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", reported(&output)));
+    let other = [
+        "in/ERRALL.LS",
+        "in/logbook.ls",
+        "in/posreg.va",
+        "in/sysmast.va",
+    ];
+    assert_eq!(
+        report["summary"]["left_out"]["other"],
+        serde_json::json!(other)
+    );
+    for (name, word) in [("weld.ls", "weld.ls"), ("sysframe.va", "sysframe.va")] {
+        let at = path.join("in").join(name);
+        std::fs::write(&at, "F Number: F00000\n").expect("scratch");
+        let output = run(path, &check);
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert!(reported(&output).contains(word), "{}", reported(&output));
+        std::fs::remove_file(at).expect("scratch");
+    }
+}
+
+#[test]
 fn what_is_left_out_stands_in_the_summary() {
     let folder = world();
     let path = folder.path();

@@ -172,3 +172,36 @@ fn a_marker_without_its_hashes_is_compared_with_nothing() {
         }
     }
 }
+
+#[test]
+fn joints_that_two_tools_go_to_are_shifted_by_no_more_than_with_one() {
+    let moves = |tools: &[&str]| {
+        let tool = |name: &str, z: f64| {
+            format!(
+                "PERS tooldata {name} := [TRUE,[[0,0,{z}],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\n"
+            )
+        };
+        let moves: String = tools
+            .iter()
+            .map(|tool| format!("MoveAbsJ j1,v100,fine,{tool};\n"))
+            .collect();
+        format!(
+            "MODULE m\n{}{}CONST jointtarget j1 := \
+             [[0,10,20,10,40,5],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\n{moves}ENDPROC\nENDMODULE\n",
+            tool("tA", 20.0),
+            tool("tB", 320.0)
+        )
+    };
+    let profile = text(THESIS);
+    let correct = ["--joint-targets", "correct"];
+    let (status, said, one) = compensated("a.mod", &moves(&["tA"]), &profile, &correct);
+    assert_eq!(status, 0, "{said}");
+    let (status, said, both) = compensated("a.mod", &moves(&["tA", "tB"]), &profile, &correct);
+    assert_eq!(status, 0, "{said}");
+    let joints = |written: Option<String>| {
+        let written = written.expect("a program");
+        let line = written.lines().find(|line| line.contains("jointtarget"));
+        line.expect("the target").to_owned()
+    };
+    assert_eq!(joints(one), joints(both));
+}

@@ -89,7 +89,11 @@ pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake
     } else {
         fakes.clone()
     };
-    let mean = mean(&meant);
+    let mut mean = mean(&meant);
+    if is_joints {
+        // of another tool the same joints are another pose
+        mean.frame_from_tool = fakes[0].frame_from_tool;
+    }
     let passed = |solved: &&Solved| solved.is_passed();
     let is_near =
         |solved: &Solved| landing(job, solved, &mean).distance_m <= displaced::limit_m(job);

@@ -249,5 +249,5 @@ pub const TABLE: &[Kind] = &[
     row("weak-rotation", Warning, "the poses rotate about one direction only", "add poses that tilt the flange in another direction", &["handeye"], &[]),
     row("worse-than-nominal", Warning, "the calibrated model is worse on these rows than the nominal one", "is it this robot, and the tool and load of the calibration?", &["validate"], &[]),
     row("wrist-not-told", Warning, "a job starts with a rectangular position, so that nothing gives the solution of the wrist", "start the job with a position in pulses", &["compensate", "check"], &["inform"]),
-    row("write-not-called", Warning, "a routine that changes a target or a frame is called by none of these files", "give the file that calls it, too", &["compensate", "check"], &[]),
+    row("write-not-called", Warning, "a routine that changes a target, tool or frame, or that goes with one that the program changes, is called by none of these files", "give the file that calls it, too", &["compensate", "check"], &[]),
 ];

@@ -1,6 +1,6 @@
 //! Which routines read a variable, and who starts them.
 
-use crate::program::script::{Expr, How, RoutineId, Script, Statement, VariableId, short};
+use crate::program::script::{Expr, How, RoutineId, Script, Statement, VariableId, Written, short};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// The routine that the operator starts to come to a routine.
@@ -40,6 +40,23 @@ pub(super) fn read_elsewhere(
             .any(|reader| from[*reader as usize] != From::One(writer))
     };
     written.iter().copied().filter(is_elsewhere).collect()
+}
+
+/// Where routines that these start, through calls, write variables; of each the first place.
+pub(super) fn written_by(script: &Script, entries: &[RoutineId]) -> HashMap<VariableId, u32> {
+    let mut written = HashMap::new();
+    let from = starts(script, entries).into_iter();
+    for (routine, _) in (script.routines.iter().zip(from)).filter(|(_, from)| *from != From::Nobody)
+    {
+        for at in routine.statements.clone() {
+            if let Statement::Write(write) = script.statements[at as usize]
+                && let Written::One(variable) = script.writes[write as usize].variable
+            {
+                written.entry(variable).or_insert(at);
+            }
+        }
+    }
+    written
 }
 
 /// Who starts each routine, through calls.

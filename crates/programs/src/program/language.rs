@@ -88,6 +88,13 @@ pub trait Language: Sync {
         1e5
     }
 
+    /// Whether a file of this name is a record of the controller that ends as programs do: a log in a
+    /// backup.
+    fn is_record(&self, file: &str) -> bool {
+        let _ = file;
+        false
+    }
+
     /// Whether positions say in which work frame they are: then none is given to those that no move
     /// goes to.
     fn has_framed_positions(&self) -> bool {

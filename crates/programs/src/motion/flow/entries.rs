@@ -3,8 +3,10 @@
 
 use super::{Flow, From, MOST_ROUNDS, NO_INSTANCE, State};
 use crate::motion::before::{ANYWHERE, START};
-use crate::motion::readers::read_elsewhere;
+use crate::motion::holding::{DECLARED, Holding};
+use crate::motion::readers::{read_elsewhere, written_by};
 use crate::program::script::{Expr, RoutineId, Start, Statement, VariableId, Written, short};
+use foldhash::HashSet;
 use std::rc::Rc;
 
 impl Flow<'_> {
@@ -155,9 +157,66 @@ impl Flow<'_> {
         changed
     }
 
+    /// Notes what moves of routines have that only the operator starts, as it is declared, and what
+    /// the program writes: it may be what the last run has left.
+    fn note_left(&mut self, entries: &[u32]) {
+        let script = self.script;
+        let is_main = |instance: u32| {
+            let routine = self.instances[instance as usize].routine;
+            script.routines[routine as usize].start == Start::Main
+        };
+        let mains = entries.iter().filter(|entry| is_main(**entry));
+        let mains = mains.map(|entry| self.instances[*entry as usize].routine);
+        let written = written_by(script, &mains.collect::<Vec<_>>());
+        if written.is_empty() {
+            return;
+        }
+        let is_declared = |holding: Holding| {
+            let mut atoms = self.holdings.of(holding).iter();
+            atoms.any(|(_, site)| *site == DECLARED)
+        };
+        let roots: HashSet<u32> = entries.iter().copied().collect();
+        let mut found = Vec::new();
+        for at in 0..short(self.instances.len()) {
+            let mut root = at;
+            while self.instances[root as usize].caller != NO_INSTANCE {
+                root = self.instances[root as usize].caller;
+            }
+            if !roots.contains(&root) || is_main(root) {
+                continue;
+            }
+            let of = &self.instances[at as usize];
+            let instructions = script.routines[of.routine as usize].instructions.clone();
+            for (stop, instruction) in (of.first_stop..).zip(instructions) {
+                let Some(reached) = self.reached.get(stop as usize).copied().flatten() else {
+                    continue;
+                };
+                let modes = self.modes[reached.modes as usize];
+                let instruction = &script.instructions[instruction as usize];
+                let modal = &script.modals[instruction.modal as usize];
+                let used = [
+                    (modal.tool, Some(modes.tool)),
+                    (modal.frame, Some(modes.frame)),
+                    (modal.load, Some(modes.load)),
+                    (instruction.target, reached.target),
+                ];
+                found.extend(used.iter().filter_map(|(expr, holding)| {
+                    let variable = expr.variable().filter(|of| {
+                        let of = &script.variables[*of as usize];
+                        of.kept && of.routine.is_none()
+                    })?;
+                    let site = *written.get(&variable)?;
+                    is_declared((*holding)?).then_some((variable, site))
+                }));
+            }
+        }
+        self.left.extend(found);
+    }
+
     /// Notes what routines write that only the operator starts, and what others read: these do not
     /// see it.
     pub(super) fn note_operators(&mut self, entries: &[u32]) {
+        self.note_left(entries);
         let script = self.script;
         let routine_of = |instance: &u32| self.instances[*instance as usize].routine;
         let entries: Vec<RoutineId> = entries.iter().map(routine_of).collect();

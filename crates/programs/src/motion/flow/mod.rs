@@ -189,6 +189,8 @@ pub(super) struct Flow<'a> {
     pub given_away: Vec<(u32, Site)>,
     /// Where variables are written in routines that nothing in the files calls.
     pub by_operator: Vec<(VariableId, Site)>,
+    /// Where the program writes variables that moves of such routines take as they are declared.
+    pub left: Vec<(VariableId, Site)>,
     is_concurrent: bool,
     /// Whether routines run at any time, or concurrently with others.
     has_concurrent: bool,
@@ -246,6 +248,7 @@ impl<'a> Flow<'a> {
             instructions: Vec::new(),
             given_away: Vec::new(),
             by_operator: Vec::new(),
+            left: Vec::new(),
             is_concurrent: false,
             has_concurrent: false,
             started: HashMap::new(),

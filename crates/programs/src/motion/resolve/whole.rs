@@ -238,6 +238,19 @@ impl Resolver<'_, '_> {
     /// Writes of routines that nothing calls reach no other routine.
     pub(super) fn tell_operators(&mut self) {
         let mut said = HashSet::new();
+        for (variable, site) in std::mem::take(&mut self.flow.left) {
+            let Some(place) = self.flow.place_of(site).filter(|_| said.insert(variable)) else {
+                continue;
+            };
+            let message = format!(
+                "a routine that nothing in the files calls goes with {0}, which is written here: it \
+                 is taken to have what is declared, and not what the last run has left",
+                self.script.variables[variable as usize].name
+            );
+            let hint = "give the file that calls it too, or set the data in the routine";
+            self.report
+                .say("write-not-called", Severity::Warning, place, message, hint);
+        }
         for (variable, site) in std::mem::take(&mut self.flow.by_operator) {
             let of = &self.script.variables[variable as usize];
             // a mode that is off is off when another routine starts

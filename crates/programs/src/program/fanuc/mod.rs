@@ -104,6 +104,12 @@ const BEYOND_DEG: f64 = 0.0005;
 /// Numbers of a pose without configuration data.
 const PLAIN: usize = 6;
 
+/// Logs of a backup, which end as programs do. Seen in nine backups of R-30iA and R-30iB controllers.
+const RECORDS: [&str; 16] = [
+    "erract", "errall", "errapp", "errcomm", "errcurr", "errext", "errhist", "errmot", "errpwd",
+    "errsys", "hist", "histe", "histp", "logbook", "updtlog", "vtrndiag",
+];
+
 impl Language for Fanuc {
     fn about(&self) -> &'static About {
         &ABOUT
@@ -135,6 +141,15 @@ impl Language for Fanuc {
         match role {
             Role::Position | Role::Orientation | Role::Joint => 3,
             Role::Configuration => 0,
+        }
+    }
+
+    fn is_record(&self, file: &str) -> bool {
+        let lower = file.to_ascii_lowercase();
+        match lower.rsplit_once('.') {
+            Some((stem, "ls")) => RECORDS.contains(&stem),
+            Some((stem, "va" | "dg")) => !stem.starts_with("sysframe"),
+            _ => false,
         }
     }
 

@@ -130,6 +130,7 @@ impl Reader {
                         Operand::Here(word.starts_with(b"$POS"))
                     });
                 }
+                b"$NULLFRAME" => return Ok(Operand::System),
                 word @ (b"$AXIS_INT" | b"$AXIS_RET" | b"$AXIS_BACK" | b"$AXIS_FOR"
                 | b"$POS_INT" | b"$POS_RET" | b"$POS_BACK" | b"$POS_FOR") => {
                     cursor.brackets()?;

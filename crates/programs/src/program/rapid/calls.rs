@@ -18,6 +18,17 @@ const UNKNOWN_MOVE: Verb = Verb::Move {
     tool_inside: false,
 };
 
+/// Instructions of ABB's options that move with the tool that they are given, as all that move do.
+///
+/// # Source
+/// ABB, Application manual - Arc and Arc Sensor: `SmarTac` and multi-pass welding.
+fn only_reads_tools(routine: &str) -> bool {
+    let lower = routine.to_ascii_lowercase();
+    ["search_", "arcrep"]
+        .iter()
+        .any(|first| lower.starts_with(first))
+}
+
 impl Translator<'_> {
     /// An instruction or a procedure call.
     pub(super) fn call(&mut self, callee: Callee, verb: Verb, arguments: Part, end: u32) {
@@ -368,6 +379,11 @@ impl Translator<'_> {
             let Some((name, index)) = self.frame_given(argument) else {
                 continue;
             };
+            let spelled = self.resolved.spelling(name).to_ascii_lowercase();
+            // the controller's own are constant
+            if matches!(&*spelled, "tool0" | "wobj0") || only_reads_tools(routine) {
+                continue;
+            }
             let value = self.builder.script.unknown(Remark::error_about(
                 "frame-chosen-at-run-time",
                 format!(

@@ -168,6 +168,9 @@ impl Goals<'_, '_, '_> {
                 }
             }
             Expr::Add(a, b) => {
+                if self.variables.is_actual(b, function) {
+                    return self.unknown();
+                }
                 let goal = self.goal_within(a, function, steps);
                 self.note_offset(goal.target, b, function);
                 let by = self.variables.constant(b, function).ok();

@@ -235,6 +235,16 @@ fn what_the_program_computes_stays_and_is_reported() {
             Severity::Warning,
         ),
         (
+            "d=p[0,0,.1,0,0,0]\nmovel(pose_add(d,get_actual_tcp_pose()))",
+            "computed-target",
+            Severity::Warning,
+        ),
+        (
+            "d=p[0,0,.1,0,0,0]\nhere=get_actual_tcp_pose()\nmovel(pose_add(d,here))",
+            "computed-target",
+            Severity::Warning,
+        ),
+        (
             "x=get_target_tcp_pose()\nx=pose_add(x,p[0,0,.1,0,0,0])\nmovel(x)",
             "computed-target",
             Severity::Warning,

@@ -90,8 +90,10 @@ impl Variables<'_, '_> {
                     open.push((if is_offset { a } else { b }, function));
                     None
                 }
-                Expr::Add(a, _) if through_features => {
-                    open.push((a, function));
+                // of a sum the robot's own position is no offset
+                Expr::Add(a, b) if through_features => {
+                    let is_offset = self.is_actual(b, function);
+                    open.push((if is_offset { b } else { a }, function));
                     None
                 }
                 _ => None,
@@ -277,7 +279,11 @@ impl Variables<'_, '_> {
         };
         match self.parsed.expression(value) {
             Expr::Actual { .. } => true,
-            Expr::Trans(a, _) | Expr::Add(a, _) => self.comes_from_actual(a, function, steps),
+            Expr::Trans(a, _) => self.comes_from_actual(a, function, steps),
+            Expr::Add(a, b) => {
+                let mut both = [a, b].into_iter();
+                both.any(|of| self.comes_from_actual(of, function, steps / 2))
+            }
             Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
                 let mut sources = self.sources(variable).filter(|s| !s.way.is_part());
                 let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();

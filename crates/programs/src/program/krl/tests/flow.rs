@@ -90,6 +90,7 @@ fn moves_to_positions_nobody_knows_are_moves() {
         ("PTP XHOME2", "joint-target-not-in-files", Severity::Note),
         ("PTP_REL {A6 -0.001}", "relative-joint-move", Severity::Note),
         ("PTP $POS_RET", "run-time-position", Severity::Note),
+        ("PTP $NULLFRAME", "computed-target", Severity::Warning),
         ("LIN nowhere", "target-not-in-files", Severity::Error),
         ("LIN_REL off", "relative-move", Severity::Error),
     ] {

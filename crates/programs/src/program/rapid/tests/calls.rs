@@ -202,6 +202,25 @@ fn an_argument_in_parentheses_is_what_stands_in_them() {
 }
 
 #[test]
+fn what_nothing_can_write_stays_what_it_is() {
+    for call in [
+        "ReportPos \"here\",tool0,wobj0;",
+        "Search_1D d,p3,p2,v5,t\\WObj:=w;",
+        "ArcRepL\\Start\\End,Layer_2,v5,s,e,b,z5,t\\WObj:=w;",
+    ] {
+        let program = path(&format!(
+            "MoveL p1,v5,z5,t\\WObj:=w;\nMoveL p1,v5,z5,tool0;\n{call}\nMoveL \
+             p1,v5,z5,tool0;\nMoveL p1,v5,z5,t\\WObj:=w;"
+        ));
+        let found = ids(&program);
+        assert!(
+            !found.iter().any(|id| id.starts_with("frame-")),
+            "{call}: {found:?}"
+        );
+    }
+}
+
+#[test]
 fn traps_may_run_at_any_place() {
     let program = path("MoveL p3,v5,z5,t;\nENDPROC\nTRAP tr\np3:=CRobT();\nENDTRAP\nPROC last()");
     assert_eq!(
