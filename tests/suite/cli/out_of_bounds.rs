@@ -205,3 +205,24 @@ fn joints_that_two_tools_go_to_are_shifted_by_no_more_than_with_one() {
     };
     assert_eq!(joints(one), joints(both));
 }
+
+#[test]
+fn no_correction_turns_a_target_by_more_than_two_degrees() {
+    let turned = |deg: &str| {
+        let effect = format!(
+            "  effects:\n    - {{effect: tool_frame, tool: rdkTool, rx_deg: {deg}, ry_deg: {deg}}}\n"
+        );
+        changed(THESIS, "  effects:\n", &effect)
+    };
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &turned("1.2"), &[]);
+    assert_eq!(status, 0, "{said}");
+    let (status, said, written) = compensated("a.mod", &text(DEBURR), &turned("1.9"), &[]);
+    assert!(status == 1 && written.is_none(), "{said}");
+    assert!(
+        said.contains("shift-too-large") && said.contains("2.000 deg"),
+        "{said}"
+    );
+    let more = ["--max-shift", "20mm,3deg"];
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &turned("1.9"), &more);
+    assert_eq!(status, 0, "{said}");
+}

@@ -8,6 +8,7 @@ mod cam;
 mod generated;
 mod landing;
 mod posts;
+mod tampered;
 
 use crate::support::{files_below, poseshift, repository, scratch};
 use poseshift::program::{self, Marker, Source};

@@ -536,7 +536,8 @@ impl<'a> Reader<'a> {
         }
         // joints of a pose, and a pose of joints, are those of the tool, base and posture of that
         // moment
-        let is_here = value.is_word(usize::from(value.is(0, b'#')), b"HERE");
+        let here = usize::from(value.is(0, b'#'));
+        let is_here = value.is_word(here, b"HERE") && value.len() == here + 1;
         let value = if is_sum || !is_here && is_joints(value) != name.is_joints() {
             self.unknown(COMPUTED)
         } else if is_here {

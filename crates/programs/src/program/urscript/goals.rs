@@ -2,10 +2,9 @@
 
 use super::common::{Common, TOOL};
 use super::numbers::{along_base, in_base, in_tool};
-use super::syntax::{Content, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol};
+use super::syntax::{Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol, unit};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::geometry::Pose;
-use crate::geometry::units::DEG;
 use crate::program::quantity::Quantity;
 use crate::program::script::{
     self, Builder, DISPLACED_SOMEHOW, DisplacementId, Held, Remark, RemarkId, Span, UNBOUNDED,
@@ -470,12 +469,8 @@ impl Goals<'_, '_, '_> {
     pub(super) fn joints(&self, value: ExprId, function: FunctionId) -> Option<[f64; 6]> {
         let literal = self.parsed.literal(self.variables.joints(value, function)?);
         let values = self.parsed.values(literal).filter(|_| !literal.pose)?;
-        let unit = if literal.content == Content::Degrees {
-            DEG
-        } else {
-            1.0
-        };
-        Some(values.map(|value| value * unit))
+        let degrees = literal.content.degrees();
+        Some(std::array::from_fn(|at| values[at] * unit(degrees, at)))
     }
 
     /// Whether a value holds a target that moves go to elsewhere.

@@ -98,14 +98,12 @@ pub(super) fn six(bytes: &[u8], start: usize, pose: bool, numbers: &mut Vec<Numb
         }
         at += 1;
         if k == 5 {
-            let angles = if pose { &degrees[3..] } else { &degrees[..] };
-            let all = angles.iter().all(|inside| *inside);
-            let none = !degrees.contains(&true);
-            if none {
+            let bits = (0..6).fold(0, |bits, k| bits | u8::from(degrees[k]) << k);
+            if bits == 0 {
                 return Found::Six(Content::Numbers, at);
             }
-            if all && !(pose && degrees[..3].contains(&true)) {
-                return Found::Six(Content::Degrees, at);
+            if !(pose && degrees[..3].contains(&true)) {
+                return Found::Six(Content::Degrees(bits), at);
             }
         }
     }

@@ -120,7 +120,7 @@ impl Language for UrScript {
     }
 
     fn most_orientation(&self, layout: Layout) -> f64 {
-        if in_degrees(layout) {
+        if in_degrees(layout) != 0 {
             rotation::MOST_ANGLE / DEG
         } else {
             rotation::MOST_ANGLE
@@ -146,7 +146,7 @@ impl Language for UrScript {
     }
 
     fn joint_units(&self, layout: Layout, _: &Settings) -> [f64; 6] {
-        [if in_degrees(layout) { DEG } else { 1.0 }; 6]
+        std::array::from_fn(|at| syntax::unit(in_degrees(layout), at))
     }
 
     fn insert(&self, into: &Insertions) -> Inserted {
@@ -162,9 +162,9 @@ impl Language for UrScript {
     }
 }
 
-/// Whether the angles of a target are written as `d2r(…)`.
-fn in_degrees(layout: Layout) -> bool {
-    layout.variant == 1
+/// Which numbers of a target are written as `d2r(…)`, bit by bit.
+fn in_degrees(layout: Layout) -> u8 {
+    layout.variant
 }
 
 /// Each file, or several together where their functions call each other.

@@ -1,6 +1,6 @@
 //! What numbers may be, from all that the text assigns to them.
 
-use super::syntax::{Content, Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
+use super::syntax::{Content, Event, Expr, ExprId, FunctionId, LiteralId, Symbol, unit};
 use super::variables::Variables;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
@@ -153,10 +153,10 @@ impl Variables<'_, '_> {
         match literal.content {
             _ if !literal.pose => None,
             Content::Numbers => Some(self.parsed.values(literal)?.map(Quantity::exactly)),
-            Content::Degrees => {
+            Content::Degrees(bits) => {
                 let mut values = self.parsed.values(literal)?;
-                for angle in &mut values[3..] {
-                    *angle *= DEG;
+                for (at, angle) in values.iter_mut().enumerate() {
+                    *angle *= unit(bits, at);
                 }
                 Some(values.map(Quantity::exactly))
             }
@@ -380,7 +380,7 @@ pub(super) fn in_tool(amounts: [Quantity; 6]) -> Option<Displacement> {
 fn turn(rotation: &[Quantity; 3], mut by: Displacing) -> Option<Displacement> {
     let [x, y, z] = rotation.each_ref().map(Quantity::exact);
     if let (Some(x), Some(y), Some(z)) = (x, y, z) {
-        let endless = super::rotation::endless(&[0.0, 0.0, 0.0, x, y, z], false);
+        let endless = super::rotation::endless(&[0.0, 0.0, 0.0, x, y, z], 0);
         if endless.is_some() {
             return None;
         }

@@ -4,18 +4,17 @@
 //! revolutions are the same rotation, and so is the opposite direction with the complement of the
 //! angle.
 
-use crate::geometry::units::DEG;
+use super::syntax::unit;
 use crate::geometry::{Pose, Quaternion, Vector, dot, norm, scale};
 use std::f64::consts::TAU;
 
 /// Below this angle, radians, a rotation has no direction of its own.
 const NO_AXIS: f64 = 1e-12;
 
-/// The pose of six numbers, angles in radians or degrees.
-pub(super) fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
-    let [x, y, z, rx, ry, rz] = numbers;
-    let unit = if degrees { DEG } else { 1.0 };
-    let vector = [rx, ry, rz].map(|angle| angle * unit);
+/// The pose of six numbers, angles in radians, or in degrees where the bit of the number is set.
+pub(super) fn pose(numbers: [f64; 6], degrees: u8) -> Pose {
+    let [x, y, z, ..] = numbers;
+    let vector = std::array::from_fn(|k| numbers[3 + k] * unit(degrees, 3 + k));
     Pose::from_parts([x, y, z], Quaternion::from_vector(vector).normalized())
 }
 
@@ -23,21 +22,19 @@ pub(super) fn pose(numbers: [f64; 6], degrees: bool) -> Pose {
 pub(super) const MOST_ANGLE: f64 = 2.0 * TAU;
 
 /// A part of the rotation vector that is longer than any that is meant, in its own unit.
-pub(super) fn endless(numbers: &[f64; 6], degrees: bool) -> Option<f64> {
-    let unit = if degrees { DEG } else { 1.0 };
-    let parts = numbers[3..].iter().copied();
-    parts
-        .into_iter()
-        .find(|part| part.abs() * unit > MOST_ANGLE)
+pub(super) fn endless(numbers: &[f64; 6], degrees: u8) -> Option<f64> {
+    let mut parts = (3..6).filter(|at| numbers[*at].abs() * unit(degrees, *at) > MOST_ANGLE);
+    parts.next().map(|at| numbers[at])
 }
 
 /// The six numbers of a pose, the vector as near as can be to that of the present numbers.
-pub(super) fn numbers(pose: &Pose, present: [f64; 6], degrees: bool) -> [f64; 6] {
-    let unit = if degrees { DEG } else { 1.0 };
-    let old = [present[3], present[4], present[5]].map(|angle| angle * unit);
-    let [rx, ry, rz] = nearest(pose.rotation.vector(), old).map(|angle| angle / unit);
-    let [x, y, z] = pose.translation;
-    [x, y, z, rx, ry, rz]
+pub(super) fn numbers(pose: &Pose, present: [f64; 6], degrees: u8) -> [f64; 6] {
+    let old = std::array::from_fn(|k| present[3 + k] * unit(degrees, 3 + k));
+    let vector = nearest(pose.rotation.vector(), old);
+    std::array::from_fn(|at| match at.checked_sub(3) {
+        None => pose.translation[at],
+        Some(k) => vector[k] / unit(degrees, at),
+    })
 }
 
 /// The vector of the same rotation that is nearest to `old`.
@@ -77,8 +74,8 @@ mod tests {
             [1.0, 2.0, 9.0],
         ] {
             let numbers_of = [0.1, 0.2, 0.3, old[0], old[1], old[2]];
-            let pose = pose(numbers_of, false);
-            let back = numbers(&pose, numbers_of, false);
+            let pose = pose(numbers_of, 0);
+            let back = numbers(&pose, numbers_of, 0);
             assert!(
                 far([back[3], back[4], back[5]], old) < 1e-9,
                 "{old:?} {back:?}"
@@ -87,8 +84,8 @@ mod tests {
                 rotation: pose.rotation * crate::geometry::Rotation::about_x(1e-4),
                 ..pose
             };
-            let near = numbers(&turned, numbers_of, false);
-            let gap = super::pose(near, false).separation(&turned);
+            let near = numbers(&turned, numbers_of, 0);
+            let gap = super::pose(near, 0).separation(&turned);
             assert!(gap.angle_rad < 1e-12 && gap.distance_m < 1e-15);
             let length = norm(old);
             // next to a whole revolution the axis itself turns far
@@ -103,13 +100,10 @@ mod tests {
 
     #[test]
     fn degrees_are_the_same_rotation() {
-        let a = pose([0.0, 0.0, 0.0, 0.0, 90.0, 0.0], true);
-        let b = pose(
-            [0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0],
-            false,
-        );
+        let a = pose([0.0, 0.0, 0.0, 0.0, 90.0, 0.0], 0b01_0000);
+        let b = pose([0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0], 0);
         assert!(a.separation(&b).angle_rad < 1e-15);
-        let numbers = numbers(&b, [0.0, 0.0, 0.0, 0.0, -270.0, 0.0], true);
+        let numbers = numbers(&b, [0.0, 0.0, 0.0, 0.0, -270.0, 0.0], 0b11_1000);
         assert!((numbers[4] + 270.0).abs() < 1e-9);
     }
 }

@@ -1,5 +1,6 @@
 //! What is noted of one file before names mean anything.
 
+use crate::geometry::units::DEG;
 use crate::program::script::short;
 use crate::program::{Motion, Number, SpeedZone};
 use foldhash::HashMap;
@@ -59,10 +60,25 @@ pub(super) enum Expr {
 pub(super) enum Content {
     /// Six numbers.
     Numbers,
-    /// Six numbers, the angles (of joints all six, of poses the last three) inside `d2r(…)`.
-    Degrees,
+    /// Six numbers, some angles of them inside `d2r(…)`: bit by bit, the first number the lowest.
+    Degrees(u8),
     /// Anything else.
     Expressions,
+}
+
+impl Content {
+    /// Which numbers are in degrees, bit by bit.
+    pub fn degrees(self) -> u8 {
+        match self {
+            Self::Degrees(bits) => bits,
+            Self::Numbers | Self::Expressions => 0,
+        }
+    }
+}
+
+/// The unit of a number of six, of which these are in degrees.
+pub(super) fn unit(degrees: u8, at: usize) -> f64 {
+    if degrees >> at & 1 == 1 { DEG } else { 1.0 }
 }
 
 /// `p[…]` or `[…]`.

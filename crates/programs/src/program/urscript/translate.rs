@@ -187,7 +187,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 } else {
                     Shape::Joints
                 },
-                variant: u8::from(literal.content == Content::Degrees),
+                variant: literal.content.degrees(),
             };
             let targets = &mut self.goals.builder.script.targets;
             targets.push(Target {

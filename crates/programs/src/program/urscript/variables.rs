@@ -550,7 +550,7 @@ impl<'n, 'a> Variables<'n, 'a> {
                 let values = self.parsed.values(literal);
                 let values = values.filter(|_| literal.pose && !self.targets[id as usize]);
                 let values = values.or_else(|| self.exactly(id, function));
-                let degrees = literal.content == super::syntax::Content::Degrees;
+                let degrees = literal.content.degrees();
                 let values = values.ok_or(NotConstant::Computed)?;
                 match super::rotation::endless(&values, degrees) {
                     Some(angle) => Err(NotConstant::Endless(angle)),
