@@ -215,9 +215,10 @@ pub(crate) fn check_given(
         !(known.is_empty() && is_changed)
             && all.all(|(name, is_defined)| *is_defined || is_known(name))
     };
-    let is_unused = |program: &&Program| has_unused(program);
-    let is_for_unused =
-        || !language.has_framed_positions() && programs.iter().any(|program| is_unused(program));
+    let is_for_unused = || {
+        let mut programs = programs.iter();
+        !language.has_framed_positions() && programs.any(|program| has_unused(program))
+    };
     // joints need no work frame
     let needs = |program: &&Program| {
         let mut needs = vec![false; program.frames.len()];

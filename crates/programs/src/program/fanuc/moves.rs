@@ -119,9 +119,10 @@ impl Reader<'_> {
         self.known.moves();
         let end = self.builder.script.instructions.len();
         // options behind the middle of an arc are its own, else those behind the end are of both
-        let (all, of_first) = match of_middle.is_empty() {
-            true => (listed..end, listed..listed),
-            false => (last..end, listed..last),
+        let (all, of_first) = if of_middle.is_empty() {
+            (listed..end, listed..listed)
+        } else {
+            (last..end, listed..last)
         };
         for (here, offsets) in [(of_first, of_middle), (all, words.offsets)] {
             if !offsets.is_empty() {

@@ -203,7 +203,7 @@ impl<'a> World<'a> {
                         let value = value.trim_ascii();
                         value.eq_ignore_ascii_case(b"true") || value == b"1"
                     };
-                    if let Some(unit) = unit.filter(|unit| !is_mm(&unit.value)) {
+                    if let Some(unit) = unit.filter(|unit| !is_mm(unit.value)) {
                         return Err(Fault::bad_value(
                             unit.start..unit.end - 1,
                             "millimeterUnit that is read",
