@@ -34,13 +34,12 @@ impl Flow<'_> {
             self.forget();
             let declared = self.declared_state(ANYWHERE);
             for &routine in &concurrent {
-                let state = match self.started.get(&routine) {
-                    Some(state) => state.clone(),
+                let state = match self.started.get(&routine).cloned() {
+                    Some(state) => self.with_concurrent(Some(routine), state),
                     // nothing has been seen to start it yet
                     None if by_others[routine as usize] => continue,
-                    None => declared.clone(),
+                    None => self.with_concurrent(None, declared.clone()),
                 };
-                let state = self.with_concurrent(state);
                 let instance = self.instance(routine, 0, NO_INSTANCE);
                 self.enter(instance, &state);
             }
@@ -52,10 +51,14 @@ impl Flow<'_> {
         self.is_concurrent = false;
     }
 
-    /// A state in which all that others write meanwhile may hold.
-    pub(super) fn with_concurrent(&mut self, mut state: State) -> State {
+    /// A state in which all that may hold which others write meanwhile: what is started together
+    /// with what starts the routine; anything where nothing in the files does.
+    fn with_concurrent(&mut self, routine: Option<RoutineId>, mut state: State) -> State {
+        let near = routine.map(|routine| self.started_with(routine));
+        let is_near = |writer: &RoutineId| near.as_ref().is_none_or(|near| near.contains(writer));
         let mut holds = state.holds.to_vec();
-        for (variable, &written) in &self.concurrent {
+        let written = self.concurrent.iter();
+        for ((_, variable), &written) in written.filter(|((writer, _), _)| is_near(writer)) {
             if let Some(slot) = self.slots[*variable as usize] {
                 let slot = slot as usize;
                 holds[slot] = self.holdings.join(holds[slot], written);
@@ -63,6 +66,54 @@ impl Flow<'_> {
         }
         state.holds = Rc::new(holds);
         state
+    }
+
+    /// The routines that run where something starts this one: what those come to, through calls,
+    /// from which the start is come to.
+    fn started_with(&mut self, routine: RoutineId) -> Rc<HashSet<RoutineId>> {
+        if let Some(known) = self.started_with.get(&routine) {
+            return Rc::clone(known);
+        }
+        let script = self.script;
+        let mut callers: Vec<Vec<RoutineId>> = vec![Vec::new(); script.routines.len()];
+        let mut callees = callers.clone();
+        let mut open = Vec::new();
+        for (caller, of) in (0..).zip(&script.routines) {
+            for statement in
+                &script.statements[of.statements.start as usize..of.statements.end as usize]
+            {
+                let (Statement::Call(call) | Statement::Start(call)) = *statement else {
+                    continue;
+                };
+                let called = &script.calls[call as usize].callees;
+                if matches!(statement, Statement::Start(_)) && called.contains(&routine) {
+                    open.push(caller);
+                }
+                for &callee in &**called {
+                    callers[callee as usize].push(caller);
+                    callees[caller as usize].push(callee);
+                }
+            }
+        }
+        let reach = |mut open: Vec<RoutineId>, next: &[Vec<RoutineId>]| {
+            let mut reached: HashSet<RoutineId> = open.iter().copied().collect();
+            while let Some(one) = open.pop() {
+                let new = next[one as usize].iter().filter(|of| reached.insert(**of));
+                open.extend(new);
+            }
+            reached
+        };
+        let above = reach(open, &callers);
+        let is_first = |of: &RoutineId| {
+            callers[*of as usize].is_empty() || script.routines[*of as usize].start == Start::Main
+        };
+        let mut first: Vec<RoutineId> = above.iter().copied().filter(is_first).collect();
+        if first.is_empty() {
+            first.extend(above);
+        }
+        let with = Rc::new(reach(first, &callees));
+        self.started_with.insert(routine, Rc::clone(&with));
+        with
     }
 
     pub(super) fn forget(&mut self) {

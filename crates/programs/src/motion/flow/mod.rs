@@ -196,8 +196,12 @@ pub(super) struct Flow<'a> {
     has_concurrent: bool,
     /// With what routines are started concurrently with others.
     started: HashMap<RoutineId, State>,
-    /// What the others write, by variable.
-    concurrent: HashMap<VariableId, Holding>,
+    /// What the others write, by the routine that writes and by variable.
+    concurrent: HashMap<(RoutineId, VariableId), Holding>,
+    /// The routine whose statements are gone through.
+    writer: RoutineId,
+    /// The routines that run together with one that is started.
+    started_with: HashMap<RoutineId, Rc<HashSet<RoutineId>>>,
     /// The instance whose text is gone through that nothing reaches.
     dead: Option<u32>,
 }
@@ -253,6 +257,8 @@ impl<'a> Flow<'a> {
             has_concurrent: false,
             started: HashMap::new(),
             concurrent: HashMap::new(),
+            writer: 0,
+            started_with: HashMap::new(),
             dead: None,
         };
         let mut routines = script.routines.iter();

@@ -164,6 +164,7 @@ impl<'a> Flow<'a> {
             while self.work.peek() == Some(&item) {
                 self.work.pop();
             }
+            self.writer = self.instances[item.instance as usize].routine;
             visits += 1;
             let most = MOST_VISITS * (self.size + 1000);
             if visits > most {

@@ -321,9 +321,10 @@ impl Flow<'_> {
             let joined = self.holdings.join(before, holding);
             self.anytime.insert(variable, joined);
         } else if self.has_concurrent {
-            let before = self.concurrent.get(&variable).copied().unwrap_or(NOTHING);
+            let key = (self.writer, variable);
+            let before = self.concurrent.get(&key).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);
-            self.concurrent.insert(variable, joined);
+            self.concurrent.insert(key, joined);
         }
         self.hold(state, variable, holding);
     }

@@ -107,6 +107,9 @@ impl Resolver<'_, '_> {
                 let place = listed.instruction.place;
                 if remark.id == "computed-target" && listed.is_one_of {
                     self.computed_too(place, remark.hint);
+                } else if remark.id.starts_with("frame-") {
+                    // data that may be tools and frames, gone to as a position
+                    self.computed(place);
                 } else {
                     self.report.say_once(remark, place);
                 }

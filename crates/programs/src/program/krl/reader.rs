@@ -13,6 +13,18 @@ use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, Var
 use crate::program::{ExternalNames, Settings, Source};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
+/// What an interrupt or trigger assigns or hands to a routine.
+#[derive(Debug)]
+pub(super) struct Action {
+    /// The routine that its words stand in.
+    pub routine: Option<u32>,
+    /// Their bytes.
+    pub at: usize,
+    pub end: usize,
+    /// The call that starts it.
+    pub starts: usize,
+}
+
 /// Reads files into one script.
 pub(super) struct Reader {
     pub(super) builder: Builder,
@@ -40,9 +52,8 @@ pub(super) struct Reader {
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
     pub(super) concurrent: Vec<super::calls::Concurrent>,
-    /// What interrupts and triggers assign or hand to routines: the routine that the words stand in,
-    /// and their bytes.
-    pub(super) actions: Vec<(Option<u32>, usize, usize)>,
+    /// What interrupts and triggers assign or hand to routines.
+    pub(super) actions: Vec<Action>,
     /// Calls that are given an array whose elements are not followed.
     pub(super) unfollowed: Vec<Place>,
     /// Moves to the pose where the robot is.
@@ -263,7 +274,13 @@ impl Reader {
     /// What interrupts and triggers of a file assign or hand to routines, each as a routine that
     /// runs at any time.
     fn act_at_any_time(&mut self, bytes: &[u8]) -> Read<()> {
-        for (routine, at, end) in std::mem::take(&mut self.actions) {
+        for action in std::mem::take(&mut self.actions) {
+            let Action {
+                routine,
+                at,
+                end,
+                starts,
+            } = action;
             let mut cursor = Cursor { bytes, at, end };
             let name = cursor.next();
             self.routine = routine;
@@ -281,6 +298,8 @@ impl Reader {
             // no move depends on it
             if routines[made as usize].statements.is_empty() {
                 routines.pop();
+            } else {
+                self.builder.script.calls[starts].callees = [made].into();
             }
         }
         Ok(())

@@ -5,10 +5,10 @@ use super::calls::only_reads;
 use super::frames::Table;
 use super::moves::{With, motion};
 use super::names::Index;
-use super::reader::Reader;
+use super::reader::{Action, Reader};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
-use crate::program::script::{Expr, Held, How, Written};
+use crate::program::script::{Call, Expr, Held, How, Written};
 use crate::program::{ExternalUse, Source, SpeedZone};
 
 /// Whether a word in capitals starts a move.
@@ -334,8 +334,15 @@ impl Reader {
                 self.is_referred |= word == b"TRIGGER" && refers_to_end(cursor);
                 match action(cursor) {
                     Some((name, rest)) if is_kept(rest) => {
-                        let (routine, start) = (self.context().routine, name.start as usize);
-                        self.actions.push((routine, start, rest.end));
+                        let starts = self.builder.script.calls.len();
+                        let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
+                        self.builder.start(call);
+                        self.actions.push(Action {
+                            routine: self.context().routine,
+                            at: name.start as usize,
+                            end: rest.end,
+                            starts,
+                        });
                     }
                     Some((name, rest)) if word == b"TRIGGER" && rest.peek().is(b'(') => {
                         self.interrupts(cursor, Some((name, rest)));

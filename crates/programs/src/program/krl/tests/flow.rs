@@ -91,6 +91,11 @@ fn moves_to_positions_nobody_knows_are_moves() {
         ("PTP_REL {A6 -0.001}", "relative-joint-move", Severity::Note),
         ("PTP $POS_RET", "run-time-position", Severity::Note),
         ("PTP $NULLFRAME", "computed-target", Severity::Warning),
+        (
+            "DECL FRAME tg\ntg.X=n\nLIN tg",
+            "computed-target",
+            Severity::Warning,
+        ),
         ("LIN nowhere", "target-not-in-files", Severity::Error),
         ("LIN_REL off", "relative-move", Severity::Error),
     ] {
@@ -231,6 +236,31 @@ fn routines_of_interrupts_move_with_what_the_program_has_set() {
     bases.dedup();
     assert_eq!(bases.len(), 2, "{bases:?}");
     assert!(bases.contains(&"BASE_DATA[1]"), "{bases:?}");
+}
+
+#[test]
+fn what_another_program_sets_does_not_reach_an_interrupt() {
+    let other = "DEF OTHER()\nBAS(#TOOL,2)\nBAS(#BASE,0)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
+    for decl in [
+        "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop()",
+        "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop(1)",
+        "TRIGGER WHEN PATH=0 DELAY=0 DO stop() PRIO=-1",
+    ] {
+        let text = format!(
+            "DEF M()\nBAS(#TOOL,1)\nBAS(#BASE,1)\n{decl}\nINTERRUPT ON 5\nLIN XP1\nEND\nDEF \
+             stop(n:IN)\nINT n\nLIN XP3\nEND\n"
+        );
+        let program = read_files(&[("m.src", &text), ("m.dat", DATA), ("o.src", other)]);
+        let moves = program.moves.iter().zip(to(&program));
+        let of_routine = moves.filter(|(_, target)| *target == "XP3");
+        let bases: Vec<_> = of_routine
+            .map(|(m, _)| program.frames[m.frame].name.as_str())
+            .collect();
+        assert!(
+            !bases.is_empty() && bases.iter().all(|base| *base == "BASE_DATA[1]"),
+            "{decl}: {bases:?}"
+        );
+    }
 }
 
 #[test]
