@@ -5,9 +5,8 @@
 mod path;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use poseshift::compensate::{Given, Options, compensate};
-use poseshift::model::profile::Profile;
-use poseshift::program::{LANGUAGES, Settings, Source};
+use path::Prepared;
+use poseshift::compensate::compensate;
 use std::path::Path;
 use std::process::Command;
 
@@ -16,30 +15,19 @@ const TARGETS: u32 = 100_000;
 fn read_and_write(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("read and write");
     group.sample_size(10);
-    for (id, ending) in path::WRITTEN {
-        let language = LANGUAGES.iter().find(|l| l.about().id == *id);
-        let language = *language.expect("a language");
-        let text = path::program(id, TARGETS, 1).into_bytes();
-        let mut sources = vec![Source::new(format!("path.{ending}"), text)];
-        let given = path::given(id, TARGETS);
-        sources.extend(given.map(|(name, text)| Source::new(name, text.into_bytes())));
+    for &(id, ending) in path::WRITTEN {
+        let Prepared {
+            language,
+            sources,
+            profile,
+            settings,
+            options,
+        } = path::prepared((id, ending), TARGETS, 1);
         let bytes: usize = sources.iter().map(|source| source.bytes.len()).sum();
         group.throughput(Throughput::Bytes(bytes as u64));
-        let profile = Profile::from_yaml(&path::profile(id)).expect("a valid profile");
-        let settings = Settings {
-            pulses_per_deg: profile.pulses_per_deg,
-            ..Settings::default()
-        };
-        let mut given = Given::default();
-        let tool = profile.tool("artifact").expect("its tool");
-        given.tools.insert(None, tool);
-        let options = Options {
-            given,
-            ..Options::default()
-        };
         let compensated = compensate(language, &sources, &profile, &options);
         let edits = compensated.expect("compensated").edits;
-        group.bench_function(*id, |b| {
+        group.bench_function(id, |b| {
             b.iter_batched(
                 || edits[0].clone(),
                 |edits| {

@@ -3,9 +3,11 @@
 //! The tool is asked from the command line in all of them (`--tool artifact`), poses are in the
 //! robot's base.
 
+use poseshift::compensate::{Given, Options};
 use poseshift::geometry::Pose;
 use poseshift::model::Conditions;
 use poseshift::model::profile::Profile;
+use poseshift::program::{LANGUAGES, Language, Settings, Source};
 use std::fmt::Write;
 
 /// Every language the path can be written in, and the ending of its files.
@@ -34,6 +36,42 @@ pub fn given(language: &str, count: u32) -> Option<(&'static str, String)> {
         let tail = "end\r\n]]></Code>\r\n  </Program>\r\n</Programs>";
         ("start.pgx", format!("{head}{moves}{tail}"))
     })
+}
+
+/// A path that is read, and what it is compensated with.
+pub struct Prepared {
+    pub language: &'static dyn Language,
+    pub sources: Vec<Source>,
+    pub profile: Profile,
+    pub settings: Settings,
+    pub options: Options,
+}
+
+/// The path of that many points in a language, for its arm and the tool of that.
+pub fn prepared((id, ending): (&str, &str), count: u32, every: u32) -> Prepared {
+    let language = LANGUAGES.iter().find(|of| of.about().id == id);
+    let text = program(id, count, every).into_bytes();
+    let mut sources = vec![Source::new(format!("path.{ending}"), text)];
+    let more = given(id, count);
+    sources.extend(more.map(|(name, text)| Source::new(name, text.into_bytes())));
+    let profile = Profile::from_yaml(&profile(id)).expect("a valid profile");
+    let settings = Settings {
+        pulses_per_deg: profile.pulses_per_deg,
+        ..Settings::default()
+    };
+    let mut given = Given::default();
+    let tool = profile.tool("artifact").expect("its tool");
+    given.tools.insert(None, tool);
+    Prepared {
+        language: *language.expect("a language"),
+        sources,
+        profile,
+        settings,
+        options: Options {
+            given,
+            ..Options::default()
+        },
+    }
 }
 
 /// The text of the arm's profile, for a controller of another language.

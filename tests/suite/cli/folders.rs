@@ -221,7 +221,11 @@ fn logs_of_a_backup_are_passed_over_and_listed() {
         report["summary"]["left_out"]["other"],
         serde_json::json!(other)
     );
-    for (name, word) in [("weld.ls", "weld.ls"), ("sysframe.va", "sysframe.va")] {
+    for (name, word) in [
+        ("weld.ls", "weld.ls"),
+        ("sysframe.va", "sysframe.va"),
+        ("FRAME.DG", "FRAME.DG"),
+    ] {
         let at = path.join("in").join(name);
         std::fs::write(&at, "F Number: F00000\n").expect("scratch");
         let output = run(path, &check);

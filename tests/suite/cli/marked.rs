@@ -1,5 +1,6 @@
 //! A compensated program is known in every language, by each line of its marker alone.
 
+use super::limits::run_in;
 use crate::golden::cases;
 use crate::support::{files_below, poseshift, repository, scratch};
 use std::collections::BTreeSet;
@@ -133,4 +134,49 @@ fn each_line_of_a_marker_alone_is_enough_in_every_language() {
     let all = all.filter(|entry| entry.as_ref().expect("an entry").path().is_dir());
     assert_eq!(languages.len(), all.count(), "{languages:?}");
     assert!(lines_seen > 60, "{lines_seen}");
+}
+
+#[test]
+fn a_marker_without_its_hashes_is_compared_with_nothing() {
+    for (language, program) in [
+        ("urscript", "olp/in/Deburr_bracket.script"),
+        ("kawasaki", "olp/in/TRIM.pg"),
+        ("rapid", "olp/in/Deburr.mod"),
+    ] {
+        let folder = scratch();
+        let name = program.rsplit('/').next().expect("a name");
+        let original = repository(&format!("programs/{language}/{program}"));
+        let profile = match language {
+            "rapid" => repository("robots/abb_irb120_thesis.yaml"),
+            _ => repository(&format!("programs/{language}/profile.yaml")),
+        };
+        let [original, profile] = [&original, &profile].map(|path| path.to_str().expect("plain"));
+        let made = ["compensate", original, "--profile", profile, "-o", name];
+        let (status, said) = run_in(folder.path(), &made);
+        assert_eq!(status, 0, "{language}: {said}");
+        let fake = std::fs::read_to_string(folder.path().join(name)).expect("written");
+        let check = ["check", name, "--nominal", original, "--profile", profile];
+        let whole = run_in(folder.path(), &check);
+        for lost in ["profile ", "source "] {
+            let is_hash = |line: &&str| {
+                let mut words = line.split_once(lost).map_or("", |(_, rest)| rest).chars();
+                words
+                    .by_ref()
+                    .take(64)
+                    .filter(char::is_ascii_hexdigit)
+                    .count()
+                    == 64
+            };
+            let kept: Vec<&str> = fake.lines().filter(|line| !is_hash(line)).collect();
+            assert!(kept.len() < fake.lines().count(), "{language}: {lost}");
+            std::fs::write(folder.path().join(name), kept.join("\n") + "\n").expect("scratch");
+            let (status, said) = run_in(folder.path(), &check);
+            assert!(
+                status == 2 && said.contains("marker") && said.contains("--force"),
+                "{language}, {lost}: {said}"
+            );
+            let (status, _) = run_in(folder.path(), &[&check[..], &["--force"]].concat());
+            assert_eq!(status, whole.0, "{language}, {lost}");
+        }
+    }
 }

@@ -56,23 +56,13 @@ fn loads_that_no_arm_carries_are_refused_wherever_they_stand() {
         changed(THESIS, "  effects:\n", &entry)
     };
     for (program, profile, words) in [
-        (far, text(THESIS), ["`rdkTool`", "60000", "mm"]),
-        (
-            text(DEBURR),
-            heavy("-50"),
-            ["`rdkTool`", "48.6", "kg"].map(|w| match w {
-                "48.6" => "4.86e1",
-                other => other,
-            }),
-        ),
+        (far, text(THESIS), ["`rdkTool`", "6e4 mm"]),
+        (text(DEBURR), heavy("-50"), ["`rdkTool`", "4.86e1 kg"]),
     ] {
         let (status, said, written) = compensated("a.mod", &program, &profile, &[]);
         assert!(status == 2 && written.is_none(), "{said}");
         for word in words {
-            assert!(
-                said.contains(word) || word == "60000" && said.contains("6e4"),
-                "{word}: {said}"
-            );
+            assert!(said.contains(word), "{word}: {said}");
         }
         let folder = scratch();
         std::fs::write(folder.path().join("a.mod"), &program).expect("scratch");
@@ -125,51 +115,6 @@ fn joints_that_an_inverse_starts_from_are_those_of_the_arm() {
             said.contains("joint 1 near which"),
             "{value}: {said}"
         );
-    }
-}
-
-#[test]
-fn a_marker_without_its_hashes_is_compared_with_nothing() {
-    for (language, program) in [
-        ("urscript", "olp/in/Deburr_bracket.script"),
-        ("kawasaki", "olp/in/TRIM.pg"),
-        ("rapid", "olp/in/Deburr.mod"),
-    ] {
-        let folder = scratch();
-        let name = program.rsplit('/').next().expect("a name");
-        let original = repository(&format!("programs/{language}/{program}"));
-        let profile = match language {
-            "rapid" => repository(THESIS),
-            _ => repository(&format!("programs/{language}/profile.yaml")),
-        };
-        let [original, profile] = [&original, &profile].map(|path| path.to_str().expect("plain"));
-        let made = ["compensate", original, "--profile", profile, "-o", name];
-        let (status, said) = run_in(folder.path(), &made);
-        assert_eq!(status, 0, "{language}: {said}");
-        let fake = std::fs::read_to_string(folder.path().join(name)).expect("written");
-        let check = ["check", name, "--nominal", original, "--profile", profile];
-        let whole = run_in(folder.path(), &check);
-        for lost in ["profile ", "source "] {
-            let is_hash = |line: &&str| {
-                let mut words = line.split_once(lost).map_or("", |(_, rest)| rest).chars();
-                words
-                    .by_ref()
-                    .take(64)
-                    .filter(char::is_ascii_hexdigit)
-                    .count()
-                    == 64
-            };
-            let kept: Vec<&str> = fake.lines().filter(|line| !is_hash(line)).collect();
-            assert!(kept.len() < fake.lines().count(), "{language}: {lost}");
-            std::fs::write(folder.path().join(name), kept.join("\n") + "\n").expect("scratch");
-            let (status, said) = run_in(folder.path(), &check);
-            assert!(
-                status == 2 && said.contains("marker") && said.contains("--force"),
-                "{language}, {lost}: {said}"
-            );
-            let (status, _) = run_in(folder.path(), &[&check[..], &["--force"]].concat());
-            assert_eq!(status, whole.0, "{language}, {lost}");
-        }
     }
 }
 

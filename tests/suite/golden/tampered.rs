@@ -1,34 +1,21 @@
 //! What is written is read again, number by number: a digit that is not the one that was meant
 //! stops it.
 
-use crate::path;
-use poseshift::compensate::{Given, Options, compensate};
-use poseshift::model::profile::Profile;
-use poseshift::program::{LANGUAGES, Settings, Source};
+use crate::path::{self, Prepared};
+use poseshift::compensate::compensate;
 
 const POINTS: u32 = 12;
 
 #[test]
 fn every_digit_of_a_target_that_is_not_what_was_meant_is_found() {
-    for (id, ending) in path::WRITTEN {
-        let language = LANGUAGES.iter().find(|language| language.about().id == *id);
-        let language = *language.expect("a language");
-        let text = path::program(id, POINTS, 130).into_bytes();
-        let mut sources = vec![Source::new(format!("path.{ending}"), text)];
-        let given = path::given(id, POINTS);
-        sources.extend(given.map(|(name, text)| Source::new(name, text.into_bytes())));
-        let profile = Profile::from_yaml(&path::profile(id)).expect("a valid profile");
-        let settings = Settings {
-            pulses_per_deg: profile.pulses_per_deg,
-            ..Settings::default()
-        };
-        let mut given = Given::default();
-        let tool = profile.tool("artifact").expect("its tool");
-        given.tools.insert(None, tool);
-        let options = Options {
-            given,
-            ..Options::default()
-        };
+    for &(id, ending) in path::WRITTEN {
+        let Prepared {
+            language,
+            sources,
+            profile,
+            settings,
+            options,
+        } = path::prepared((id, ending), POINTS, 130);
         let draft = || {
             let made = compensate(language, &sources, &profile, &options).expect("compensated");
             made.draft(language, &sources, &"0".repeat(64), false)

@@ -45,9 +45,8 @@ pub(super) fn read_elsewhere(
 /// Where routines that these start, through calls, write variables; of each the first place.
 pub(super) fn written_by(script: &Script, entries: &[RoutineId]) -> HashMap<VariableId, u32> {
     let mut written = HashMap::new();
-    let from = starts(script, entries).into_iter();
-    for (routine, _) in (script.routines.iter().zip(from)).filter(|(_, from)| *from != From::Nobody)
-    {
+    for routine in script.reached_from(entries) {
+        let routine = &script.routines[routine as usize];
         for at in routine.statements.clone() {
             if let Statement::Write(write) = script.statements[at as usize]
                 && let Written::One(variable) = script.writes[write as usize].variable

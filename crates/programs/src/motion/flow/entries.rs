@@ -75,43 +75,36 @@ impl Flow<'_> {
             return Rc::clone(known);
         }
         let script = self.script;
-        let mut callers: Vec<Vec<RoutineId>> = vec![Vec::new(); script.routines.len()];
-        let mut callees = callers.clone();
-        let mut open = Vec::new();
-        for (caller, of) in (0..).zip(&script.routines) {
-            for statement in
-                &script.statements[of.statements.start as usize..of.statements.end as usize]
-            {
+        let mut is_called = vec![false; script.routines.len()];
+        let mut starters = Vec::new();
+        for (at, of) in (0..).zip(&script.routines) {
+            let own = of.statements.start as usize..of.statements.end as usize;
+            for statement in &script.statements[own] {
                 let (Statement::Call(call) | Statement::Start(call)) = *statement else {
                     continue;
                 };
-                let called = &script.calls[call as usize].callees;
-                if matches!(statement, Statement::Start(_)) && called.contains(&routine) {
-                    open.push(caller);
+                let callees = &script.calls[call as usize].callees;
+                if matches!(statement, Statement::Start(_)) && callees.contains(&routine) {
+                    starters.push(at);
                 }
-                for &callee in &**called {
-                    callers[callee as usize].push(caller);
-                    callees[caller as usize].push(callee);
+                for &callee in &**callees {
+                    is_called[callee as usize] |= callee != at;
                 }
             }
         }
-        let reach = |mut open: Vec<RoutineId>, next: &[Vec<RoutineId>]| {
-            let mut reached: HashSet<RoutineId> = open.iter().copied().collect();
-            while let Some(one) = open.pop() {
-                let new = next[one as usize].iter().filter(|of| reached.insert(**of));
-                open.extend(new);
+        let mut with = HashSet::default();
+        for (at, of) in (0..).zip(&script.routines) {
+            if of.start == Start::Main || !is_called[at as usize] {
+                let reached = script.reached_from(&[at]);
+                if starters.iter().any(|starter| reached.contains(starter)) {
+                    with.extend(reached);
+                }
             }
-            reached
-        };
-        let above = reach(open, &callers);
-        let is_first = |of: &RoutineId| {
-            callers[*of as usize].is_empty() || script.routines[*of as usize].start == Start::Main
-        };
-        let mut first: Vec<RoutineId> = above.iter().copied().filter(is_first).collect();
-        if first.is_empty() {
-            first.extend(above);
         }
-        let with = Rc::new(reach(first, &callees));
+        if with.is_empty() {
+            with.extend(0..short(script.routines.len()));
+        }
+        let with = Rc::new(with);
         self.started_with.insert(routine, Rc::clone(&with));
         with
     }

@@ -316,19 +316,20 @@ impl<'a> Flow<'a> {
         let first = script.routines[of.routine as usize].instructions.start;
         let stop = of.first_stop + (at - first);
         let target = match instruction.target {
-            Expr::Value(value)
-                if let Held::ActualWith { tool, frame } = script.values[value as usize] =>
-            {
-                let modal = &script.modals[instruction.modal as usize];
-                // read where it is gone to
-                Some(if (modal.tool, modal.frame) == (tool, frame) {
-                    let here = self.here();
-                    self.holdings.one(Atom::Value(here), site)
-                } else {
-                    self.evaluate(state, instruction.target, site)
-                })
-            }
-            Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => None,
+            Expr::Value(value) => match script.values[value as usize] {
+                Held::ActualWith { tool, frame } => {
+                    let modal = &script.modals[instruction.modal as usize];
+                    // read where it is gone to
+                    Some(if (modal.tool, modal.frame) == (tool, frame) {
+                        let here = self.here();
+                        self.holdings.one(Atom::Value(here), site)
+                    } else {
+                        self.evaluate(state, instruction.target, site)
+                    })
+                }
+                _ => None,
+            },
+            Expr::Absent | Expr::Target(_) | Expr::Unknown(_) => None,
             other if self.is_choice(other) => {
                 if !self.is_fixed(other) {
                     self.chosen.insert(stop, Rc::clone(&state.holds));

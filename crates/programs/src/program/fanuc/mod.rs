@@ -104,10 +104,10 @@ const BEYOND_DEG: f64 = 0.0005;
 /// Numbers of a pose without configuration data.
 const PLAIN: usize = 6;
 
-/// Logs of a backup, which end as programs do. Seen in nine backups of R-30iA and R-30iB controllers.
-const RECORDS: [&str; 16] = [
+/// Logs of a backup, which end as programs do: those of nine backups in public repositories.
+const RECORDS: [&str; 14] = [
     "erract", "errall", "errapp", "errcomm", "errcurr", "errext", "errhist", "errmot", "errpwd",
-    "errsys", "hist", "histe", "histp", "logbook", "updtlog", "vtrndiag",
+    "errsys", "hist", "logbook", "updtlog", "vtrndiag",
 ];
 
 impl Language for Fanuc {
@@ -148,7 +148,8 @@ impl Language for Fanuc {
         let lower = file.to_ascii_lowercase();
         match lower.rsplit_once('.') {
             Some((stem, "ls")) => RECORDS.contains(&stem),
-            Some((stem, "va" | "dg")) => !stem.starts_with("sysframe"),
+            // all but those with the tools and frames
+            Some((stem, "va" | "dg")) => !stem.starts_with("sysframe") && stem != "frame",
             _ => false,
         }
     }

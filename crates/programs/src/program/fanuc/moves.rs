@@ -435,7 +435,9 @@ fn end_of_arc(text: &[u8], behind: usize) -> Option<(Named, Range<usize>)> {
         let gap = text[from..].iter();
         let gap = gap.take_while(|b| b.is_ascii_whitespace() || **b == b':');
         let at = from + gap.count();
-        if let Some((end, length)) = position(&text[at..]) {
+        // behind a comma the register of an offset stands
+        let is_register = text[behind..from].trim_ascii_end().ends_with(b",");
+        if let Some((end, length)) = position(&text[at..]).filter(|_| !is_register) {
             return Some((end, at..at + length));
         }
         from = at + memchr::memchr2(b'\n', b'\r', &text[at..])?;

@@ -13,9 +13,7 @@ use crate::geometry::units::{DEG, MM};
 use crate::program::displacing::Displacing;
 use crate::program::notation::pose_of_angles;
 use crate::program::quantity::Quantity;
-use crate::program::script::{
-    DISPLACED_SOMEHOW, Expr, RoutineId, Statement, UNBOUNDED, VariableId,
-};
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, RoutineId, UNBOUNDED, VariableId};
 use crate::program::{Displacement, Shape, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::ops::Range;
@@ -299,6 +297,11 @@ impl Reader<'_> {
         for number in self.known.finish() {
             self.builder.script.loops[number].most = None;
         }
+        for condition in &self.conditions {
+            let routine = condition.routine;
+            let reached = || self.builder.script.reached_from(&[routine]);
+            self.conditioned.entry(routine).or_insert_with(reached);
+        }
         for offset in std::mem::take(&mut self.offsets) {
             let by = self.of_offset(&offset, &copied);
             let in_joints = match by {
@@ -365,17 +368,13 @@ impl Reader<'_> {
             Which::Condition => {
                 let is_one = |of: &&Condition| of.axes == amount.axes;
                 let all: Vec<_> = self.conditions.iter().filter(is_one).collect();
-                let is_own = |of: &&&Condition| of.routine == offset.routine;
                 // whether the condition of a program that was called stays is not known: both count
-                let all = if all.iter().any(|of| is_own(&of)) {
-                    let called = self.called_by(offset.routine, &all);
-                    let of_called = |of: &&&Condition| called.contains(&of.routine);
-                    all.iter()
-                        .filter(|of| is_own(of) || of_called(of))
-                        .copied()
-                        .collect()
-                } else {
-                    all
+                let all = match self.conditioned.get(&offset.routine) {
+                    Some(reached) if all.iter().any(|of| of.routine == offset.routine) => {
+                        let of_reached = all.iter().filter(|of| reached.contains(&of.routine));
+                        of_reached.copied().collect()
+                    }
+                    _ => all,
                 };
                 let mut is_followed = true;
                 let mut values: Vec<Vec<Quantity>> = Vec::new();
@@ -398,27 +397,6 @@ impl Reader<'_> {
                 (any.collect(), is_followed)
             }
         }
-    }
-
-    /// The programs that one calls, and those that these call; none where no condition is set
-    /// elsewhere.
-    fn called_by(&self, routine: RoutineId, conditions: &[&Condition]) -> HashSet<RoutineId> {
-        let script = &self.builder.script;
-        let mut called = HashSet::default();
-        let mut open = vec![routine];
-        if conditions.iter().all(|of| of.routine == routine) {
-            open.clear();
-        }
-        while let Some(next) = open.pop() {
-            let of = &script.routines[next as usize].statements;
-            for statement in &script.statements[of.start as usize..of.end as usize] {
-                if let Statement::Call(call) = *statement {
-                    let callees = script.calls[call as usize].callees.iter();
-                    open.extend(callees.filter(|callee| called.insert(**callee)));
-                }
-            }
-        }
-        called
     }
 
     /// The numbers of a register anywhere, and which it is.

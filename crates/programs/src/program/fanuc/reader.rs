@@ -103,6 +103,8 @@ pub(super) struct Reader<'a> {
     /// What depends on these.
     pub offsets: Vec<Offset>,
     pub conditions: Vec<Condition>,
+    /// Of the programs with such a condition those that they come to, through calls.
+    pub conditioned: HashMap<RoutineId, HashSet<RoutineId>>,
     pub sums: Vec<Sum>,
     pub parts: Vec<Part>,
     /// Loads that programs select; `None` where a register says which.
@@ -238,6 +240,7 @@ fn of_controller(
         copied: Copied::default(),
         offsets: Vec::new(),
         conditions: Vec::new(),
+        conditioned: HashMap::new(),
         sums: Vec::new(),
         parts: Vec::new(),
         payloads: BTreeSet::new(),
@@ -267,17 +270,8 @@ fn is_quiet(lines: &[u8]) -> bool {
         "MESSAGE[", "UALM[", "J ", "L ", "P[", "!",
     ];
     let has = |text: &[u8]| memchr::memmem::find(lines, text).is_some();
-    // another program, or any register but RO[
-    let changes = [
-        &b"CALL"[..],
-        b"RUN",
-        b"PR[",
-        b" R[",
-        b"=R[",
-        b"AR[",
-        b"SR[",
-        b"(R[",
-    ];
+    // another program, or a register of any kind
+    let changes = [&b"CALL"[..], b"RUN", b"R["];
     let is_known = |line: &[u8]| {
         let text = match memchr::memchr(b':', line) {
             Some(at) if line[..at].trim_ascii().iter().all(u8::is_ascii_digit) => &line[at + 1..],

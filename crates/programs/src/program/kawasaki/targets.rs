@@ -403,6 +403,17 @@ impl<'a> Reader<'a> {
         if part.is_empty() || part.is_word(0, b"NULL") && part.len() == 1 {
             return self.frame_value("NULL", Some(Pose::identity()));
         }
+        if let Some(angle) = endless_angle(part) {
+            let hint = "O, A and T are in degrees: write them between -360 and 360";
+            let name = Source::text(part.whole());
+            return self.unknown(angle_too_large(
+                "angle-too-large",
+                &name,
+                angle,
+                MOST_ANGLE,
+                hint,
+            ));
+        }
         match Name::of(part) {
             Some((name, words)) if words == part.len() && name.key.is_some() => {
                 if self.is_known(&name) || self.assigned.contains(&name.stem) {
@@ -410,17 +421,6 @@ impl<'a> Reader<'a> {
                 } else {
                     self.frame_value(&name.text(), None)
                 }
-            }
-            _ if let Some(angle) = endless_angle(part) => {
-                let hint = "O, A and T are in degrees: write them between -360 and 360";
-                let name = Source::text(part.whole());
-                self.unknown(angle_too_large(
-                    "angle-too-large",
-                    &name,
-                    angle,
-                    MOST_ANGLE,
-                    hint,
-                ))
             }
             _ => match self.steps(part).exact() {
                 Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),

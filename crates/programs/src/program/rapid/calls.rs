@@ -24,9 +24,10 @@ const UNKNOWN_MOVE: Verb = Verb::Move {
 /// ABB, Application manual - Arc and Arc Sensor: `SmarTac` and multi-pass welding.
 fn only_reads_tools(routine: &str) -> bool {
     let lower = routine.to_ascii_lowercase();
-    ["search_", "arcrep"]
-        .iter()
-        .any(|first| lower.starts_with(first))
+    matches!(
+        &*lower,
+        "search_1d" | "search_part" | "search_groove" | "arcrepl"
+    )
 }
 
 impl Translator<'_> {

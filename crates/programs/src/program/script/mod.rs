@@ -9,6 +9,7 @@
 mod adding;
 mod builder;
 mod order;
+mod reach;
 mod statement;
 
 pub use builder::Builder;

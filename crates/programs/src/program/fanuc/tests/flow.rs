@@ -457,6 +457,7 @@ fn options_behind_the_middle_of_an_arc_do_not_hide_its_end() {
         (" Tool_Offset,PR[5]", " Offset,PR[6]", [true, true]),
         ("", " Offset,PR[5]", [true, true]),
         (" ACC50", "", [false, false]),
+        (" Offset,\n    :  PR[5]", "", [true, false]),
     ] {
         let program = arc(middle, end);
         let found: Vec<_> = program

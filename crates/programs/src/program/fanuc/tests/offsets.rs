@@ -172,6 +172,7 @@ fn a_program_that_is_called_may_pass_by_its_writes_or_set_another_condition() {
         "R[1]=5 ;",
         "CALL MORE ;",
         "IF R[1]=5,PR[7,3]=1 ;",
+        "IF DI[1]=ON,R[9]=1 ;",
     ] {
         let other = format!("{quiet}\n{other}");
         assert_ne!(by(&main("PR[7,3]=300 ;"), &other), up(0.1), "{other}");

@@ -218,6 +218,9 @@ fn what_nothing_can_write_stays_what_it_is() {
             "{call}: {found:?}"
         );
     }
+    // one that is only called alike may
+    let program = path("Search_tool t;\nMoveL p1,v5,z5,t;");
+    assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
 }
 
 #[test]
