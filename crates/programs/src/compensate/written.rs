@@ -78,8 +78,7 @@ impl Compensation {
             let mut edits = std::mem::take(&mut self.edits[file]);
             if !is_written[file] {
                 edits = Edits::default();
-            }
-            if self.compensated[file] && is_written[file] {
+            } else if self.compensated[file] {
                 let marker = Marker {
                     version: env!("CARGO_PKG_VERSION").into(),
                     profile_sha256: profile_sha256.into(),
@@ -87,11 +86,10 @@ impl Compensation {
                     decided: self.decided.clone(),
                 };
                 let (at, text) = language.mark(source, &marker);
-                edits.replace(at..at, |out| out.extend_from_slice(&text));
+                edits.insert(at, &text);
             }
             all_edits.push(edits);
         }
-        let numbers = numbers_by_file(&self.program.targets, &self.program.numbers, sources.len());
         let new_bytes = || -> Vec<Source> {
             let all = sources.iter().zip(&all_edits);
             let written = all.map(|(source, edits)| {
@@ -105,6 +103,8 @@ impl Compensation {
             written.collect()
         };
         let new_numbers = || -> Vec<Meant> {
+            let program = &self.program;
+            let numbers = numbers_by_file(&program.targets, &program.numbers, sources.len());
             let all = numbers.into_iter().zip(&all_edits);
             all.map(|(own, edits)| Meant::of(&self, own, edits))
                 .collect()
@@ -335,21 +335,29 @@ pub(super) fn without_configuration(
 
 /// The numbers of each file's targets in the order of the file, each place once.
 fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<Vec<u32>> {
-    let mut all = vec![Vec::new(); files];
     let start = |index: &u32| numbers[*index as usize].start;
+    let mut room = vec![0; files];
     for target in targets {
-        let of_file: &mut Vec<u32> = &mut all[target.file as usize];
-        let first = of_file.len();
-        of_file.extend(target.numbers.clone());
-        // configuration data may stand before what comes first in a pose
-        if !of_file[first..].is_sorted_by_key(start) {
-            of_file[first..].sort_by_key(start);
-        }
+        room[target.file as usize] += target.numbers.len();
     }
-    for found in &mut all {
-        if !found.is_sorted_by_key(start) {
-            found.sort_by_key(start);
+    let mut all: Vec<Vec<u32>> = room.into_iter().map(Vec::with_capacity).collect();
+    // mostly they come in the order of the file
+    let mut last = vec![None; files];
+    let mut in_order = vec![true; files];
+    for target in targets {
+        let file = target.file as usize;
+        for index in target.numbers.clone() {
+            let next = Some(start(&index));
+            in_order[file] &= last[file] < next;
+            last[file] = next;
         }
+        all[file].extend(target.numbers.clone());
+    }
+    for (found, in_order) in all.iter_mut().zip(in_order) {
+        if in_order {
+            continue;
+        }
+        found.sort_by_key(start);
         // numbers that the text leaves out may belong to one place
         let is_there = |index: &u32| numbers[*index as usize].length > 0;
         found.dedup_by(|a, b| start(a) == start(b) && is_there(a) && is_there(b));

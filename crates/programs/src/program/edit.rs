@@ -78,6 +78,23 @@ impl Edits {
         self.spans.extend(other.spans.iter().map(moved));
     }
 
+    /// Inserts a text: before all replacements where it comes first, so that they stay in the order
+    /// of the file.
+    ///
+    /// # Panics
+    /// If the file or all new text together has 4 GiB or more.
+    pub fn insert(&mut self, at: usize, text: &[u8]) {
+        let write = |out: &mut Vec<u8>| out.extend_from_slice(text);
+        let first = self.spans.first().map_or(at, |first| first.start as usize);
+        if at >= first {
+            return self.replace(at..at, write);
+        }
+        let mut all = Self::with_room(1 + self.spans.len(), text.len() + self.text.len());
+        all.replace(at..at, write);
+        all.append(self);
+        *self = all;
+    }
+
     /// Whether nothing is replaced.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -24,6 +24,39 @@ pub(super) struct Symbols {
     known: HashTable<Known>,
     spellings: Spellings,
     hasher: RandomState,
+    recent: Recent,
+}
+
+/// Short names as they were spelled last, each at one place by its letters.
+#[derive(Debug)]
+struct Recent(Box<[(u128, u32); RECENT]>);
+
+/// Names that are kept.
+const RECENT: usize = 256;
+
+impl Default for Recent {
+    fn default() -> Self {
+        Self(Box::new([(0, 0); RECENT]))
+    }
+}
+
+impl Recent {
+    /// A number for a name of up to 15 bytes, different for all and never 0.
+    fn packed(name: &[u8]) -> Option<u128> {
+        let mut packed = [0; 16];
+        packed.get_mut(..name.len())?.copy_from_slice(name);
+        packed[15] = u8::try_from(name.len())
+            .ok()
+            .filter(|length| (1..16).contains(length))?;
+        Some(u128::from_le_bytes(packed))
+    }
+
+    /// The place of such a number.
+    #[allow(clippy::cast_possible_truncation, reason = "halves of a number")]
+    fn place(packed: u128) -> usize {
+        let halves = packed as u64 ^ (packed >> 64) as u64;
+        (halves.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 56) as usize
+    }
 }
 
 /// A name in the table: the text is looked at where the hash agrees, and not where the table grows.
@@ -73,6 +106,20 @@ fn hash_of(hasher: &RandomState, name: &str) -> u32 {
 impl Symbols {
     /// The symbol of a name.
     pub(super) fn intern(&mut self, name: &[u8]) -> Symbol {
+        let Some(packed) = Recent::packed(name) else {
+            return self.look_up(name);
+        };
+        let place = Recent::place(packed);
+        let (known, id) = self.recent.0[place];
+        if known == packed {
+            return Symbol(id);
+        }
+        let symbol = self.look_up(name);
+        self.recent.0[place] = (packed, symbol.0);
+        symbol
+    }
+
+    fn look_up(&mut self, name: &[u8]) -> Symbol {
         let name = Source::text(name);
         let hash = hash_of(&self.hasher, &name);
         let Self {
@@ -93,6 +140,11 @@ impl Symbols {
                 Symbol(id)
             }
         }
+    }
+
+    /// How many names there are.
+    pub(super) fn count(&self) -> usize {
+        self.spellings.ends.len()
     }
 
     /// The symbol of a name that was read.

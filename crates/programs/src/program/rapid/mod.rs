@@ -13,6 +13,7 @@
 //! are not followed.
 
 mod aggregate;
+mod ahead;
 mod arguments;
 mod blocks;
 mod builtins;

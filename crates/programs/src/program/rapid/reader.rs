@@ -4,6 +4,7 @@
 //! semicolons, and a short IF has its statement behind its condition. Nothing here recurses on the
 //! text's brackets.
 
+use super::ahead;
 use super::blocks::is_block_word;
 use super::expressions::OpenCall;
 use super::syntax::{
@@ -15,6 +16,7 @@ use super::verbs::{self, Verbs};
 use crate::program::Source;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{Place, short};
+use std::ops::Range;
 
 /// A place to go back to.
 #[derive(Clone, Copy)]
@@ -56,7 +58,7 @@ pub(super) struct Reader<'a> {
     /// Short IFs whose statement has not come yet.
     pub(super) short_ifs: u32,
     /// Anything of the language was seen.
-    recognised: bool,
+    pub(super) recognised: bool,
 }
 
 /// Longest keyword.
@@ -80,19 +82,78 @@ impl<'a> Reader<'a> {
         parsed: &'a mut Parsed,
         verbs: &'a mut Verbs,
     ) -> Result<bool, Fault> {
-        let bytes = &source.bytes;
-        let start = content_start(bytes)?;
-        parsed.reserve(bytes.len());
-        let scanner = Scanner::new(bytes, start);
+        // what calls mean does not depend on what stands elsewhere as long as nothing is hidden
+        let parts = if verbs.hides_nothing() {
+            ahead::parts(&source.bytes)
+        } else {
+            Vec::new()
+        };
+        Self::read_with(source, file, &parts, parsed, verbs)
+    }
+
+    /// Reads a file, and these parts of it ahead.
+    pub(super) fn read_with(
+        source: &'a Source,
+        file: u32,
+        parts: &[Range<usize>],
+        parsed: &'a mut Parsed,
+        verbs: &'a mut Verbs,
+    ) -> Result<bool, Fault> {
+        let start = content_start(&source.bytes)?;
+        parsed.reserve(source.bytes.len());
+        let context = outside(parsed, None);
         let mut reader = Self {
-            bytes,
-            scanner,
+            context,
+            ..Self::at(source, file, start, parsed, verbs)
+        };
+        reader.text_begins(0);
+        reader.advance()?;
+        if let Some(first) = parts.first() {
+            let own = || reader.statements(first.start);
+            let (done, parts) = rayon::join(own, || ahead::read(source, file, parts));
+            done?;
+            for part in parts.iter().flatten() {
+                reader.statements(part.first as usize)?;
+                if reader.token.start == part.first
+                    && reader.short_ifs == 0
+                    && reader.routine.is_some()
+                {
+                    reader.take(part);
+                    reader.jump(part.end)?;
+                }
+            }
+        }
+        reader.statements(usize::MAX)?;
+        let open = reader
+            .routine
+            .map(|at| (at, "routine"))
+            .or_else(|| reader.module.map(|at| (at, "module")));
+        match open {
+            None => Ok(reader.recognised),
+            Some((at, what)) => Err(Fault::unclosed(at as usize, what)),
+        }
+    }
+
+    /// Starts at a byte of a file.
+    pub(super) fn at(
+        source: &'a Source,
+        file: u32,
+        start: usize,
+        parsed: &'a mut Parsed,
+        verbs: &'a mut Verbs,
+    ) -> Self {
+        Self {
+            bytes: &source.bytes,
+            scanner: Scanner::new(&source.bytes, start),
             token: Token {
                 kind: Kind::End,
                 start: 0,
                 end: 0,
             },
-            context: outside(parsed, None),
+            context: Context {
+                module: 0,
+                routine: None,
+            },
             behind: 0,
             parsed,
             verbs,
@@ -106,11 +167,7 @@ impl<'a> Reader<'a> {
             loops: Vec::new(),
             short_ifs: 0,
             recognised: false,
-        };
-        reader.text_begins(0);
-        reader.advance()?;
-        reader.statements()?;
-        Ok(reader.recognised)
+        }
     }
 
     pub(super) fn advance(&mut self) -> Result<(), Fault> {
@@ -159,11 +216,11 @@ impl<'a> Reader<'a> {
         Ok(name)
     }
 
-    fn statements(&mut self) -> Result<(), Fault> {
-        loop {
+    /// Reads statements, to the first that begins at a byte or behind it.
+    fn statements(&mut self, until: usize) -> Result<(), Fault> {
+        while self.token.kind != Kind::End && (self.token.start as usize) < until {
             let guarded = self.short_ifs;
             match self.token.kind {
-                Kind::End => break,
                 Kind::Name => self.statement()?,
                 Kind::Sign(b'%') => self.late_bound_call()?,
                 Kind::Sign(b'<') => self.placeholder()?,
@@ -182,11 +239,32 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        let open = self
-            .routine
-            .map(|at| (at, "routine"))
-            .or_else(|| self.module.map(|at| (at, "module")));
-        open.map_or(Ok(()), |(at, what)| Err(Fault::unclosed(at as usize, what)))
+        Ok(())
+    }
+
+    /// Whether a statement that begins with this word is no call, label or assignment: see
+    /// [`Self::statement`].
+    pub(super) fn is_keyword(word: &[u8]) -> bool {
+        let others: [&[u8]; 17] = [
+            b"module",
+            b"endmodule",
+            b"local",
+            b"const",
+            b"pers",
+            b"var",
+            b"task",
+            b"proc",
+            b"func",
+            b"trap",
+            b"endproc",
+            b"endfunc",
+            b"endtrap",
+            b"record",
+            b"endrecord",
+            b"connect",
+            b"alias",
+        ];
+        others.contains(&word) || is_block_word(word)
     }
 
     fn statement(&mut self) -> Result<(), Fault> {
@@ -400,7 +478,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn assignment_or_call(&mut self) -> Result<(), Fault> {
+    pub(super) fn assignment_or_call(&mut self) -> Result<(), Fault> {
         let first = self.token;
         let name = self.parsed.symbols.intern(self.text(first));
         self.advance()?;

@@ -134,6 +134,56 @@ impl Parsed {
         found.map(|(&(_, place), &number)| (place, number))
     }
 
+    /// Whether there is nothing but calls with plain arguments: see [`super::ahead`].
+    pub(super) fn has_calls_alone(&self) -> bool {
+        let Self {
+            symbols: _,
+            targets: _,
+            numbers: _,
+            mentions: _,
+            arguments: _,
+            statements: _,
+            external: _,
+            external_zeros: _,
+            modules,
+            routines,
+            data,
+            elements,
+            leaves,
+            composed,
+            initial,
+            steps,
+            indices,
+            if_given,
+            asked,
+            places,
+            functions,
+            given,
+            loops,
+            values,
+            results,
+            bad_values,
+        } = self;
+        modules.is_empty()
+            && routines.is_empty()
+            && data.is_empty()
+            && elements.is_empty()
+            && leaves.is_empty()
+            && composed.is_empty()
+            && initial.is_empty()
+            && steps.is_empty()
+            && indices.is_empty()
+            && if_given.is_empty()
+            && asked.is_empty()
+            && places.is_empty()
+            && functions.is_empty()
+            && given.is_empty()
+            && loops.is_empty()
+            && values.is_empty()
+            && results.is_empty()
+            && bad_values.is_empty()
+    }
+
     /// How long the lists are.
     pub(super) fn lengths(&self) -> Lengths {
         Lengths([

@@ -61,6 +61,23 @@ impl Verbs {
         known
     }
 
+    /// Whether an instruction or procedure of this name was met.
+    pub(super) fn has_met(&self, name: Symbol) -> bool {
+        self.instructions
+            .get(name.0 as usize)
+            .is_some_and(Option::is_some)
+    }
+
+    /// Whether a function was met.
+    pub(super) fn has_functions(&self) -> bool {
+        !self.functions.is_empty() || !self.displacing.is_empty()
+    }
+
+    /// Whether no routine hides an instruction or a function.
+    pub(super) fn hides_nothing(&self) -> bool {
+        self.hidden.is_empty()
+    }
+
     /// What a function of this name does in a module.
     pub(super) fn function(&mut self, name: Symbol, spelling: &[u8], module: u32) -> Known {
         slot(&mut self.functions, name).get_or_insert_with(|| {
