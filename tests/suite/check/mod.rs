@@ -7,6 +7,7 @@ mod laws;
 mod meshes;
 mod mutated;
 mod rooms;
+mod several;
 mod urdf;
 
 use poseshift::check::cell::Cell;

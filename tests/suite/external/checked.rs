@@ -20,7 +20,7 @@ const TRACK: &str = "external_axes:\n  track:\n    - {axis: eax_a, direction: [0
 const SAMPLES: u32 = 400;
 
 /// The rail as the controller has it, and as it is: it does not lean.
-fn rails() -> [Rail; 2] {
+pub(super) fn rails() -> [Rail; 2] {
     let rad = f64::to_radians;
     let plain = Rail {
         direction: [0.6, 0.8, 0.0],
@@ -50,7 +50,7 @@ const EFFECTS: [&str; 4] = [
 ];
 
 /// The profile, and what the reference makes of it with a tool.
-fn robot(mounted: &Mounted) -> (String, Robot, Vec<Fault>) {
+pub(super) fn robot(mounted: &Mounted) -> (String, Robot, Vec<Fault>) {
     let (arm_effects, faults) = arm();
     let effects: Vec<&str> = arm_effects
         .iter()
@@ -64,7 +64,7 @@ fn robot(mounted: &Mounted) -> (String, Robot, Vec<Fault>) {
 }
 
 /// The same robot with its base where the rail carries it.
-fn at(robot: &Robot, rail: &Rail, e: f64) -> Robot {
+pub(super) fn at(robot: &Robot, rail: &Rail, e: f64) -> Robot {
     Robot {
         base: carried(rail, &robot.base, e, 1.0),
         ..robot.clone()
@@ -75,7 +75,7 @@ fn degrees(q: &[f64; 6]) -> String {
     q.map(|q| format!("{:.9}", q.to_degrees())).join(",")
 }
 
-fn list(numbers: &[f64]) -> String {
+pub(super) fn list(numbers: &[f64]) -> String {
     let each: Vec<String> = numbers.iter().map(|x| format!("{x:.9}")).collect();
     each.join(",")
 }
@@ -91,7 +91,7 @@ pub(super) fn tooldata() -> String {
     )
 }
 
-fn joint_move(q: &[f64; 6], e: f64) -> String {
+pub(super) fn joint_move(q: &[f64; 6], e: f64) -> String {
     format!(
         "MoveAbsJ [[{}],[{},9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n",
         degrees(q),
@@ -100,7 +100,12 @@ fn joint_move(q: &[f64; 6], e: f64) -> String {
 }
 
 /// Status and report of `check`.
-fn check(folder: &Path, profile: &str, body: &str, cell: Option<&str>) -> (Option<i32>, Value) {
+pub(super) fn check(
+    folder: &Path,
+    profile: &str,
+    body: &str,
+    cell: Option<&str>,
+) -> (Option<i32>, Value) {
     let program = put(folder, "t.mod", &rapid(&tooldata(), body));
     let profile = put(folder, "p.yaml", profile);
     let mut command = poseshift();
@@ -118,20 +123,20 @@ fn check(folder: &Path, profile: &str, body: &str, cell: Option<&str>) -> (Optio
     (done.status.code(), report)
 }
 
-fn place(m: &M4) -> V3 {
+pub(super) fn place(m: &M4) -> V3 {
     [m[0][3], m[1][3], m[2][3]]
 }
 
-fn far(a: V3, b: V3) -> f64 {
+pub(super) fn far(a: V3, b: V3) -> f64 {
     let by = sub(a, b);
     dot(by, by).sqrt()
 }
 
-const FIRST: [f64; 6] = [0.4, 0.3, -0.2, 0.5, 1.0, -0.4];
+pub(super) const FIRST: [f64; 6] = [0.4, 0.3, -0.2, 0.5, 1.0, -0.4];
 const ENDS: [f64; 2] = [0.4, 1.4];
 
 /// Numbers of a report.
-fn number(of: &Value, key: &str) -> f64 {
+pub(super) fn number(of: &Value, key: &str) -> f64 {
     of[key]
         .as_f64()
         .unwrap_or_else(|| panic!("{key} of {of:#}"))

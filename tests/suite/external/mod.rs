@@ -1,6 +1,7 @@
 //! Tracks and positioners: where the real tool lands on the real part, by a reference that shares
 //! no code with the product.
 
+mod arcs;
 mod attached;
 mod checked;
 mod derived;

@@ -5,11 +5,14 @@
 //! part is within it: the new targets are poses of the wanted path, brought through the real
 //! inverse like all others. An arc stays an arc, through a new point for each part.
 
+mod said;
+mod several;
+
 use super::deviation::{self, Models, Wanted};
 use super::walk::Walk;
 use super::{CheckError, Options, Subject};
 use crate::compensate::Compensation;
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Jet, Pose};
 use crate::inverse::{Inverse, Status};
@@ -19,7 +22,7 @@ use crate::motion::external;
 use crate::motion::leg::Leg;
 use crate::program::number::{Fraction, Style};
 use crate::program::{
-    Between, Displacement, FrameId, Insertion, Motion, Move, Posture, Role, Settings, Value,
+    Between, Displacement, FrameId, Insertion, Motion, Posture, Role, Settings, Value,
 };
 use rayon::prelude::*;
 
@@ -64,19 +67,21 @@ pub fn refine(
         decimals: decimals.unwrap_or(0).max(DECIMALS),
         settings: external::settings_of(subject.profile, false),
     };
-    let changes: Vec<Change> = (0..walk.stops.all.len())
+    let changes: Vec<Option<Change>> = (0..walk.stops.all.len())
         .into_par_iter()
-        .filter_map(|index| job.refine_move(index))
+        .map(|index| job.refine_move(index))
         .collect();
+    let changes = job.one_each(changes);
     let refusals: Vec<Option<Finding>> = changes
         .iter()
         .map(|change| {
             let insertion = change.insertion.as_ref()?;
             let mut why = "the text of this move cannot be repeated".to_owned();
-            if let Some(because) = job.forbidden(insertion.motion) {
+            let motion = &walk.program.moves[insertion.motion];
+            if let Some(because) = job.forbidden(motion) {
                 why = format!("{why}: {because}");
             }
-            Some(job.failed(insertion.motion, change.whole_m, &why))
+            Some(job.failed(motion, change.whole_m, &why))
         })
         .collect();
     for file in 0..subject.sources.len() {
@@ -93,7 +98,7 @@ pub fn refine(
         let (language, sources) = (subject.language, subject.sources);
         let done = compensation.insert(language, sources, &walk.program, file, &insertions);
         let inserted = insertions.iter().zip(&done).filter(|(_, done)| **done);
-        let stops = stops(subject, &walk, inserted.map(|(insertion, _)| insertion));
+        let stops = said::stops(subject, &walk, inserted.map(|(insertion, _)| insertion));
         compensation.findings.extend(stops);
         let failed = done.iter().zip(refused).filter(|(done, _)| !**done);
         compensation
@@ -101,40 +106,6 @@ pub fn refine(
             .extend(failed.map(|(_, refusal)| refusal));
     }
     Ok(())
-}
-
-/// What is said of a file where moves that end in an exact stop were repeated: the robot stops at
-/// each of the new targets.
-fn stops<'a>(
-    subject: &Subject,
-    walk: &Walk,
-    inserted: impl Iterator<Item = &'a Insertion>,
-) -> Option<Finding> {
-    let program = &walk.program;
-    let mut first: Option<&Move> = None;
-    let mut count = 0;
-    for insertion in inserted {
-        let motion = &program.moves[insertion.motion];
-        let speed_zone = program.speed_zone(motion);
-        if speed_zone.zone_m != Some(0.0) || speed_zone.cuts_corner() {
-            continue;
-        }
-        // the last part of an arc is the arc itself
-        count += insertion.between.len() - usize::from(insertion.is_arc());
-        let before = first.filter(|first| first.offset <= motion.offset);
-        first = before.or(Some(motion));
-    }
-    let first = first.filter(|_| count > 0)?;
-    let message = if count == 1 {
-        "the target that comes in before this move stops the robot as the move itself does".into()
-    } else {
-        format!(
-            "{count} of the targets that come in stop the robot as the moves do that they are on \
-             the way of, the first before this one"
-        )
-    };
-    let hint = "let a move that must not stop on its way end in a corner (zone, C_DIS, CNT, PL, r)";
-    Some(subject.finding(first, "stops-inserted", Severity::Note, message, hint))
 }
 
 /// What a move needs.
@@ -221,7 +192,7 @@ impl Job<'_> {
                 finding,
             })
         };
-        let failed = |why| change(None, Some(self.failed(index, whole, why)));
+        let failed = |why| change(None, Some(self.failed(motion, whole, why)));
         let gap = |point: &Point, conditions: &Conditions| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
@@ -233,13 +204,16 @@ impl Job<'_> {
         let arrived = self.walk.conditions(&self.walk.stops.all[begin]?);
         let ends = gap(&first, &arrived).max(gap(&last, &leg.conditions));
         if ends > self.limit_m {
-            return change(None, Some(self.off_at_an_end(index, ends)));
-        }
-        if !self.walk.is_only(index) {
-            return failed("the robot comes here from several moves");
+            return change(None, Some(self.off_at_an_end(motion, ends)));
         }
         if !is_pose {
             return failed("its target is given in joints");
+        }
+        if motion.free_orientation {
+            return failed(
+                "the tool rotates on it as the joints of the wrist do, which targets between would \
+                 change",
+            );
         }
         if motion.displacement != Displacement::None {
             return failed("its target is displaced at run time");
@@ -258,7 +232,7 @@ impl Job<'_> {
         let is_split = if reversed > ROOM * self.limit_m {
             let most = self.take_up(&leg, index, &first, &last, &mut points);
             let over = most.filter(|most| *most > self.limit_m);
-            finding = over.map(|most| self.off_until_taken_up(index, most));
+            finding = over.map(|most| self.off_until_taken_up(motion, most));
             most.is_some()
         } else {
             self.split(&leg, index, &first, &last, 0, &mut points)
@@ -303,47 +277,8 @@ impl Job<'_> {
             file: motion.file as usize,
             whole_m: off_m,
             insertion: None,
-            finding: Some(self.off_at_an_end(index, off_m)),
+            finding: Some(self.off_at_an_end(motion, off_m)),
         })
-    }
-
-    /// No targets between help where a target itself is off.
-    fn off_at_an_end(&self, motion: usize, ends_m: f64) -> Finding {
-        let message = format!(
-            "this move begins or ends {:.3} mm off its wanted path (limit {:.3} mm), at a target \
-             that stays as it is or is off itself: no targets are inserted",
-            mm_from_m(ends_m),
-            mm_from_m(self.limit_m)
-        );
-        let hint = "--joint-targets correct shifts joint targets, too; give a point that is \
-            derived from another a target of its own";
-        self.subject.finding(
-            self.walk.motion(motion),
-            "path-from-kept-target",
-            Severity::Warning,
-            message,
-            hint,
-        )
-    }
-
-    /// Joints with backlash reverse where a move begins.
-    fn off_until_taken_up(&self, motion: usize, most_m: f64) -> Finding {
-        let message = format!(
-            "joints with backlash reverse where this move begins: the tool is up to {:.3} mm off \
-             the wanted path (limit {:.3} mm) until a target at {:.1} % of it",
-            mm_from_m(most_m),
-            mm_from_m(self.limit_m),
-            100.0 * TAKEN_UP
-        );
-        let hint = "no target avoids that; come to where the move begins from the side to which \
-            it leaves";
-        self.subject.finding(
-            self.walk.motion(motion),
-            "path-at-reversal",
-            Severity::Warning,
-            message,
-            hint,
-        )
     }
 
     /// Appends the points behind the first where joints reverse there, the next one near it: how
@@ -388,33 +323,6 @@ impl Job<'_> {
                 )
             })
         })
-    }
-
-    /// What of its text forbids to repeat a move.
-    fn forbidden(&self, motion: usize) -> Option<&'static str> {
-        let program = &self.walk.program;
-        let motion = &program.moves[motion];
-        let span = program.instructions[motion.instruction as usize].span();
-        let bytes = &self.subject.sources[motion.file as usize].bytes;
-        self.subject.language.forbids_repeating(&bytes[span])
-    }
-
-    /// No targets can be inserted where they are needed.
-    fn failed(&self, motion: usize, whole_m: f64, why: &str) -> Finding {
-        let message = format!(
-            "the path of this move is up to {:.3} mm off the wanted one (limit {:.3} mm), and no \
-             targets can be inserted: {why}",
-            mm_from_m(whole_m),
-            mm_from_m(self.limit_m)
-        );
-        let hint = "a larger --max-path-error, or shorter moves";
-        self.subject.finding(
-            self.walk.motion(motion),
-            "path-not-refined",
-            Severity::Error,
-            message,
-            hint,
-        )
     }
 
     /// The real inverse of the wanted pose at `s`.

@@ -17,7 +17,7 @@ use crate::motion::ground::Ground;
 use crate::motion::leg::Leg;
 use crate::motion::placed::Placed;
 use crate::motion::plausibility;
-use crate::motion::ride::Ride;
+use crate::motion::ride::{Ride, through};
 use crate::motion::setting::Setting;
 use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::profile::{Mounted, Profile};
@@ -269,6 +269,14 @@ impl Walk {
         first..first + self.motions[first..].partition_point(|of| *of == motion)
     }
 
+    /// Whether the path to a stop is known between its points: not that of a spline, nor one on
+    /// which the tool rotates as the joints of the wrist do.
+    pub(super) fn is_followed(&self, stop: usize) -> bool {
+        let motion = self.motion(stop);
+        motion.motion == Motion::Joint
+            || motion.motion != Motion::Spline && !motion.free_orientation
+    }
+
     /// Index of the move of a stop.
     pub(super) fn index(&self, stop: usize) -> usize {
         self.motions[stop] as usize
@@ -277,14 +285,6 @@ impl Walk {
     /// The move of a stop.
     pub(super) fn motion(&self, stop: usize) -> &Move {
         &self.program.moves[self.index(stop)]
-    }
-
-    /// Whether its move ends at this stop only.
-    pub(super) fn is_only(&self, stop: usize) -> bool {
-        let same = |other: Option<usize>| {
-            other.and_then(|other| self.motions.get(other)) == Some(&self.motions[stop])
-        };
-        !same(stop.checked_sub(1)) && !same(Some(stop + 1))
     }
 
     pub(super) fn arms(&self, stop: &Stop) -> &Arms {
@@ -358,9 +358,9 @@ impl Walk {
         if motion.motion == Motion::ArcVia {
             return None;
         }
-        let via = match self.via(index) {
-            Some(via) => Some(self.stops.all[via]?),
-            None => None,
+        let (via, via_ride) = match self.via(index) {
+            Some(via) => (Some(self.stops.all[via]?), self.stand(via)),
+            None => (None, None),
         };
         let start = self.stops.all[self.start(index)?]?;
         let equipped = self.equipped(&stop);
@@ -379,7 +379,7 @@ impl Walk {
                 to: stop.q,
             },
             (_, via) => {
-                let via = via.map(|via| via.pose);
+                let via = via.map(|via| through(&via.pose, via_ride.as_deref(), ride.as_deref()));
                 Course::Tool(ToolCourse::of(
                     &from,
                     via.as_ref(),

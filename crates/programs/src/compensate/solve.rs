@@ -8,8 +8,8 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
-use crate::motion::follow;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
+use crate::motion::{follow, ride};
 use crate::program::script::{Turn, short};
 use crate::program::{Displacement, Motion, Shape, Shift, Value};
 use rayon::prelude::*;
@@ -252,6 +252,11 @@ fn changed_directions(
             (fakes[arrival.from as usize], None)
         };
         let wanted = equipped.controller.forward(&end, &Conditions::default());
+        let ride = ground.ride(Some(from), motion);
+        let via = via.map(|pose| {
+            let point = ground.ride(None, &ground.program.moves[before.motion as usize]);
+            ride::through(&pose, point.as_deref(), ride.as_deref())
+        });
         let course = follow::course(
             motion,
             equipped,
@@ -259,7 +264,7 @@ fn changed_directions(
             via.as_ref(),
             &wanted,
             &end,
-            ground.ride(Some(from), motion),
+            ride,
             walk_options,
         );
         directions[at] =

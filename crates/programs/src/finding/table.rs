@@ -71,6 +71,7 @@ pub const TABLE: &[Kind] = &[
     row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate", "check"], &[]),
     row("angle-too-large", Error, "an angle of a target, tool or frame is in another unit than the language's", "degrees; radians in URScript: write angles of a few revolutions at most", &["compensate", "check"], &[]).never_accepted(),
     row("arc-chain", Error, "an arc has more than two points: each part of its path lies on another circle", "end each arc with its second point", &["compensate", "check"], &["kawasaki"]),
+    row("arc-external", Warning, "the point of an arc is written for other values of external axes than those with which the robot passes it", "write the values with which the robot passes the point", &["compensate", "check"], &[]),
     row("arc-rotation", Warning, "the tool at the middle of an arc is rotated away from where a rotation from its beginning to its end has it", "write the middle in the orientation that the path has there, or divide the arc in two", &["compensate", "check"], &[]),
     row("arc-shared", Note, "an arc passes a target that serves other moves too in another rotation: it misses it by so much", "give the arc a point of its own; --max-derived-error sets the limit", &["compensate"], &[]),
     row("at-singularity", Warning, "a target at the singularity of the wrist, where the real arm has no posture on the meant side, is solved as --at-singularity says", "check the move slowly, or move the target", &["compensate"], &[]),

@@ -8,6 +8,7 @@
 //! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows
 //! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
+use super::passed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -69,7 +70,7 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
 
 /// What is known of a value of an axis at a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Known {
+pub(super) enum Known {
     /// Not looked at yet.
     Open,
     Is(f64),
@@ -104,7 +105,8 @@ pub(crate) fn settle(
         return;
     }
     let own = own_values(language, program, &axes);
-    let (values, directions) = followed(program, profile, &own, axes.len());
+    let (mut values, directions) = followed(program, profile, &own, axes.len());
+    passed::pass_arcs(language, program, sources, &axes, &mut values, findings);
     let is = |known: &Known| match known {
         Known::Is(value) => Some(*value),
         _ => None,

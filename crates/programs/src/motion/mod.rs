@@ -33,6 +33,7 @@ pub(crate) mod ground;
 mod holding;
 pub(crate) mod leg;
 mod middle;
+mod passed;
 pub(crate) mod placed;
 pub(crate) mod plausibility;
 mod posture;

@@ -1,5 +1,6 @@
 //! Where bases and work frames are in the world, by where external axes stand.
 
+use super::ride;
 use crate::geometry::{Pose, Vector};
 use crate::model::effects::Effect;
 use crate::model::external::At;
@@ -106,7 +107,7 @@ impl Placed {
             )
         };
         let home_from_world = [base_nominal.inverse(), base_real.inverse()];
-        let leans = base_real.rotation != crate::geometry::Rotation::identity();
+        let leans = ride::leans(&base_real.rotation);
         Self {
             nominal: home_from_world[0] * nominal,
             meant: home_from_world[0] * nominal,

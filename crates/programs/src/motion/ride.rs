@@ -155,6 +155,13 @@ impl Ride {
         base.inverse() * riding * self.plate(&values, &[])
     }
 
+    /// The pose that the arm at home has halfway for what a point on the way of an arc is on the
+    /// part: external axes are written for the point as for a place of its own, and the arc goes
+    /// through it on the part.
+    fn halfway(&self, point: &Self, pose: &Pose) -> Pose {
+        self.home_from_part(0.5) * point.home_from_part(1.0).inverse() * *pose
+    }
+
     /// From a pose that the controller's arm at home has to the one that the real arm at home has
     /// where the real part wants it.
     pub(crate) fn real_from_nominal<S: Scalar>(&self, s: S) -> Pose<S> {
@@ -173,6 +180,24 @@ impl Ride {
 
     /// Whether the base leans: gravity is another at each place.
     pub(crate) fn leans(&self) -> bool {
-        self.world_from_real_home(1.0_f64).rotation != Rotation::identity()
+        leans(&self.world_from_real_home(1.0_f64).rotation)
+    }
+}
+
+/// A base that is rotated by less stands upright, radians: what is left of a rotation and its
+/// inverse.
+const UPRIGHT_RAD: f64 = 1e-9;
+
+/// Whether a base with this rotation leans.
+pub(crate) fn leans(base: &Rotation) -> bool {
+    base.angle() > UPRIGHT_RAD
+}
+
+/// Where an arc on a ride passes through, with what external axes are written for that point: see
+/// [`Ride::halfway`].
+pub(crate) fn through(pose: &Pose, point: Option<&Ride>, arc: Option<&Ride>) -> Pose {
+    match (point, arc) {
+        (Some(point), Some(arc)) => arc.halfway(point, pose),
+        _ => *pose,
     }
 }

@@ -9,7 +9,7 @@ use super::course::ToolRotation;
 use super::follow::{arrival_direction, course, turned};
 use super::ground::Ground;
 use super::posture::OUT_OF_REACH;
-use super::{middle, plausibility};
+use super::{middle, plausibility, ride};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -408,6 +408,10 @@ impl Walker<'_, '_> {
             None => before,
         };
         let ride = ground.ride(from.map(|from| from.motion), motion);
+        let via = via.zip(before).map(|(pose, at)| {
+            let point = ground.ride(None, &ground.program.moves[at.motion as usize]);
+            ride::through(&pose, point.as_deref(), ride.as_deref())
+        });
         let Some(posture) = self.posture(
             motion,
             target,

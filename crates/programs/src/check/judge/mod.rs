@@ -68,7 +68,7 @@ impl Job<'_> {
         if comes {
             let path = self.path_error(&leg, &pieces, arms, index);
             report.path = Some(PathError {
-                certified: path.certified && motion.motion != Motion::Spline,
+                certified: path.certified && self.walk.is_followed(index),
                 ..path
             });
         }
@@ -89,7 +89,7 @@ impl Job<'_> {
             );
         }
         if let Some(clearance) = &mut report.clearance {
-            clearance.certified &= motion.motion != Motion::Spline;
+            clearance.certified &= self.walk.is_followed(index);
         }
         self.judge_path(index, &report, &mut findings);
         findings.extend(self.not_finite(index, &landed, &report));
@@ -171,8 +171,13 @@ impl Job<'_> {
             return;
         };
         if !path.certified {
-            let is_spline = self.walk.motion(index).motion == Motion::Spline;
-            let message = if is_spline {
+            let motion = self.walk.motion(index);
+            let is_spline = motion.motion == Motion::Spline;
+            let is_free = !is_spline && !self.walk.is_followed(index);
+            let message = if is_free {
+                "the tool rotates on this path as the joints of the wrist do: it was looked at as \
+                 if it rotated evenly from beginning to end"
+            } else if is_spline {
                 "the controller alone knows the curve of a spline: its points are exact, between \
                  them straight lines were looked at"
             } else {
@@ -180,7 +185,12 @@ impl Job<'_> {
                  singularity, external axes lean the base or begin nobody knows where, or the \
                  controller's own chain is calibrated"
             };
-            let (severity, hint) = if is_spline {
+            let (severity, hint) = if is_free {
+                (
+                    Severity::Warning,
+                    "check the orientation on the way on the robot, or let the tool rotate evenly",
+                )
+            } else if is_spline {
                 (
                     Severity::Warning,
                     "check the curve on the robot, or write straight moves",

@@ -3,7 +3,7 @@
 
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
 use super::frames::{Table, pose_of, write_pose};
-use super::names::{DataKind, Datum, Fdat, Index, Stored, whole};
+use super::names::{DataKind, Datum, Fdat, Index, Stored, Turning, whole};
 use super::reader::Reader;
 use super::remarks;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
@@ -116,7 +116,7 @@ impl Reader {
             return Ok(Some(Stored::Fdat(fdat(cursor)?)));
         }
         if kind == DataKind::Ldat {
-            return Ok(Some(Stored::Keeps(keeps_orientation(cursor)?)));
+            return Ok(Some(Stored::Turning(turning(cursor)?)));
         }
         let start = cursor.at;
         let aggregate = aggregate::read(cursor)?;
@@ -292,17 +292,21 @@ pub(super) fn root_differs(
 }
 
 /// `{VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #CONSTANT}`
-pub(super) fn keeps_orientation(cursor: &mut Cursor) -> Read<bool> {
+pub(super) fn turning(cursor: &mut Cursor) -> Read<Turning> {
     let bytes = cursor.bytes;
-    let mut keeps = false;
+    let mut turning = Turning::Evenly;
     aggregate::each(cursor, |key, _, field| {
         if let (b"ORI_TYP", aggregate::Field::Enum(name)) = (key, field) {
             let name = &bytes[name.start as usize..name.end as usize];
-            keeps = name.eq_ignore_ascii_case(b"CONSTANT");
+            turning = match Turning::named(capitals(name, &mut [0; 24])) {
+                // what the controller does not know leaves the orientation to the targets
+                Turning::Kept if !name.eq_ignore_ascii_case(b"CONSTANT") => Turning::Evenly,
+                known => known,
+            };
         }
         Ok(())
     })?;
-    Ok(keeps)
+    Ok(turning)
 }
 
 /// What a load says.

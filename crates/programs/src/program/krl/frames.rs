@@ -1,7 +1,7 @@
 //! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken
 //! from, BAS and FDAT.
 
-use super::names::{DataKind, Index, Stored};
+use super::names::{DataKind, Index, Stored, Turning};
 use super::reader::Reader;
 use super::remarks::{
     ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
@@ -259,8 +259,8 @@ impl States {
         let states = std::array::from_fn(|at| {
             let declared = match at {
                 0 | 1 => Expr::Value(initial[at]),
-                2 => Expr::Value(off),
-                3 | 9 | 10 => Expr::Value(on),
+                2 | 9 | 10 => Expr::Value(off),
+                3 => Expr::Value(on),
                 _ => Expr::Unknown(chosen),
             };
             script.variable(Variable {
@@ -550,12 +550,12 @@ impl Reader {
         }
     }
 
-    /// Whether the orientation stays what it is; what is not known may keep it.
-    pub(super) fn orientation_value(&self, keeps: bool) -> Expr {
-        Expr::Value(if keeps {
-            self.states.keeps
-        } else {
-            self.states.on
+    /// How the tool rotates on straight moves and arcs.
+    pub(super) fn orientation_value(&self, turning: Turning) -> Expr {
+        Expr::Value(match turning {
+            Turning::Kept => self.states.keeps,
+            Turning::Evenly => self.states.off,
+            Turning::AsWrist => self.states.on,
         })
     }
 

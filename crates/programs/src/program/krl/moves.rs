@@ -2,6 +2,7 @@
 
 use super::aggregate::{self, Aggregate};
 use super::frames::State;
+use super::names::Turning;
 use super::points::Point;
 use super::reader::Reader;
 use super::remarks::{FROM_NOWHERE, SOME_AXES, TURNED};
@@ -162,7 +163,13 @@ impl Reader {
         let of_states = [self.states.guards, 0].contains(&modal.guards);
         if of_states {
             modal.guards = match with.orientation.or(self.spline.orientation) {
-                Some(own) if own == self.orientation_value(false) => modal.guards,
+                Some(own)
+                    if [Turning::Evenly, Turning::AsWrist]
+                        .map(|turning| self.orientation_value(turning))
+                        .contains(&own) =>
+                {
+                    modal.guards
+                }
                 Some(Expr::Value(_)) => self.states.keeping_guards,
                 _ => self.states.turning_guards,
             };
@@ -195,6 +202,11 @@ impl Reader {
             configured: match motion {
                 Motion::Joint => Expr::Value(self.states.on),
                 _ => Expr::Absent,
+            },
+            wrist: match motion {
+                Motion::Joint => Expr::Absent,
+                _ => (rest.with.orientation.or(spline.orientation))
+                    .unwrap_or(self.states.expr(State::Orientation)),
             },
             // axes are the same whoever holds the tool
             guards: if is_joints {

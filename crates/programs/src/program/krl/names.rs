@@ -119,6 +119,28 @@ pub(super) struct Datum {
     pub kept: bool,
 }
 
+/// How the tool rotates on straight moves and arcs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turning {
+    /// Evenly from orientation to orientation.
+    Evenly,
+    /// As the axes of the wrist do, each at a constant rate.
+    AsWrist,
+    /// Not at all.
+    Kept,
+}
+
+impl Turning {
+    /// Of `#VAR`, `#JOINT`, `#CONSTANT`: by this name in capitals. What is not known may keep it.
+    pub(super) fn named(name: &[u8]) -> Self {
+        match name {
+            b"VAR" | b"IGNORE" => Self::Evenly,
+            b"JOINT" => Self::AsWrist,
+            _ => Self::Kept,
+        }
+    }
+}
+
 /// The value of a variable.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Stored {
@@ -126,8 +148,8 @@ pub(super) enum Stored {
     Target(TargetId),
     /// Numbers of a tool and a base.
     Fdat(Fdat),
-    /// The orientation stays what it is.
-    Keeps(bool),
+    /// How the tool rotates on straight moves and arcs.
+    Turning(Turning),
     /// A whole number.
     Number(u32),
     /// Not written out.

@@ -3,7 +3,7 @@
 use super::aggregate;
 use super::data::{Carried, is_external, load};
 use super::frames::{Choice, State, Table, carried_record, part, pose_of, record, unit};
-use super::names::{DataKind, Index, Stored, whole};
+use super::names::{DataKind, Index, Stored, Turning, whole};
 use super::reader::Reader;
 use super::remarks::{FRAME_ASSIGNED, LINKED, MOVING, carried};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
@@ -331,7 +331,11 @@ impl Reader {
                 self.set(place, State::Tool, tool);
                 self.set(place, State::Base, base);
                 self.set(place, State::Ipo, Expr::Value(self.states.on));
-                self.set(place, State::Orientation, Expr::Value(self.states.on));
+                self.set(
+                    place,
+                    State::Orientation,
+                    self.orientation_value(Turning::Evenly),
+                );
                 self.usual_circles(place);
             }
             b"TOOL" => {

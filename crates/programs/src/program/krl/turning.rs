@@ -1,8 +1,8 @@
 //! How the tool turns on straight moves and arcs: `$ORI_TYPE`, `$CIRC_TYPE`, `$CIRC_MODE`.
 
-use super::data::keeps_orientation;
+use super::data;
 use super::frames::State;
-use super::names::{Index, Stored};
+use super::names::{Index, Stored, Turning};
 use super::reader::Reader;
 use super::states::inside;
 use super::tokens::{Cursor, capitals};
@@ -57,29 +57,26 @@ impl Reader {
     pub(super) fn orientation(&mut self, cursor: &mut Cursor) -> Expr {
         if cursor.take(b'#') {
             let name = cursor.next();
-            let keeps = !matches!(
-                capitals(cursor.text(name), &mut [0; 24]),
-                b"VAR" | b"JOINT" | b"IGNORE"
-            );
-            return self.orientation_value(keeps);
+            let turning = Turning::named(capitals(cursor.text(name), &mut [0; 24]));
+            return self.orientation_value(turning);
         }
         let name = cursor.next();
         match capitals(cursor.text(name), &mut [0; 24]) {
             b"SORI_TYP" => {
                 let mut ldat = inside(cursor);
                 let ldat = ldat.as_mut().map(|inner| self.ldat(inner));
-                ldat.unwrap_or_else(|| self.orientation_value(true))
+                ldat.unwrap_or_else(|| self.orientation_value(Turning::Kept))
             }
             b"LDAT_ACT" => self.states.expr(State::LdatOrientation),
-            _ => self.orientation_value(true),
+            _ => self.orientation_value(Turning::Kept),
         }
     }
 
     /// The orientation of `LCPDAT1`, `{VEL 2,…}` or `LDAT_ACT`.
     pub(super) fn ldat(&mut self, cursor: &mut Cursor) -> Expr {
         if cursor.blanks() == b'{' {
-            let keeps = keeps_orientation(cursor).unwrap_or(true);
-            return self.orientation_value(keeps);
+            let turning = data::turning(cursor).unwrap_or(Turning::Kept);
+            return self.orientation_value(turning);
         }
         let token = cursor.next();
         if cursor.text(token).eq_ignore_ascii_case(b"LDAT_ACT") {
@@ -89,7 +86,10 @@ impl Reader {
         let at = Index::of(cursor.brackets().unwrap_or(None), cursor);
         let stored = self.names.constant(name, at, self.context());
         // LDAT that the files do not have mostly leaves the orientation to the targets
-        self.orientation_value(matches!(stored, Some(Stored::Keeps(true))))
+        match stored {
+            Some(Stored::Turning(turning)) => self.orientation_value(turning),
+            _ => self.orientation_value(Turning::Evenly),
+        }
     }
 
     /// What `$CIRC_TYPE=` or `$CIRC_MODE.AUX_PT.ORI=` behind a byte gives arcs: the orientation of

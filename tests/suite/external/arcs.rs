@@ -1,0 +1,136 @@
+//! Arcs while the base moves: they go through their point in the work frame, whatever is written for
+//! external axes there, and the point is corrected for where the robot passes it.
+
+use super::checked::{
+    FIRST, at, check, far, joint_move, list, number, place, rails, robot, tooldata,
+};
+use super::landing::joints;
+use super::measured::put;
+use super::programs::{Said, numbers_of};
+use super::{rapid, tool};
+use crate::physics::matrix::M4;
+use crate::physics::{Moment, tool_pose};
+use crate::support::{poseshift, scratch};
+
+/// Where the rail stands at the ends, metres.
+const ENDS: [f64; 2] = [0.4, 0.6];
+/// Half of its way: the arc goes as far along the rail.
+const RADIUS_M: f64 = 0.1;
+/// Where the point of the arc stands, of half a circle.
+const PART: f64 = 0.3;
+
+/// The tool on half a circle in a plane that leans, beginning at `from`; its orientation stays.
+fn on_circle(from: &M4, s: f64) -> M4 {
+    let angle = std::f64::consts::PI * s;
+    let (along, across) = (RADIUS_M * (1.0 - angle.cos()), RADIUS_M * angle.sin());
+    let mut to = *from;
+    for (row, by) in to.iter_mut().zip([
+        0.6 * along - 0.64 * across,
+        0.8 * along + 0.48 * across,
+        0.6 * across,
+    ]) {
+        row[3] += by;
+    }
+    to
+}
+
+fn target(pose: &M4, e: f64) -> String {
+    let n = numbers_of(Said::Rapid, pose);
+    format!(
+        "[[{}],[{}],[0,0,0,0],[{},9E9,9E9,9E9,9E9,9E9]]",
+        list(&n[..3]),
+        list(&n[3..]),
+        1e3 * e
+    )
+}
+
+/// A joint move, and half a circle behind it while the rail goes from end to end; the point is
+/// written for the rail at `e`.
+fn program(from: &M4, e: f64) -> String {
+    let start = target(from, ENDS[0]);
+    let [via, end] = [(PART, e), (1.0, ENDS[1])].map(|(s, e)| target(&on_circle(from, s), e));
+    joint_move(&FIRST, ENDS[0])
+        + &format!("MoveL {start},v100,fine,t;\nMoveC {via},{end},v100,fine,t;\n")
+}
+
+#[test]
+fn an_arc_goes_through_its_point_while_the_rail_moves() {
+    let folder = scratch();
+    let [plain, bent] = rails();
+    let (profile, robot, faults) = robot(&tool());
+    let real =
+        |q: &[f64; 6], e: f64| tool_pose(&at(&robot, &bent, e), &faults, q, &Moment::default());
+    let first = at(&robot, &plain, ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    let (mut most, mut q) = (0.0_f64, FIRST);
+    for k in 0..=400 {
+        let s = f64::from(k) / 400.0;
+        let (e, wanted) = (ENDS[0] + s * (ENDS[1] - ENDS[0]), on_circle(&from, s));
+        q = joints(&at(&robot, &plain, e), &wanted, &q);
+        most = most.max(far(place(&real(&q, e)), place(&wanted)));
+    }
+    assert!(1e3 * most > 0.5, "{most}");
+    for e in [passed, ENDS[0], ENDS[1]] {
+        let (_, report) = check(folder.path(), &profile, &program(&from, e), None);
+        let moves = report["moves"].as_array().expect("moves");
+        let arc = moves.last().expect("one");
+        assert_eq!(arc["path_certified"], true, "{arc:#}");
+        let bound = number(arc, "max_path_error_mm");
+        assert!(
+            bound >= 1e3 * most - 1e-6 && bound <= 1.03e3 * most + 0.003,
+            "{bound} of {} mm, written for {e}",
+            1e3 * most
+        );
+    }
+}
+
+#[test]
+fn the_point_of_an_arc_is_corrected_for_where_the_rail_is_then() {
+    let folder = scratch();
+    let (profile, robot, _) = robot(&tool());
+    let [plain, _] = rails();
+    let first = at(&robot, &plain, ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let profile = put(folder.path(), "p.yaml", &profile);
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    let compensated = |e: f64| {
+        let text = rapid(&tooldata(), &program(&from, e));
+        let (given, out) = (
+            put(folder.path(), "t.mod", &text),
+            folder.path().join("out.mod"),
+        );
+        let mut command = poseshift();
+        command
+            .arg("compensate")
+            .arg(&given)
+            .arg("--profile")
+            .arg(&profile);
+        let done = command
+            .arg("-o")
+            .arg(&out)
+            .arg("--force")
+            .output()
+            .expect("it starts");
+        let reported = String::from_utf8_lossy(&done.stdout).into_owned();
+        assert_eq!(done.status.code(), Some(0), "{reported}");
+        let text = std::fs::read_to_string(&out).expect("written");
+        let arc = text
+            .lines()
+            .find(|line| line.contains("MoveC"))
+            .expect("an arc")
+            .to_owned();
+        // the point's own axis stays as it is written
+        let written = format!("[{},9E9", 1e3 * e);
+        assert!(arc.contains(&written), "{arc}");
+        (
+            arc.replacen(&written, "[", 1),
+            reported.contains("arc-external"),
+        )
+    };
+    let (right, is_reported) = compensated(passed);
+    assert!(!is_reported);
+    for e in [ENDS[0], ENDS[1]] {
+        assert_eq!(compensated(e), (right.clone(), true));
+    }
+}
