@@ -93,6 +93,21 @@ fn a_loop_gets_none_where_it_begins_elsewhere_at_first() {
     assert!(reported.contains("from several moves"), "{reported}");
 }
 
+#[test]
+fn no_targets_lead_the_robot_back_behind_a_routine_that_is_not_in_the_files() {
+    let line = "LIN {X 1600.500,Y 600.250,Z 900.125,A 0.0001,B 0.0001,C 180.0}\n";
+    let text = |call: &str| krl(&format!("{A}{call}{line}")).replace(SUB, "");
+    let (status, reported, _) = refined(KRL, ("t.src", &text("")));
+    assert_eq!(status, 0, "{reported}");
+    let (status, reported, written) = refined(KRL, ("t.src", &text("pick()\n")));
+    assert_eq!((status, written), (1, None), "{reported}");
+    let said = "error[path-not-refined]";
+    assert!(
+        reported.contains(said) && reported.contains("`pick`"),
+        "{reported}"
+    );
+}
+
 /// Long moves that get targets, and words in them (to be found, to put in their place) with which
 /// the wrist's joints lead the tool.
 const LED: [(&str, &str, &str, [&str; 2]); 3] = [

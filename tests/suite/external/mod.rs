@@ -5,6 +5,7 @@ mod arcs;
 mod attached;
 mod checked;
 mod derived;
+mod joints;
 mod landing;
 mod measured;
 mod named;

@@ -192,7 +192,7 @@ impl Job<'_> {
                 finding,
             })
         };
-        let failed = |why| change(None, Some(self.failed(motion, whole, why)));
+        let failed = |why: &str| change(None, Some(self.failed(motion, whole, why)));
         let gap = |point: &Point, conditions: &Conditions| {
             let nominal = leg.joints(point.s, &leg.start);
             let wanted = leg.controller_pose(point.s, &nominal, &arms.plain.controller);
@@ -208,6 +208,12 @@ impl Job<'_> {
         }
         if !is_pose {
             return failed("its target is given in joints");
+        }
+        if let Some(call) = program.call_before(self.walk.index(index)) {
+            return failed(&format!(
+                "`{call}` before it may leave the robot elsewhere than the text says, and new targets \
+                 would lead it back (--with gives files of routines)"
+            ));
         }
         if motion.free_orientation {
             return failed(

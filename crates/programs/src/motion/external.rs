@@ -215,6 +215,15 @@ fn followed(
             Some(_) => Known::Unknown,
         })
         .collect();
+    // a call that may lead the robot elsewhere may lead its external axes there
+    for (motion, _) in &program.led {
+        let at = *motion as usize * count;
+        for (value, own) in values[at..at + count].iter_mut().zip(&own[at..]) {
+            if own.is_none() {
+                *value = Known::Unknown;
+            }
+        }
+    }
     let mut directions = vec![Known::Open; values.len()];
     let directed = has_backlash(&profile.effects, None);
     let all_own = own.iter().all(Option::is_some);
@@ -445,8 +454,12 @@ impl Settler<'_> {
         let state = state_of(self.program, &self.program.moves[at]);
         let since = state.since.filter(|_| state.off & 1 << axis != 0);
         let Some((file, offset)) = since else {
-            let why = format!("nothing says where external axis {name} stands at this move");
-            let hint = "write its value into the target, or into one that is certainly before it";
+            let mut why = format!("nothing says where external axis {name} stands at this move");
+            if let Some(call) = self.program.call_before(at) {
+                why += &format!(": `{call}` before it may move it");
+            }
+            let hint = "write its value into the target, or into one that is certainly before it; \
+                --with gives files of routines";
             return (why, hint);
         };
         let source = &self.sources[file as usize];

@@ -63,6 +63,18 @@ impl ExternalNames {
         }
     }
 
+    /// Whether another axis of the group of `G2J1` has a meaning.
+    #[must_use]
+    pub fn knows_group_of(&self, name: &str) -> bool {
+        let group = |name: &str| {
+            name.split_once(['J', 'j'])
+                .map(|(group, _)| group.to_owned())
+        };
+        let own = group(name).filter(|group| !group.is_empty());
+        let mut others = self.listed.iter().filter_map(|listed| group(listed));
+        own.is_some_and(|own| others.any(|other| other.eq_ignore_ascii_case(&own)))
+    }
+
     /// The axes of a unit, bit by bit: all where the profile does not know the name.
     #[must_use]
     pub fn axes_of_unit(&self, name: &str) -> u16 {

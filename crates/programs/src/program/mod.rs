@@ -469,6 +469,15 @@ impl Program {
         turned.filter(|_| motion.target.is_none())
     }
 
+    /// The call before a move that may have left the robot elsewhere, by its name.
+    pub fn call_before(&self, motion: usize) -> Option<&str> {
+        let led = self
+            .led
+            .binary_search_by(|led| (led.0 as usize).cmp(&motion));
+        let (_, call) = self.led[led.ok()?];
+        Some(&self.calls[call as usize].1)
+    }
+
     /// Where each listed external axis stands at the end of a move, metres and radians, where that
     /// is known; empty where none is listed.
     pub fn stands_at(&self, motion: usize) -> &[Option<f64>] {

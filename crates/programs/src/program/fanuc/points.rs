@@ -46,7 +46,7 @@ pub(super) struct Point {
     pub tool: Option<u32>,
     /// Axes besides the six of the arm, of other groups as `G2J1`, and their values; not a number
     /// where they were never taught.
-    pub external: Vec<(String, f64)>,
+    pub external: Vec<Axis>,
 }
 
 /// A number that no robot can use.
@@ -343,7 +343,9 @@ impl<'a> Points<'a> {
             (group.filter(|group| *group != 1), &self.bytes[key.clone()])
         {
             let name = format!("G{other}{}", Source::text(&self.bytes[key.clone()]));
-            first.external.push((name, value.unwrap_or(f64::NAN)));
+            let unit = Source::text(unit).into();
+            let value = value.unwrap_or(f64::NAN);
+            first.external.push(Axis { name, value, unit });
         }
         if within {
             // the field keeps its last column where blanks stand before the number; a tab is none
@@ -364,6 +366,16 @@ impl<'a> Points<'a> {
     }
 }
 
+/// An axis besides the six of the arm, as it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    /// `E1`, or of another group as `G2J1`.
+    pub name: String,
+    /// Not a number where it was never taught.
+    pub value: f64,
+    pub unit: String,
+}
+
 /// 2 of `GP2`.
 fn group_number(key: &[u8]) -> Option<u32> {
     let digits = key
@@ -382,7 +394,7 @@ struct Group {
     other: bool,
     /// Axes besides the six that stand somewhere: name and value, not a number where it was never
     /// taught.
-    external: Vec<(String, f64)>,
+    external: Vec<Axis>,
     pose: [Option<Number>; 6],
     joints: [Option<Number>; 6],
     /// The six numbers of the configuration data, or that they are not understood.
@@ -405,7 +417,8 @@ impl Group {
             }
             [b'E', b'1'..=b'9'] | [b'J', b'7'..=b'9'] => {
                 let value = found.map_or(f64::NAN, |number| number.value);
-                self.external.push((Source::text(key).into(), value));
+                let (name, unit) = (Source::text(key).into(), Source::text(unit).into());
+                self.external.push(Axis { name, value, unit });
                 return;
             }
             _ => {

@@ -6,7 +6,7 @@ use super::frames;
 use super::lines::Lines;
 use super::numbers::Known;
 use super::offsets::{Condition, Copied, Offset};
-use super::points::{Content, Point, Points, bad_value};
+use super::points::{Axis, Content, Point, Points, bad_value};
 use super::registers::{Part, Sum};
 use super::sections::Sections;
 use super::statements::{State, is_chosen};
@@ -364,15 +364,26 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         } else {
             &[]
         };
-        for (name, value) in external {
+        for Axis { name, value, unit } in external {
+            let value = *value;
             match names.meaning(name) {
                 ExternalUse::Listed(axis) => {
-                    let value = *value;
+                    let wanted = if names.linear[usize::from(axis)] {
+                        "mm"
+                    } else {
+                        "deg"
+                    };
+                    if !unit.is_empty() && !unit.eq_ignore_ascii_case(wanted) {
+                        script.refuse(target, other_unit(name, unit, wanted));
+                    }
                     script.externals.push((target, External { axis, value }));
                 }
-                // a user frame that stands still does not feel other groups
-                ExternalUse::Unknown if *value != 0.0 && !name.starts_with('G') => {
-                    script.refuse(target, Remark::external_unknown(name, *value));
+                // a user frame that stands still does not feel other groups, and one that rides
+                // feels all axes of its group
+                ExternalUse::Unknown
+                    if value != 0.0 && (!name.starts_with('G') || names.knows_group_of(name)) =>
+                {
+                    script.refuse(target, Remark::external_unknown(name, value));
                 }
                 _ => {}
             }
@@ -395,6 +406,15 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
         has_other_arm: point.has_other_arm,
         twin,
     });
+}
+
+/// An axis that the profile has in another unit.
+fn other_unit(name: &str, unit: &str, wanted: &str) -> Remark {
+    Remark::error_about(
+        "external-axis-unknown",
+        format!("external axis {name} is written in `{unit}`, and the profile has it in {wanted}"),
+        "is this the profile of this cell? describe the axis under `external_axes` as it is",
+    )
 }
 
 /// The first word behind `/PROG`, in capitals.

@@ -235,6 +235,18 @@ impl Translator<'_> {
         wants
     }
 
+    /// Whether what joints are written for may ride on a positioner: a declared work object.
+    fn may_carry(&self, argument: &Argument) -> bool {
+        let name = match argument.expression {
+            Expression::Point {
+                base: Base::Named { name, .. },
+                ..
+            } => name,
+            _ => return false,
+        };
+        self.has_positioners && self.resolved.kind(name, self.context) == Some(Type::Wobjdata)
+    }
+
     /// A move instruction up to `end`.
     pub(super) fn go(&mut self, verb: Verb, arguments: Part, end: u32) {
         let Verb::Move {
@@ -269,7 +281,9 @@ impl Translator<'_> {
             None => self.frame_chosen(),
         };
         let frame = match parts.frame {
-            Some(at) if !absolute => self.frame_from(all[at].expression),
+            Some(at) if !absolute || self.may_carry(&all[at]) => {
+                self.frame_from(all[at].expression)
+            }
             _ => Expr::Value(self.wobj0),
         };
         let modes = &self.modes;

@@ -79,6 +79,8 @@ pub(super) struct Translator<'a> {
     own: HashMap<u32, Vec<u32>>,
     /// A name in the present expression is declared more than once.
     pub ambiguous: bool,
+    /// There are positioners, which work objects may ride on.
+    pub has_positioners: bool,
 }
 
 /// The script of what was noted. `dead` are targets that are written over and have no numbers of
@@ -154,6 +156,7 @@ pub(super) fn translate(
         meanwhile: Vec::new(),
         own: HashMap::new(),
         ambiguous: false,
+        has_positioners: !settings.external.units.is_empty(),
         builder,
     };
     translator.find_own();
