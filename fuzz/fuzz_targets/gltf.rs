@@ -1,2 +1,4 @@
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| poseshift_fuzz::mesh("gltf", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    poseshift_fuzz::readers::mesh("gltf", bytes);
+});

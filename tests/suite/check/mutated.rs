@@ -1,14 +1,12 @@
-//! Readers of meshes, URDFs, profiles, cells and measurements, on files that were damaged at
-//! random: an answer or an error, and nothing else. The same in every run; `fuzz/run.sh` looks
-//! longer.
+//! Every reader of what is no program, on files that were damaged at random: an answer or an error,
+//! and nothing else. The same in every run; `fuzz/run.sh` looks longer.
 
-use crate::support::{files_below, repository};
-use poseshift::check::cell::Cell;
-use poseshift::check::mesh::Mesh;
-use poseshift::identify::measurements::Measurements;
-use poseshift::model::profile::Profile;
-use poseshift::urdf::{About, Choice, UrdfArm, profile_text};
+use crate::support::{files_below, poseshift, repository, scratch};
+use std::collections::BTreeMap;
 use std::path::Path;
+
+#[path = "../../../fuzz/src/readers.rs"]
+mod readers;
 
 /// Damaged copies of each sample.
 const COPIES: usize = 1_000;
@@ -63,54 +61,65 @@ fn damage(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
+/// What stands between the files of one sample, and before the name of each.
+const FILES: [u8; 2] = [0, 1];
+
 /// Reads a sample as what it is; whether it was taken.
-fn read(reader: &str, name: &str, bytes: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(bytes);
+fn read(reader: &str, bytes: &[u8]) -> bool {
     match reader {
-        "urdf" => {
-            let choice = Choice {
-                shapes: true,
-                ..Choice::default()
-            };
-            let arm = UrdfArm::read(&text, &choice);
-            if let Ok(arm) = &arm
-                && let Ok((text, _)) = profile_text(arm, &About::of("r.urdf", &|_| None))
-            {
-                Profile::from_yaml(&text).expect("what is made of a URDF is a profile");
-            }
-            arm.is_ok()
-        }
-        "profile" => Profile::from_yaml(&text).is_ok(),
-        "cell" => Cell::from_yaml(&text).is_ok(),
-        "measurements" => Measurements::from_csv(bytes).is_ok(),
-        _ => {
-            let nothing = |_: &str| Err(String::new());
-            let mesh = Mesh::read(name, bytes, None, &nothing);
-            if let Ok(mesh) = &mesh {
-                assert!(mesh.bounds().iter().flatten().all(|x| x.is_finite()));
-            }
-            mesh.is_ok()
-        }
+        "baseline" => readers::baseline(bytes),
+        "cell" => readers::cell(bytes),
+        "frame" => readers::frame(bytes),
+        "handeye" => readers::handeye(bytes),
+        "hexapod" => readers::hexapod(bytes),
+        "joints" => readers::joints(bytes),
+        "krc" => readers::krc(bytes),
+        "measurements" => readers::measurements(bytes),
+        "moc" => readers::moc(bytes),
+        "profile" => readers::profile(bytes),
+        "register" => readers::register(bytes),
+        "sweeps" => readers::sweeps(bytes),
+        "ur" => readers::ur(bytes),
+        "urdf" => readers::urdf(bytes),
+        "dae" | "gltf" | "obj" | "stl" => readers::mesh(reader, bytes),
+        _ => panic!("no reader {reader}"),
     }
+}
+
+/// The seeds of the fuzz targets by reader and name; those of a folder are one.
+fn samples() -> BTreeMap<(String, String), Vec<u8>> {
+    let seeds = repository("fuzz/seeds");
+    let mut samples: BTreeMap<(String, String), Vec<u8>> = BTreeMap::new();
+    for file in files_below(&seeds) {
+        let mut parts = file.iter().map(|part| part.to_str().expect("a plain name"));
+        let reader = parts.next().expect("a reader").to_owned();
+        let name = parts.next().expect("a sample").to_owned();
+        let bytes = std::fs::read(seeds.join(&file)).expect("a sample");
+        let sample = samples.entry((reader, name)).or_default();
+        if let Some(part) = parts.next() {
+            let [between, before] = FILES;
+            if !sample.is_empty() {
+                sample.push(between);
+            }
+            sample.push(before);
+            sample.extend(part.bytes().chain([b'\n']));
+        }
+        sample.extend(bytes);
+    }
+    let profile = "abb_irb120_thesis.yaml";
+    let bytes = std::fs::read(repository("robots").join(profile)).expect("a sample");
+    samples.insert(("profile".into(), profile.into()), bytes);
+    samples
 }
 
 #[test]
 fn damaged_files_end_with_an_answer() {
-    let seeds = repository("fuzz/seeds");
-    let mut samples: Vec<(String, String, Vec<u8>)> = files_below(&seeds)
-        .iter()
-        .map(|file| {
-            let reader = file.parent().and_then(Path::to_str).expect("a reader");
-            let bytes = std::fs::read(seeds.join(file)).expect("a sample");
-            (reader.to_owned(), file.display().to_string(), bytes)
-        })
-        .collect();
-    let profile = "robots/abb_irb120_thesis.yaml";
-    let bytes = std::fs::read(repository(profile)).expect("a sample");
-    samples.push(("profile".into(), profile.into(), bytes));
-    assert_eq!(samples.len(), 12);
-    for (reader, name, bytes) in &samples {
-        assert!(read(reader, name, bytes), "{name} is taken as it is");
+    let mut readers: Vec<String> = Vec::new();
+    for ((reader, name), bytes) in samples() {
+        if reader == "journal" {
+            continue;
+        }
+        assert!(read(&reader, &bytes), "{reader}/{name} is taken as it is");
         let mut random = Random(bytes.len() as u64);
         let mut taken = 0;
         for _ in 0..COPIES {
@@ -118,8 +127,52 @@ fn damaged_files_end_with_an_answer() {
             for _ in 0..=random.below(3) {
                 damage(&mut copy, &mut random);
             }
-            taken += usize::from(read(reader, name, &copy));
+            taken += usize::from(read(&reader, &copy));
         }
         assert!(taken < COPIES, "{name}: {taken} damaged copies are taken");
+        readers.push(reader);
     }
+    readers.dedup();
+    // what is neither a language nor the journal, which the next test has
+    let targets = files_below(&repository("fuzz/fuzz_targets"));
+    let targets = targets.iter().filter_map(|file| file.file_stem()?.to_str());
+    let languages = repository("programs");
+    let others = targets.filter(|name| *name != "journal" && !languages.join(name).exists());
+    assert_eq!(readers, others.collect::<Vec<_>>());
+}
+
+#[test]
+fn a_damaged_journal_changes_no_other_file() {
+    const COPIES: usize = 60;
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name);
+    let of_journal = |key: &(String, String)| key.0 == "journal";
+    let (mut refused, mut runs) = (0, 0);
+    for ((_, name), bytes) in samples().into_iter().filter(|(key, _)| of_journal(key)) {
+        let mut random = Random(bytes.len() as u64);
+        for _ in 0..COPIES {
+            let mut copy = bytes.clone();
+            for _ in 0..=random.below(3) {
+                damage(&mut copy, &mut random);
+            }
+            std::fs::write(at("kept.mod"), "kept").expect("scratch");
+            std::fs::write(at(".poseshift-journal"), &copy).expect("scratch");
+            std::fs::copy(repository("robots/abb_irb120.yaml"), at("p.yaml")).expect("scratch");
+            let mut shown = poseshift();
+            shown.args(["profile", "show", "p.yaml"]);
+            let shown = shown
+                .current_dir(folder.path())
+                .output()
+                .expect("it starts");
+            let said = String::from_utf8_lossy(&shown.stderr);
+            assert!(matches!(shown.status.code(), Some(0 | 2)), "{name}: {said}");
+            let kept = std::fs::read(at("kept.mod")).expect("it is there");
+            assert_eq!(kept, b"kept", "{name}: {said}");
+            assert!(Path::new(&at("p.yaml")).exists(), "{name}: {said}");
+            refused += usize::from(shown.status.code() == Some(2));
+            runs += 1;
+        }
+    }
+    assert_eq!(runs, 3 * COPIES);
+    assert!((1..runs).contains(&refused), "{refused} of {runs}");
 }

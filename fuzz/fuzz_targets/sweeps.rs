@@ -1,0 +1,4 @@
+#![no_main]
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    poseshift_fuzz::readers::sweeps(bytes);
+});
