@@ -237,12 +237,12 @@ impl Translator<'_> {
 
     /// Whether what joints are written for may ride on a positioner: a declared work object.
     fn may_carry(&self, argument: &Argument) -> bool {
-        let name = match argument.expression {
-            Expression::Point {
-                base: Base::Named { name, .. },
-                ..
-            } => name,
-            _ => return false,
+        let Expression::Point {
+            base: Base::Named { name, .. },
+            ..
+        } = argument.expression
+        else {
+            return false;
         };
         self.has_positioners && self.resolved.kind(name, self.context) == Some(Type::Wobjdata)
     }
