@@ -171,3 +171,37 @@ fn no_correction_turns_a_target_by_more_than_two_degrees() {
     let (status, said, _) = compensated("a.mod", &text(DEBURR), &turned("1.9"), &more);
     assert_eq!(status, 0, "{said}");
 }
+
+#[test]
+fn effects_that_programs_say_nothing_of_are_named_with_what_they_do() {
+    let program = text(DEBURR);
+    for (effect, words) in [
+        (
+            "warm_up_drift, joint: 1, angle_deg: 0.1, time_constant_s: 600",
+            "once it is warm",
+        ),
+        (
+            "thermal_growth, per_k: 2.0e-5, reference_c: 20",
+            "no thermometer",
+        ),
+        ("settling, joint: 2, share: 0.001", "rest"),
+    ] {
+        let more = format!("  effects:\n    - {{effect: {effect}}}\n");
+        let profile = changed(THESIS, "  effects:\n", &more);
+        let (status, said, written) = compensated("t.mod", &program, &profile, &[]);
+        assert_eq!((status, written.is_some()), (0, true), "{said}");
+        let found = said
+            .lines()
+            .find(|line| line.contains("warning[effect-left-out]"));
+        let found = found.unwrap_or_else(|| panic!("{said}"));
+        assert!(found.contains(words), "{found}");
+        // alone it corrects nothing
+        let at = profile.find("  effects:\n").expect("effects") + more.len();
+        let (status, said, written) = compensated("t.mod", &program, &profile[..at], &[]);
+        assert_eq!((status, written), (2, None), "{said}");
+        assert!(
+            said.contains("no effect that moves the tool in a program"),
+            "{said}"
+        );
+    }
+}

@@ -193,6 +193,7 @@ impl Walk {
         plausibility::units(&ground, Severity::Warning, &mut findings);
         plausibility::names(&ground, &mut findings);
         plausibility::models(&ground, &mut findings);
+        plausibility::left_out(&ground, &mut findings);
         let walk_options = WalkOptions {
             start_joints: options.start_joints,
             exact: true,

@@ -73,6 +73,7 @@ use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Separation};
 pub use crate::inverse::Methods;
 use crate::inverse::Unsupported;
+use crate::model::effects::Effect;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
@@ -183,8 +184,8 @@ pub enum CompensateError {
     Arm(#[from] Unsupported),
     /// There is nothing to correct.
     #[error(
-        "the profile has no effect that moves the tool: the program would be marked as compensated \
-         and be the same"
+        "the profile has no effect that moves the tool in a program (of time and temperature a program \
+         says nothing): it would be marked as compensated and be the same"
     )]
     NothingToCorrect,
     /// The part is moved in the world, and a positioner rotates it in between.
@@ -366,6 +367,7 @@ fn with(
     plausibility::units(&ground, Severity::Error, &mut findings);
     plausibility::names(&ground, &mut findings);
     plausibility::models(&ground, &mut findings);
+    plausibility::left_out(&ground, &mut findings);
     let limits = Limits::new(&ground, options.max_shift);
     let job = Job {
         ground,
@@ -385,7 +387,12 @@ fn with(
         });
         findings.extend(strange?);
     }
-    if options.work_offset.is_none() && profile.real_effects() == profile.controller_effects() {
+    let counting = |mut effects: Vec<Effect>| {
+        effects.retain(plausibility::counts);
+        effects
+    };
+    let is_same = counting(profile.real_effects()) == counting(profile.controller_effects());
+    if options.work_offset.is_none() && is_same {
         return Err(CompensateError::NothingToCorrect);
     }
     let mut outcomes = solve::solve(

@@ -112,6 +112,7 @@ pub const TABLE: &[Kind] = &[
     row("displacement-active", Error, "a shift of the program may be active at the move", "switch it off in the same routine before the move", &["compensate", "check"], &["rapid", "inform"]),
     row("displacement-unknown", Warning, "a move displaces its target by what the text does not say", "give the point a target of its own if it must be exact", &["compensate"], &[]),
     row("duplicate-rows", Warning, "rows repeat an earlier one to the last digit: they count twice", "a device never repeats itself exactly: leave copies out", &["calibrate", "validate", "diagnose"], &[]),
+    row("effect-left-out", Warning, "an effect of the profile depends on time, temperature or whether the robot rests, which programs do not say: it counts for nothing", "run the program on a robot in the state in which this does not act, or calibrate it as it is at work", &["compensate", "check"], &[]),
     row("effect-unused", Warning, "an effect of one tool applies to no move, and the profile has no tool of its name", "correct `tool` of the effect; without it the effect is of every tool", &["compensate", "check"], &[]),
     row("encoding", Note, "a table is no UTF-8: it is read as Latin-1, or UTF-16 by its mark", "save it as UTF-8 to be sure of its names", &["calibrate", "validate", "diagnose"], &[]),
     row("export-recognised", Note, "a table is read by the layout of an export of measuring software", "say what its columns are with --columns and --units where that is not so", &["calibrate", "validate", "diagnose"], &[]),

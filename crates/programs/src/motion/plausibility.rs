@@ -6,9 +6,9 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Vector;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::Conditions;
-use crate::model::effects::{Effect, same_tool};
+use crate::model::effects::{Effect, Need, same_tool};
 use crate::nearest;
-use crate::profile::{ToolOfProfile, is_tiny};
+use crate::profile::{Profile, ToolOfProfile, is_tiny};
 use crate::program::Move;
 use std::f64::consts::TAU;
 
@@ -282,6 +282,14 @@ fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     Some(ground.at_move(id, severity, motion, message, hint))
 }
 
+/// Joints about in the middle of their ranges, and aligned with nothing.
+fn middle(ground: &Ground) -> [f64; 6] {
+    std::array::from_fn(|i| {
+        let joint = &ground.profile.mechanism.joints[i];
+        0.4 * joint.min_rad + 0.6 * joint.max_rad
+    })
+}
+
 /// Tools with which the arm's models give no finite pose, each at the first move that has it.
 pub(crate) fn models(ground: &Ground, findings: &mut Vec<Finding>) {
     let mut reported = vec![false; ground.arms.len()];
@@ -292,10 +300,7 @@ pub(crate) fn models(ground: &Ground, findings: &mut Vec<Finding>) {
         if std::mem::replace(&mut reported[motion.tool], true) {
             continue;
         }
-        let q = std::array::from_fn(|i| {
-            let joint = &ground.profile.mechanism.joints[i];
-            0.4 * joint.min_rad + 0.6 * joint.max_rad
-        });
+        let q = middle(ground);
         let conditions = &equipped.inverse.conditions;
         let models = [
             ("real arm", equipped.inverse.real.forward(&q, conditions)),
@@ -318,4 +323,89 @@ pub(crate) fn models(ground: &Ground, findings: &mut Vec<Finding>) {
             ));
         }
     }
+}
+
+/// Time in which a robot is warm, seconds: a year.
+const WARM_S: f64 = 3e7;
+/// By how much a workshop may be warmer than where an arm was measured, kelvin.
+const WARMER_K: f64 = 10.0;
+/// A move behind which a joint may not have come to rest, radians.
+const MOVED_RAD: f64 = 30.0 * DEG;
+
+/// Effects of the profile that programs give nothing to compute with: time, temperature, whether the
+/// robot rests. They count as zero, and what that may be off is at least said.
+pub(crate) fn left_out(ground: &Ground, findings: &mut Vec<Finding>) {
+    let Some(motion) = ground
+        .program
+        .moves
+        .iter()
+        .find(|motion| ground.equipped(motion.tool).is_some())
+    else {
+        return;
+    };
+    for effect in ground.profile.real_effects() {
+        let (because, conditions) = match left_out_for(&effect) {
+            Some(found) if !effect.is_zero() => found,
+            _ => continue,
+        };
+        let alone = Profile {
+            effects: vec![effect.clone()],
+            ..ground.profile.clone()
+        };
+        let tool = &ground.setting.tools[motion.tool];
+        let Some(tool) = tool.as_ref() else { continue };
+        let q = middle(ground);
+        let at =
+            |conditions: &Conditions| alone.real_model(tool, conditions).forward(&q, conditions);
+        let by_m = at(&conditions)
+            .separation(&at(&Conditions::default()))
+            .distance_m;
+        let of_joint = effect.site.index < 6 && !effect.definition().site.is_empty();
+        let on = if of_joint {
+            format!(" of joint {}", effect.site.index + 1)
+        } else {
+            String::new()
+        };
+        let message = format!(
+            "`{}`{on} of the profile counts for nothing: {because} the tool is elsewhere, by {:.3} mm \
+             in the middle of the joints' ranges",
+            effect.definition().id,
+            mm_from_m(by_m)
+        );
+        let hint = "run the program on a robot that is as it was when nothing of this acted, or calibrate \
+            it as it is at work, without this effect";
+        let (id, severity) = ("effect-left-out", Severity::Warning);
+        findings.push(ground.at_move(id, severity, motion, message, hint));
+    }
+}
+
+/// Whether programs say what an effect is computed with.
+pub(crate) fn counts(effect: &Effect) -> bool {
+    left_out_for(effect).is_none()
+}
+
+/// Why an effect counts as zero in a program, and conditions under which it does not.
+fn left_out_for(effect: &Effect) -> Option<(String, Conditions)> {
+    let plain = Conditions::default();
+    effect.definition().needs.iter().find_map(|need| match need {
+        Need::Time => Some((
+            "a program has no clock, so the robot is taken as cold; once it is warm".to_owned(),
+            Conditions { time_s: Some(WARM_S), ..plain },
+        )),
+        Need::Temperature => {
+            let reference_c = effect.parameters[1];
+            Some((
+                format!(
+                    "a program has no thermometer, so the arm is taken as it is at {reference_c} °C; with \
+                     {WARMER_K} °C more"
+                ),
+                Conditions { temperature_c: Some(reference_c + WARMER_K), ..plain },
+            ))
+        }
+        Need::Moves => Some((
+            "the robot is taken to rest; right behind moves of 30 degrees".to_owned(),
+            Conditions { moved: [MOVED_RAD; 6], ..plain },
+        )),
+        _ => None,
+    })
 }
