@@ -1,6 +1,6 @@
 //! Values on the command line.
 
-use crate::geometry::units::{DEG, m_from_mm};
+use crate::geometry::units::{DEG, MM, m_from_mm};
 use crate::geometry::{Pose, Separation, Vector};
 use crate::identify::external::from_files;
 use crate::model::external::Listed;
@@ -18,6 +18,8 @@ const MOST_SHIFT_MM: f64 = 1000.0;
 const MOST_SHIFT_DEG: f64 = 180.0;
 /// No point is farther away, mm.
 const MOST_POINT_MM: f64 = 1e6;
+/// How far beyond its limits an external axis may stand: numbers round. Metres and radians.
+const BORDER: f64 = 1e-6;
 
 /// `30mm,3deg`, or the numbers alone.
 pub(super) fn max_shift(text: &str) -> Result<Separation, Failure> {
@@ -158,6 +160,26 @@ pub(super) fn start(text: Option<&str>, profile: &Profile) -> Result<Start, Fail
             axes.len()
         );
         return Err(Failure::with_hint(message, hint));
+    }
+    for (axis, &place) in axes.iter().zip(external) {
+        let (low, high) = axis.limits();
+        let is_within = (low - BORDER..=high + BORDER).contains(&from_files(axis, place));
+        if !is_within {
+            let (one, unit) = if axis.is_linear() {
+                (MM, "mm")
+            } else {
+                (DEG, "deg")
+            };
+            let (low, high) = (low / one, high / one);
+            return Err(Failure::with_hint(
+                format!(
+                    "--start-joints {text}: external axis {} is at {place:?} {unit}; its limits are \
+                     {low:.3} to {high:.3} {unit}",
+                    axis.name()
+                ),
+                "correct it, or the limits under `external_axes` of the profile",
+            ));
+        }
     }
     let places = axes.iter().zip(external);
     Ok(Start {

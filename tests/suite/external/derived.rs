@@ -215,4 +215,9 @@ fn where_external_axes_stand_at_the_start_tells_from_which_side_they_come() {
     assert_eq!(status, Some(2), "{said}");
     assert!(said.contains("external axes in the profile: 1"), "{said}");
     assert!(said.contains("eax_a (mm)"), "{said}");
+    let (status, said) = run(Some("0,0,10,0,60,0,9000"));
+    assert!(
+        status == Some(2) && said.contains("its limits are"),
+        "{said}"
+    );
 }
