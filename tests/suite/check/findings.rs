@@ -404,3 +404,34 @@ fn a_target_in_reach_of_a_base_at_the_origin_names_the_base() {
     let reported = run(&here);
     assert!(!reported.contains("out-of-reach"), "{reported}");
 }
+
+#[test]
+fn a_target_that_no_correction_explains_is_not_one_of_the_original() {
+    let joints = "    MoveAbsJ [[0,10,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n";
+    let program = |by_mm: f64| {
+        let line = straight_to(
+            [0.0, 12.0, 12.0, 0.0, 60.0, 0.0],
+            [by_mm, 0.0, 0.0],
+            [0, 0, 0, 0],
+        );
+        rapid(&format!("    ConfL\\Off;\n{joints}{line}"))
+    };
+    let found = |by_mm: f64| {
+        let (original, options) = (program(0.0), Options::default());
+        let check = run(
+            &profile(THESIS),
+            None,
+            &program(by_mm),
+            Some(&original),
+            &options,
+        );
+        let elsewhere = check.findings.iter().filter(|f| f.id == "target-elsewhere");
+        elsewhere.map(|f| (f.severity, f.line)).collect::<Vec<_>>()
+    };
+    assert_eq!(found(15.0), []);
+    let [(severity, line)] = found(30.0)[..] else {
+        panic!("{:?}", found(30.0));
+    };
+    assert_eq!(severity, Severity::Warning);
+    assert!(line > 0);
+}

@@ -19,7 +19,7 @@ const COUNTS: usize = 949;
 /// The limit is so many times what the effects do there.
 const TIMES: f64 = 10.0;
 /// No limit is larger unless the user raises it.
-const MOST: Separation = Separation {
+pub(crate) const MOST: Separation = Separation {
     distance_m: 20.0 * MM,
     angle_rad: 2.0 * DEG,
 };

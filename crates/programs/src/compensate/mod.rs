@@ -63,6 +63,7 @@ mod strides;
 mod written;
 
 use limit::Limits;
+pub(crate) use limit::MOST as MOST_SHIFT;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use portions::{Rewritten, rewrite_all};
 use rewrite::Split;

@@ -226,6 +226,7 @@ pub const TABLE: &[Kind] = &[
     row("sync-move", Note, "the move runs together with one of another robot", "check both robots together", &["compensate", "check"], &["rapid"]),
     row("target-assigned-at-run-time", Error, "the running program changes the target", "correct the value where the program computes it, or keep the target out of the path", &["compensate", "check"], &[]).was(&["target-used-by-instruction"]),
     row("target-copied", Warning, "another target is computed from this one", "see whether the other one should be compensated, too", &["compensate", "check"], &["krl", "fanuc", "urscript", "inform"]),
+    row("target-elsewhere", Warning, "a move ends farther from where --nominal wants it than any correction goes", "compare with the original of the program; compensate it again", &["check"], &[]),
     row("target-has-expressions", Error, "parts of the target are expressions, not numbers", "write the target with numbers in the offline system", &["compensate", "check"], &["rapid", "krl", "urscript"]).was(&["joints-have-expressions"]),
     row("target-in-context", Error, "a move goes to a target in a file that is read for its declarations only", "give that file as a program too", &["compensate"], &[]),
     row("target-name-ambiguous", Error, "a name is declared more than once, and its use does not say which is meant", "pass only the files of one controller, or make the data local", &["compensate", "check"], &["rapid", "krl", "fanuc", "inform", "val3", "kawasaki"]).was(&["target-declared-twice"]),

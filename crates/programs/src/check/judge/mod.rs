@@ -6,8 +6,9 @@ mod joints;
 use super::deviation::{self, PathError, Wanted};
 use super::walk::{Arms, Walk};
 use super::{MoveReport, Options, Subject, limits, nominal};
+use crate::compensate::MOST_SHIFT;
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Separation, norm, scale, sub};
 use crate::motion::leg::{Leg, Piece};
 use crate::motion::plausibility::OUT_OF_BOUNDS;
@@ -92,6 +93,7 @@ impl Job<'_> {
             clearance.certified &= self.walk.is_followed(index);
         }
         self.judge_path(index, &report, &mut findings);
+        findings.extend(self.is_another(index, &report));
         findings.extend(self.not_finite(index, &landed, &report));
         (Some(report), findings)
     }
@@ -122,6 +124,29 @@ impl Job<'_> {
             own: true,
         };
         deviation::path_error(leg, pieces, &wanted, &arms.plain, &arms.jets)
+    }
+
+    /// That a move ends farther from where the original has it than corrections go.
+    fn is_another(&self, index: usize, report: &MoveReport) -> Option<Finding> {
+        let (off, most) = (&report.target_error, MOST_SHIFT);
+        let is_far = off.distance_m > most.distance_m || off.angle_rad > most.angle_rad;
+        self.original.filter(|_| is_far)?;
+        let message = format!(
+            "the real tool ends {:.3} mm and {:.3} deg from where the original program wants it; no \
+             correction goes farther than {:.0} mm and {:.0} deg",
+            mm_from_m(off.distance_m),
+            off.angle_rad / DEG,
+            mm_from_m(most.distance_m),
+            most.angle_rad / DEG
+        );
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            "target-elsewhere",
+            Severity::Warning,
+            message,
+            "is --nominal the original of this program, and was the part moved (--work-offset)? \
+             compensate the original again",
+        ))
     }
 
     /// What is no finite number is neither near nor far.
