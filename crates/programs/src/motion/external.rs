@@ -106,7 +106,8 @@ pub(crate) fn settle(
     }
     let own = own_values(language, program, &axes);
     let (mut values, directions) = followed(program, profile, &own, axes.len());
-    passed::pass_arcs(language, program, sources, &axes, &mut values, findings);
+    let stands = (&own[..], &mut values[..]);
+    passed::pass_arcs(language, program, sources, &axes, stands, findings);
     let is = |known: &Known| match known {
         Known::Is(value) => Some(*value),
         _ => None,

@@ -19,13 +19,14 @@ use crate::program::{Before, Displacement, Language, Motion, Move, Program, Role
 const SAME_M: f64 = 1e-3;
 const SAME_RAD: f64 = 0.1 * DEG;
 
-/// Puts the values with which arcs pass their points in the place of those that are written.
+/// Puts the values with which arcs pass their points in the place of those that are written, or kept
+/// where nothing is.
 pub(super) fn pass_arcs(
     language: &dyn Language,
     program: &Program,
     sources: &[Source],
     axes: &[Listed],
-    values: &mut [Known],
+    (own, values): (&[Option<f64>], &mut [Known]),
     findings: &mut Vec<Finding>,
 ) {
     let only_before = |motion: &Move| match program.before(motion) {
@@ -50,7 +51,11 @@ pub(super) fn pass_arcs(
             let written = std::mem::replace(&mut values[at(via)], Known::Is(passed));
             let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
             match written {
-                Known::Is(written) if (written - passed).abs() > same && !is_reported => {
+                Known::Is(written)
+                    if own[at(via)].is_some()
+                        && (written - passed).abs() > same
+                        && !is_reported =>
+                {
                     is_reported = true;
                     let motion = &program.moves[via];
                     findings.push(elsewhere(motion, sources, axis, [written, passed]));
