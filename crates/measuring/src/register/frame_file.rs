@@ -198,16 +198,60 @@ impl Frame {
         if !self.provenance.is_empty() {
             text += "provenance:\n";
             for (key, value) in &self.provenance {
-                writeln!(text, "  {key}: {}", quoted(value)).expect(ok);
+                writeln!(text, "  {}: {}", key_text(key), quoted(value)).expect(ok);
             }
         }
         text
     }
 }
 
+/// A key as YAML has it: in quotes where it is not a plain word, or one that YAML takes for a value.
+fn key_text(key: &str) -> String {
+    let is_word = key.starts_with(|c: char| c.is_ascii_lowercase())
+        && key
+            .chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
+    let is_value = matches!(
+        key,
+        "true" | "false" | "null" | "yes" | "no" | "on" | "off" | "y" | "n"
+    );
+    if is_word && !is_value {
+        key.to_owned()
+    } else {
+        quoted(key)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_of_any_text_are_read_back() {
+        for key in [
+            "null",
+            "true",
+            "1",
+            "a b",
+            "m\n\n$\n=\n!o",
+            "",
+            "#",
+            "- a",
+            "ä",
+            "from_to2",
+            "N",
+        ] {
+            let frame = Frame {
+                provenance: BTreeMap::from([(key.to_owned(), "a: b".to_owned())]),
+                to_from_from: Pose::identity(),
+                sigma: None,
+                rmsd_m: None,
+                points: None,
+            };
+            let back = Frame::from_yaml(&frame.to_yaml());
+            assert_eq!(back.expect(key).provenance, frame.provenance);
+        }
+    }
 
     #[test]
     fn a_written_frame_is_read_back_and_other_keys_are_refused() {
