@@ -19,6 +19,7 @@ mod registers;
 mod rotations;
 mod rows;
 mod straight;
+mod wrist;
 
 use crate::support::repository;
 use poseshift::compensate::{CompensateError, Compensation, Given, Options, compensate};

@@ -267,8 +267,14 @@ fn changed_directions(
             ride,
             walk_options,
         );
-        directions[at] =
-            follow::arrival_direction(equipped, &course, &start, &end, arrival.branch, carried);
+        directions[at] = follow::direction_of(
+            motion,
+            equipped,
+            &course,
+            [&start, &end],
+            arrival.branch,
+            carried,
+        );
     }
     let differs = |(at, approach): (usize, &Approach)| {
         let direction = *directions.get(approach.arrival as usize)?;

@@ -152,8 +152,29 @@ fn through_wrist(
     is_through.then_some((other, behind))
 }
 
+/// As [`arrival_direction`] for a move, on which the joints of the wrist may lead the tool: they then go
+/// at constant rates from beginning to end.
+///
+/// # Source
+/// ABB, Technical reference manual RAPID Instructions, `SingArea`: with `\Wrist` the orientation is
+/// joint-interpolated. KUKA, `$ORI_TYPE`: with `#JOINT` the axes of the wrist are. FANUC, `Wjnt`.
+pub(crate) fn direction_of(
+    motion: &Move,
+    equipped: &Equipped,
+    course: &Course,
+    [start, end]: [&[f64; 6]; 2],
+    branch: Branch,
+    before: [i8; 6],
+) -> [i8; 6] {
+    let mut direction = arrival_direction(equipped, course, start, end, branch, before);
+    if motion.free_orientation && motion.motion != Motion::Joint {
+        direction[3..].copy_from_slice(&turned(start, end, before)[3..]);
+    }
+    direction
+}
+
 /// The sign of each joint's rate at the end of a path; a joint that stands keeps its direction.
-pub(crate) fn arrival_direction(
+fn arrival_direction(
     equipped: &Equipped,
     course: &Course,
     start: &[f64; 6],

@@ -6,7 +6,7 @@
 //! of its rate at the end of the path; one that stands keeps its last.
 
 use super::course::ToolRotation;
-use super::follow::{arrival_direction, course, turned};
+use super::follow::{course, direction_of, turned};
 use super::ground::Ground;
 use super::posture::OUT_OF_REACH;
 use super::{middle, plausibility, ride};
@@ -444,7 +444,14 @@ impl Walker<'_, '_> {
                     ride,
                     self.walk_options,
                 );
-                arrival_direction(equipped, &course, &start, &q, posture.branch, direction)
+                direction_of(
+                    motion,
+                    equipped,
+                    &course,
+                    [&start, &q],
+                    posture.branch,
+                    direction,
+                )
             }
             None => [0; 6],
         };
