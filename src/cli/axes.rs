@@ -38,15 +38,16 @@ impl Axes {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
+        let progress = Progress::new(output, "reading");
         let sweeps = files.source(&self.sweeps)?;
         self.report.refuse_over(&files, [])?;
-        let progress = Progress::new(output, "fitting");
+        progress.say("fitting");
         let found = axes(&profile, &sweeps, self.point.as_deref())?;
-        drop(progress);
         let ending = Ending {
             report: Some(&self.report),
             pendant: self.pendant,
             shown: Shown::All,
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

@@ -126,7 +126,6 @@ impl Calibrate {
         self.report.refuse_over(&files, self.output.as_deref())?;
         progress.say("identifying");
         let mut found = calibrate(&profile, measurements, &options, &mut || ())?;
-        drop(progress);
         let (mut written, mut also) = (Vec::new(), String::new());
         if let Some(path) = &self.output {
             let text = found.profile_text(&profile, self.date.as_deref())?;
@@ -141,6 +140,7 @@ impl Calibrate {
             also: &also,
             answer: Answer::Yes,
             pendant: self.pendant,
+            progress: Some(progress),
         };
         finish(&files, &found, ending, output)
     }

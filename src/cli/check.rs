@@ -153,7 +153,7 @@ impl Check {
         };
         progress.say("checking");
         let found = check(&request, &mut |done, of| progress.tell(done, of))?;
-        drop(progress);
+        progress.say("reporting");
         let header = found.header(&left_out);
         let run = Run::new(&header, &found.check, None);
         let comparison = self.compare(&files, &run)?;
@@ -181,6 +181,7 @@ impl Check {
         } else {
             Said::text(self.tell(&run, refused, &found.notes, output))
         };
+        drop(progress);
         deliver(&files, &outputs, said, answer)
     }
 

@@ -67,7 +67,6 @@ impl Diagnose {
         } else {
             diagnose(&profile, measurements, &options, hear)?
         };
-        drop(progress);
         let is_sure = found.is_sure();
         let (mut written, mut also) = (Vec::new(), String::new());
         if let Some(path) = &self.output {
@@ -100,6 +99,7 @@ impl Diagnose {
             shown: Shown::All,
             also: &also,
             answer: if is_sure { Answer::Yes } else { Answer::No },
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

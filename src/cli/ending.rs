@@ -1,6 +1,7 @@
 //! What a command does with its result: files, a page, then JSON alone, or findings and text.
 
 use super::files::{Files, NewFile, is_standard_output};
+use super::progress::Progress;
 use super::screen::{self, Stop};
 use super::{Answer, Output, layout};
 use crate::finding::Severity;
@@ -158,6 +159,8 @@ pub(super) struct Ending<'a> {
     pub pendant: Pendant,
     /// What the exit status says.
     pub answer: Answer,
+    /// What is drawn until the result is printed.
+    pub progress: Option<Progress>,
 }
 
 impl Default for Ending<'_> {
@@ -169,6 +172,7 @@ impl Default for Ending<'_> {
             also: "",
             pendant: Pendant::default(),
             answer: Answer::Yes,
+            progress: None,
         }
     }
 }
@@ -336,6 +340,7 @@ fn deliver_with_page(
         }
         written.extend(report.output(page.as_ref()));
     }
+    drop(ending.progress);
     deliver(files, &written, said, ending.answer)
 }
 

@@ -63,6 +63,7 @@ impl Handeye {
         let files = Files::default();
         let profile = self.profile.as_deref();
         let profile = profile.map(|path| files.profile(path)).transpose()?;
+        let progress = Progress::new(output, "reading");
         let corners = self.corners.as_deref();
         let corners = corners.map(|path| files.source(path)).transpose()?;
         let inputs = Inputs {
@@ -77,9 +78,8 @@ impl Handeye {
             SetupArg::EyeToHand => Setup::EyeToHand,
             SetupArg::EyeInHand => Setup::EyeInHand,
         };
-        let progress = Progress::new(output, "solving");
+        progress.say("solving");
         let found = handeye(&inputs, setup)?;
-        drop(progress);
         let frame = self.output.iter().map(|path| {
             let text = found.frame_text.clone();
             (path.clone(), text.into_bytes().into())
@@ -88,6 +88,7 @@ impl Handeye {
             written: frame.collect(),
             report: Some(&self.report),
             pendant: self.pendant,
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

@@ -76,17 +76,18 @@ impl Hexapod {
             )));
         }
         let files = Files::default();
+        let progress = Progress::new(output, "reading");
         if let Some(path) = &self.taught {
-            return self.set_base(&files, path, output);
+            return self.set_base(&files, path, progress, output);
         }
         if self.reach {
-            return self.list(&files, output);
+            return self.list(&files, progress, output);
         }
         let path = self.lengths.as_ref();
         let path = path.expect("clap asks for LENGTHS where nothing else is asked");
-        let progress = Progress::new(output, "solving");
-        let found = poses(&files.source(path)?, m_from_mm(self.sigma_mm))?;
-        drop(progress);
+        let lengths = files.source(path)?;
+        progress.say("solving");
+        let found = poses(&lengths, m_from_mm(self.sigma_mm))?;
         let measurements = self.output.as_ref().map(|_| {
             let world_from_base = match &self.frame {
                 Some(path) => frame(&files.source(path)?)?.to_from_from,
@@ -94,7 +95,7 @@ impl Hexapod {
             };
             found.measurements(&world_from_base)
         });
-        self.finish(&files, &found, measurements.transpose()?, output)
+        self.finish(&files, &found, measurements.transpose()?, progress, output)
     }
 
     /// Tells a result; `text` is what is written to the output.
@@ -103,6 +104,7 @@ impl Hexapod {
         files: &Files,
         found: &impl Report,
         text: Option<String>,
+        progress: Progress,
         output: Output,
     ) -> Result<Answer, Failure> {
         let written = self
@@ -113,16 +115,24 @@ impl Hexapod {
         let ending = Ending {
             written: written.collect(),
             report: Some(&self.report),
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(files, found, ending, output)
     }
 
-    fn set_base(&self, files: &Files, path: &Path, output: Output) -> Result<Answer, Failure> {
+    fn set_base(
+        &self,
+        files: &Files,
+        path: &Path,
+        progress: Progress,
+        output: Output,
+    ) -> Result<Answer, Failure> {
         let base_m = three("--base-mm", self.base_mm.as_deref())?;
         let found = base(&files.source(path)?, base_m)?;
         if output.json {
-            return self.finish(files, &found, Some(found.frame_text.clone()), output);
+            let text = Some(found.frame_text.clone());
+            return self.finish(files, &found, text, progress, output);
         }
         let text = found.frame_text.clone().into_bytes();
         let written = self
@@ -148,10 +158,11 @@ impl Hexapod {
                 ..Said::data(text)
             },
         };
+        drop(progress);
         deliver(files, &written, said, Answer::Yes)
     }
 
-    fn list(&self, files: &Files, output: Output) -> Result<Answer, Failure> {
+    fn list(&self, files: &Files, progress: Progress, output: Output) -> Result<Answer, Failure> {
         let device = Device {
             base_m: three("--base-mm", self.base_mm.as_deref())?,
             tool_m: three("--tool-mm", self.tool_mm.as_deref())?,
@@ -161,8 +172,9 @@ impl Hexapod {
         let missing = "clap asks for it with --reach";
         let profile = files.profile(self.profile.as_ref().expect(missing))?;
         let frame = files.source(self.frame.as_ref().expect(missing))?;
+        progress.say("solving");
         let found = measurable_poses(&profile, self.tool.as_deref(), &frame, &device)?;
-        self.finish(files, &found, Some(found.csv()), output)
+        self.finish(files, &found, Some(found.csv()), progress, output)
     }
 }
 

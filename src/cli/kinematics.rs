@@ -74,8 +74,9 @@ impl Fk {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
+        let progress = Progress::new(output, "reading");
         let joints = files.source(&self.joints)?;
-        let progress = Progress::new(output, "computing poses");
+        progress.say("computing poses");
         let mut tell = |done, of| progress.tell(done, of);
         let found = fk_telling(&profile, &joints, &options, &mut tell)?;
         drop(progress);
@@ -88,8 +89,9 @@ impl Ik {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
         let options = options(self.model, self.tool.as_ref());
+        let progress = Progress::new(output, "reading");
         let poses = files.source(&self.poses)?;
-        let progress = Progress::new(output, "computing joints");
+        progress.say("computing joints");
         let mut tell = |done, of| progress.tell(done, of);
         let found = ik_telling(&profile, &poses, &options, self.all, &mut tell)?;
         drop(progress);

@@ -156,6 +156,7 @@ impl PlanCommand {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
+        let progress = Progress::new(output, "reading");
         let request = self.request(&files, &profile)?;
         let outputs = self.output.iter().chain(&self.program);
         self.report
@@ -171,7 +172,7 @@ impl PlanCommand {
             name,
             language: self.language.as_deref(),
         });
-        let progress = Progress::new(output, "choosing");
+        progress.say("choosing");
         let mut hear = |done, of| progress.tell(done, of);
         let mut found = match &self.plate {
             Some(name) => {
@@ -193,7 +194,6 @@ impl PlanCommand {
                 &mut hear,
             )?,
         };
-        drop(progress);
         let mut written = Vec::new();
         let table = self.output.iter().zip([found.csv()]);
         let program = self.program.iter().zip(found.program.clone());
@@ -205,6 +205,7 @@ impl PlanCommand {
         let ending = Ending {
             written,
             report: Some(&self.report),
+            progress: Some(progress),
             ..Ending::default()
         };
         if self.output.is_some() || output.json {

@@ -182,6 +182,7 @@ impl Register {
     pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let options = self.options()?;
         let files = Files::default();
+        let progress = Progress::new(output, "reading");
         let from = files.source(&self.from)?;
         let to = self.to.as_deref();
         let to = to.map(|path| files.source(path)).transpose()?;
@@ -199,9 +200,8 @@ impl Register {
             (Some(to), None) => Pairing::Rows(to),
             (None, None) => unreachable!("clap asks for TO where there is no --frame"),
         };
-        let progress = Progress::new(output, "registering");
+        progress.say("registering");
         let mut found = register(&from, &pairing, &options)?;
-        drop(progress);
         let refused = found.is_refused();
         let mut written = Vec::new();
         if let Some(path) = self.output.as_ref().filter(|_| !refused) {
@@ -213,6 +213,7 @@ impl Register {
             report: Some(&self.report),
             pendant: self.pendant,
             answer: if refused { Answer::No } else { Answer::Yes },
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

@@ -108,9 +108,10 @@ impl Simulate {
         let session = self.session()?;
         let files = Files::default();
         let profile = files.profile(&self.profile)?;
+        let progress = Progress::new(output, "reading");
         let joints = files.source(&self.joints)?;
         files.refuse_over(self.output.as_deref())?;
-        let progress = Progress::new(output, "measuring");
+        progress.say("measuring");
         let mut found = simulate(&profile, &joints, self.tool.as_deref(), &session)?;
         drop(progress);
         let Some(path) = &self.output else {

@@ -65,7 +65,6 @@ impl Validate {
         let found = validate(&profile, measurements, &options, &mut |done, of| {
             progress.tell(done, of);
         })?;
-        drop(progress);
         let ending = Ending {
             report: Some(&self.report),
             shown: Shown::All,
@@ -73,6 +72,7 @@ impl Validate {
                 Some(standing) if !standing.is_so() => Answer::No,
                 _ => Answer::Yes,
             },
+            progress: Some(progress),
             ..Ending::default()
         };
         finish(&files, &found, ending, output)

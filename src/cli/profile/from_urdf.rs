@@ -2,6 +2,7 @@
 
 use super::super::ending::print_table;
 use super::super::files::Files;
+use super::super::progress::Progress;
 use super::super::{Answer, Output};
 use super::{Over, make};
 use crate::printable::name_of;
@@ -75,6 +76,7 @@ impl FromUrdf {
                 return Err(Failure::new(format!("--tool {name} is given twice")));
             }
         }
+        let progress = Progress::new(output, "reading");
         let mut found = from_urdf(&Inputs {
             urdf: &self.urdf(files)?,
             origin: &origin,
@@ -88,6 +90,7 @@ impl FromUrdf {
             about: [&self.maker, &self.language, &self.serial].map(Option::as_deref),
             tools,
         })?;
+        drop(progress);
         let Some(path) = &self.output else {
             return print_table(&found, output, Answer::Yes);
         };

@@ -19,6 +19,7 @@ mod out_of_bounds;
 mod outputs;
 mod outputs_kept;
 mod planning;
+mod progress;
 pub mod reports;
 mod robots;
 mod streams;
