@@ -166,14 +166,12 @@ fn run(
         options
             .write(true)
             .custom_flags(OFlags::NONBLOCK.bits().cast_signed());
-        match options.open(folder.join(PIPE)) {
-            Ok(free) => break free,
-            Err(_) => {
-                let ended = child.try_wait().expect("a child");
-                assert!(ended.is_none(), "{command}: nothing is read: {ended:?}");
-                std::thread::sleep(Duration::from_millis(2));
-            }
+        if let Ok(free) = options.open(folder.join(PIPE)) {
+            break free;
         }
+        let ended = child.try_wait().expect("a child");
+        assert!(ended.is_none(), "{command}: nothing is read: {ended:?}");
+        std::thread::sleep(Duration::from_millis(2));
     };
     let mut options = File::options();
     let mut pipe = options
