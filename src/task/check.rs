@@ -3,8 +3,8 @@
 use super::meshes::{Loader, Reader};
 use super::parts::{Names, finite};
 use super::programs::{
-    LeftOut, common_language, compared_with_itself, explain, paired, refuse_other_origin,
-    refuse_swapped,
+    LeftOut, common_language, compared_where_it_was, compared_with_itself, explain, paired,
+    refuse_other_origin, refuse_swapped,
 };
 use super::{Document, Failure, ProfileFile};
 use crate::check::baseline::{self, BaselineError, Comparison, Tolerances};
@@ -131,9 +131,10 @@ pub fn check<'a>(
             "is it the program that this one was made from?",
         ),
     })?;
-    if nominal.is_none() {
-        check.findings.extend(compared_with_itself(sources));
-    }
+    check.findings.extend(match nominal {
+        None => compared_with_itself(sources),
+        Some(_) => compared_where_it_was(sources),
+    });
     accept_errors(&mut check.findings, request.accepted, &sources[0].name);
     let names = |sources: &[Source]| -> Vec<String> {
         let own = sources.iter().filter(|source| !source.is_context);

@@ -348,6 +348,28 @@ pub fn compared_with_itself(sources: &[Source]) -> Vec<Finding> {
     found.collect()
 }
 
+/// That programs for a part that was moved are compared with where it was.
+#[must_use]
+pub fn compared_where_it_was(sources: &[Source]) -> Vec<Finding> {
+    let own = sources.iter().filter(|source| !source.is_context);
+    let found = own.filter_map(|source| {
+        let found = Found::of(&source.bytes);
+        let (offset, by) = (found.offset?, found.moved?);
+        let message = format!(
+            "this program was compensated for a part that was moved by {by} (--work-offset), and is \
+             compared with where the original has it: that is in the errors below"
+        );
+        Some(source.finding(
+            offset,
+            "part-moved",
+            Severity::Warning,
+            message,
+            "compare a file that was compensated without --work-offset",
+        ))
+    });
+    found.collect()
+}
+
 /// The programs whose files are called so, in whatever folder; all of them where there is none.
 fn of_name(name: &str, programs: &[Source]) -> Vec<usize> {
     let file = |name: &str| Path::new(name).file_name().map(OsStr::to_owned);

@@ -205,3 +205,28 @@ fn effects_that_programs_say_nothing_of_are_named_with_what_they_do() {
         );
     }
 }
+
+#[test]
+fn a_part_that_was_moved_stands_in_the_marker_and_check_says_so() {
+    let at = scratch();
+    let (input, profile) = (repository(DEBURR), repository(THESIS));
+    let [input, profile] = [&input, &profile].map(|path| path.to_str().expect("a plain name"));
+    let offset = "poseshift: frame/1\npose: {x_mm: 3, y_mm: 4, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0.5}\n";
+    std::fs::write(at.path().join("offset.yaml"), offset).expect("scratch");
+    let words = ["compensate", input, "--profile", profile, "-o", "out.mod"];
+    for (more, is_moved) in [(&["--work-offset", "offset.yaml"][..], true), (&[], false)] {
+        let words = [&words[..], more, &["--force"]].concat();
+        let (status, said) = run_in(at.path(), &words);
+        assert_eq!(status, 0, "{said}");
+        let written = std::fs::read_to_string(at.path().join("out.mod")).expect("written");
+        assert_eq!(
+            written.contains("! work-offset 5mm,0.5deg"),
+            is_moved,
+            "{written}"
+        );
+        let words = ["check", "out.mod", "--nominal", input, "--profile", profile];
+        let (_, said) = run_in(at.path(), &words);
+        let is_said = said.contains("warning[part-moved]") && said.contains("by 5mm,0.5deg");
+        assert_eq!(is_said, is_moved, "{said}");
+    }
+}

@@ -140,6 +140,10 @@ impl Options {
         {
             decided.push(format!("max-derived-error {}", tidy(mm_from_m(limit_m))));
         }
+        if let Some(offset) = &self.work_offset {
+            let by = offset.separation(&Pose::identity());
+            decided.push(in_marker("work-offset", &by));
+        }
         match self.at_singularity {
             AtSingularity::Refuse => {}
             AtSingularity::Flip => decided.push("at-singularity flip".into()),
@@ -440,7 +444,9 @@ fn with(
         own_joints: BTreeMap::new(),
         shift_limits,
         meant,
-        decided: options.max_shift.as_ref().map(raised).into_iter().collect(),
+        decided: (options.max_shift.iter())
+            .map(|limit| in_marker("max-shift", limit))
+            .collect(),
         summary,
     };
     compensation.decided.extend(options.decided());
@@ -454,12 +460,12 @@ fn tidy(number: f64) -> f64 {
     (number * 1e6).round() / 1e6
 }
 
-/// The limit of shifts as the marker has it.
-fn raised(max_shift: &Separation) -> String {
+/// A shift as the marker has it.
+fn in_marker(what: &str, by: &Separation) -> String {
     format!(
-        "max-shift {}mm,{}deg",
-        tidy(mm_from_m(max_shift.distance_m)),
-        tidy(max_shift.angle_rad / DEG)
+        "{what} {}mm,{}deg",
+        tidy(mm_from_m(by.distance_m)),
+        tidy(by.angle_rad / DEG)
     )
 }
 

@@ -188,6 +188,7 @@ pub const TABLE: &[Kind] = &[
     row("out-of-reach", Error, "the calibrated arm does not reach the wanted pose", "check the tool and the work frame; move the part nearer", &["compensate"], &[]).never_accepted(),
     row("outlier", Warning, "a row does not fit the others; `axes` leaves it out, `handeye` does not", "measure them again, or leave them out", &["axes", "handeye"], &[]),
     row("outliers", Warning, "rows do not fit the others", "measure them again, or leave them out", &["calibrate", "validate", "diagnose"], &[]),
+    row("part-moved", Warning, "the program was compensated for a part that was moved (--work-offset), and is compared with where the original has it", "compare a file that was compensated without --work-offset", &["check"], &[]),
     row("partial-target", Error, "components are missing: they keep the value of the position before, or are zero", "write all components of the target", &["compensate", "check"], &["krl", "kawasaki"]),
     row("path-at-reversal", Warning, "joints with backlash reverse where a move begins: the tool is farther off its wanted path than --max-path-error until the backlash is taken up", "accept the path's beginning, or come to it from the side to which the move leaves", &["compensate"], &[]),
     row("path-error", Error, "the path between targets is farther from the wanted one than --max-path-error", "`poseshift compensate --max-path-error` inserts targets where the path needs them", &["check"], &[]),

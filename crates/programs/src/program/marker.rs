@@ -84,6 +84,8 @@ pub struct Found {
     pub profiles: Vec<String>,
     /// Hashes of the files that this one was made from, likewise.
     pub sources: Vec<String>,
+    /// By how much the part was moved, as `34.852mm,1.2deg`.
+    pub moved: Option<String>,
 }
 
 impl Found {
@@ -120,6 +122,11 @@ impl Found {
             self.sources.push(digest);
         } else if decided(&bytes[at.min(end)..end]) || is_rest(&bytes[start..end]) {
             self.see(at);
+            let text = String::from_utf8_lossy(&bytes[at.min(end)..end]).to_ascii_lowercase();
+            let moved = text
+                .strip_prefix("work-offset")
+                .map(|by| by.trim_matches([' ', ';']));
+            self.moved = moved.map(str::to_owned).or(self.moved.take());
         }
     }
 }
@@ -202,7 +209,9 @@ fn decided(text: &[u8]) -> bool {
     let is_number = |text: &str| text.parse::<f64>().is_ok();
     if let Some(id) = text.strip_prefix("accepted") {
         kind(id).is_some()
-    } else if let Some(limit) = text.strip_prefix("max-shift") {
+    } else if let Some(limit) =
+        (text.strip_prefix("max-shift")).or_else(|| text.strip_prefix("work-offset"))
+    {
         limit.split_once("mm,").is_some_and(|(mm, _)| is_number(mm))
     } else if let Some(limit) = text.strip_prefix("max-derived-error") {
         is_number(limit)
@@ -266,6 +275,7 @@ mod tests {
             "; MAX-SHIFT 30mm,3deg",
             "// max-shift 19mm, 1.9deg",
             "' max-shift19mm,1.9deg",
+            "! WORK-OFFSET 34.852mm, 1.2deg ;",
             "; at-singularity flip",
             "! AT-SINGULARITY  NEAREST ;",
             "# max-derived-error 1",
@@ -289,6 +299,7 @@ mod tests {
             "! max-derived-error is 1",
             "! at-singularity of the wrist",
             "! max-shift is 30mm,3deg",
+            "! work-offset of the part: 3mm,2deg",
             "sourcecode0123456789abcdef",
         ] {
             assert_eq!(Marker::find(text.as_bytes()), None, "{text}");
@@ -313,10 +324,11 @@ mod tests {
                 "max-shift 1123.456789mm,112.543211deg".into(),
                 "max-derived-error 123456.123456".into(),
                 "at-singularity nearest".into(),
+                "work-offset 1234.567891mm,179.123456deg".into(),
             ],
         };
         let lines = marker.short_lines();
-        assert_eq!(lines.len(), 9);
+        assert_eq!(lines.len(), 10);
         for line in lines {
             assert!(line.len() <= WIDEST_COMMENT, "{line}");
             for text in [
