@@ -5,6 +5,7 @@ mod page;
 mod physics;
 mod real;
 mod repeats;
+mod session;
 mod standing;
 mod written;
 

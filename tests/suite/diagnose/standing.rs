@@ -10,13 +10,13 @@ use poseshift::model::effects::{Effect, Kind, Site};
 use poseshift::model::{Conditions, Model};
 use serde_json::Value;
 
-fn found(case: &Case, options: &Options) -> Diagnosis {
+pub fn found(case: &Case, options: &Options) -> Diagnosis {
     diagnose(&case.profile, &case.measurements, options, &mut |_| {}).expect("enough rows")
 }
 
 /// The same rows, each place moved by this, mm, from the row's number and its joint angles in
 /// degrees.
-fn moved(case: Case, by: impl Fn(usize, [f64; 6]) -> [f64; 3]) -> Case {
+pub fn moved(case: Case, by: impl Fn(usize, [f64; 6]) -> [f64; 3]) -> Case {
     let mut lines = case.csv.lines();
     let mut csv = lines.next().expect("a header").to_owned() + "\n";
     for (row, line) in lines.enumerate() {

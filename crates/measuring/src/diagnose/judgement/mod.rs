@@ -45,6 +45,8 @@ pub(crate) const EVIDENT: f64 = 1e-4;
 pub(crate) const AGAIN: f64 = 0.8;
 /// Numbers beyond the parameters that tell their own noise: to 7 %.
 const TELLS_NOISE: f64 = 100.0;
+/// The joint that turns the flange.
+const LAST: usize = JOINTS - 1;
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
 /// Where the tool is from the base, about: there a base that is rotated is seen to be.
@@ -159,7 +161,7 @@ pub(crate) fn stand(
             put(labels.join(" + "), group.behind);
         }
         against.sort_by(|a, b| a.odds.total_cmp(&b.odds));
-        let (untested, twin) = (untested(attempt, one), twin(one));
+        let (untested, twin) = (untested(attempt, one), twin(attempt, one));
         let is_tied = against.first().is_some_and(|a| a.odds < odds_of(TIE));
         let (times, of) = one.found_again;
         let is_again = of >= FEWEST_PARTS && times as f64 >= AGAIN * of as f64;
@@ -191,6 +193,7 @@ pub(crate) fn stand(
             odds: 1.0,
         }));
         if let Some(what) = twin {
+            let what = what.to_owned();
             against.insert(0, Against { what, odds: 1.0 });
         }
         one.against = against;
@@ -204,12 +207,29 @@ fn untested<'a>(attempt: &'a Attempt, found: &Found) -> Vec<&'a CannotTest> {
     all.filter(|c| alternatives.contains(&c.kind)).collect()
 }
 
-/// What does exactly the same to the measurements as an effect found, whatever is measured.
-fn twin(found: &Found) -> Option<String> {
+/// What does exactly the same to the measurements as an effect found, whatever is measured: a joint
+/// that drifts rotates all that is beyond it about its axis, as a device does that turns about the
+/// first one, and a tool about the last one.
+fn twin(attempt: &Attempt, found: &Found) -> Option<&'static str> {
     let effect = &found.effect;
-    let is_base = effect.definition().search.or_of_device && effect.site.index == BASE;
-    let text = "a drift of the measuring device, which a fixed point measured again would show";
-    is_base.then(|| text.to_owned())
+    let definition = effect.definition();
+    // the axis of joint 1 goes along a rail, that of a device does not
+    let is_fixed = (attempt.session.problem.profile.external.track).is_empty();
+    match effect.site.index {
+        _ if !definition.site.contains(&SiteKey::JointOrBase) => None,
+        BASE => (definition.search.or_of_device).then_some(
+            "a drift of the measuring device, which a fixed point measured again would show",
+        ),
+        0 => is_fixed.then_some(
+            "a measuring device or a base that turns about the axis of joint 1, which fixed points \
+             measured again would show",
+        ),
+        LAST => Some(
+            "a tool or a reflector that turns about the axis of joint 6, which it measured again \
+             on the flange would show",
+        ),
+        _ => None,
+    }
 }
 
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
