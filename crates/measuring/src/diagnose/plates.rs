@@ -307,6 +307,8 @@ impl One {
                 least: vec![None; sought.len()],
                 row: None,
                 chosen: 0,
+                steady: None,
+                is_measure: false,
                 peers: alike.count(),
                 effect,
                 sought,

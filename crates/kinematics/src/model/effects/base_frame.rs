@@ -1,7 +1,7 @@
 //! Where the base really stands.
 
 use super::definition::{Definition, frame_parameters};
-use super::search::{FRAME, Search, Shown};
+use super::search::{BASE_FRAME, Search, Shown};
 use super::words::{deg, length, mm};
 use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::{Pose, Scalar};
@@ -25,7 +25,7 @@ impl Equation for BaseFrame {
         of_data: false,
         shown_against: Shown::Order,
         search: Search {
-            sets: FRAME,
+            sets: BASE_FRAME,
             ..Search::PLAIN
         },
     };

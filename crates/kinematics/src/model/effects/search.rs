@@ -66,6 +66,9 @@ pub enum Sets {
 /// The place of a frame, and the whole of it.
 pub(super) const FRAME: Sets = Sets::Of(&[&[0, 1, 2], &[0, 1, 2, 3, 4, 5]]);
 
+/// The same of the base, and its rotation about the first axis, which is the zero of joint 1.
+pub(super) const BASE_FRAME: Sets = Sets::Of(&[&[5], &[0, 1, 2], &[0, 1, 2, 3, 4, 5]]);
+
 /// Each of two alone, and both.
 pub(super) const EITHER: Sets = Sets::Of(&[&[0], &[1], &[0, 1]]);
 

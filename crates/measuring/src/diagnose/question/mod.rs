@@ -391,6 +391,7 @@ impl Session {
                 .list
                 .iter()
                 .filter(|c| c.effect.kind == effect.kind && c.effect.site == effect.site)
+                .filter(|c| !c.is_measure)
                 .map(|c| c.effect.parameters[number])
                 .collect();
             let below = near
@@ -421,6 +422,7 @@ impl Session {
                 let count = own.len();
                 self.candidates.columns.extend(own);
                 self.candidates.list.push(Candidate {
+                    steady: self.candidates.steady(&effect),
                     effect,
                     columns: (first..first + count).collect(),
                     ..found.candidate.clone()

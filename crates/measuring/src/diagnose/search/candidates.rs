@@ -45,6 +45,11 @@ pub struct Candidate {
     /// How many of its kind it was chosen from, places or first rows times the sets of parameters
     /// that may be sought there: the choice costs twice the logarithm.
     pub peers: usize,
+    /// For a drift with a short constant the candidate that is the same from the first row on: it
+    /// counts where it explains clearly more than that.
+    pub steady: Option<usize>,
+    /// It is no answer, but what others are held against.
+    pub is_measure: bool,
 }
 
 impl Candidate {
@@ -92,6 +97,8 @@ pub struct Candidates {
     pub columns: Vec<Stored>,
     /// Effects that cannot be tested.
     pub cannot_test: Vec<CannotTest>,
+    /// Length of the session, seconds and rows.
+    pub(super) length: (f64, f64),
 }
 
 /// `stood`: at how many places each axis of the track stood.
@@ -417,7 +424,8 @@ impl Candidates {
         let mut groups: Vec<(usize, Vec<usize>, usize, usize)> = Vec::new();
         let mut of_kind: Vec<usize> = Vec::new();
         let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
-        let has_time = range(times) > 0.0;
+        let length_s = range(times);
+        let has_time = length_s > 0.0;
         let track = problem.profile.external.track.len();
         let mut stood = places(&problem.profile.external, measurements);
         stood.truncate(track);
@@ -494,10 +502,14 @@ impl Candidates {
                 effect: effect.clone(),
                 sought,
                 row: begins.then_some(1),
+                steady: None,
+                is_measure: false,
                 chosen,
                 peers: sets * if begins { problem.rows.len() } else { places },
             });
         }
+        all.length = (length_s, problem.rows.len() as f64);
+        all.hold_drifts(problem, estimate);
         all
     }
 
@@ -557,6 +569,8 @@ impl Candidates {
                 least: vec![None; sought.len()],
                 sought,
                 row: None,
+                steady: None,
+                is_measure: false,
                 chosen: 0,
                 peers: waves::places(),
             });

@@ -1,6 +1,7 @@
 //! Which effects explain the residuals: forward, with exchange and removal after every step.
 
 pub mod candidates;
+mod drifts;
 mod scan;
 pub mod stand_ins;
 pub(crate) mod waves;

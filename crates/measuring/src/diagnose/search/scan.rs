@@ -6,6 +6,7 @@ use crate::diagnose::estimator::fit::Fit;
 use crate::diagnose::estimator::gain::{Gain, Given, Group};
 use crate::diagnose::estimator::steps::Steps;
 use crate::diagnose::estimator::table::{Column, Stored, dot};
+use crate::diagnose::judgement::CLEAR;
 use crate::model::effects::Kind;
 use rayon::prelude::*;
 
@@ -72,6 +73,19 @@ impl Side {
 fn from_row_1(world: &World, candidate: &Candidate) -> Vec<Column> {
     let own = candidate.columns.iter();
     own.map(|i| world.candidates.columns[*i].column()).collect()
+}
+
+/// Leaves out what others are held against, and with it the drifts with a short constant that
+/// explain no more, clearly, than what is there from the first row on.
+fn without_short_drifts(world: &World, all: &mut Vec<Scored>) {
+    let list = &world.candidates.list;
+    let steady = all.iter().filter(|s| list[s.index].is_measure);
+    let steady: Vec<(usize, f64)> = steady.map(|s| (s.index, s.gain.gain)).collect();
+    all.retain(|s| {
+        let candidate = &list[s.index];
+        let mut held = steady.iter().filter(|(i, _)| candidate.steady == Some(*i));
+        !candidate.is_measure && held.all(|(_, gain)| s.gain.gain > gain + CLEAR)
+    });
 }
 
 /// Products of candidates' columns, by their indices, seen from a fit of what is held.
@@ -272,6 +286,7 @@ impl View {
         };
         let list = world.candidates.list.par_iter().enumerate();
         let mut all: Vec<Scored> = list.flat_map_iter(scored).collect();
+        without_short_drifts(world, &mut all);
         all.sort_by(|a, b| b.merit().total_cmp(&a.merit()));
         all
     }
