@@ -507,6 +507,23 @@ fn a_wrong_tool_and_rows_in_any_order_are_reported_with_the_evidence() {
         "{reported}"
     );
 
+    // the place of the point in the file is that on the flange, or off by more than is believed
+    let gap = |seen: &Measurements| -> Option<f64> {
+        let found = calibrate(&nominal(), seen, &Options::default()).expect("an answer");
+        let reported = found.remarks.iter().find(|r| r.id == "tool-elsewhere")?;
+        let mut words = reported.message.split_whitespace();
+        words.find_map(|word| word.parse().ok())
+    };
+    let mut stated = measure(&truth, &commands, &Session::default());
+    assert_eq!(gap(&stated), None);
+    for off_m in [0.03, 0.11, 0.3] {
+        for row in &mut stated.rows {
+            row.point_in_tool_m = Some([0.0, 0.0, off_m]);
+        }
+        let gap = gap(&stated).expect("a warning");
+        assert!((gap - 1e3 * off_m).abs() < 3.0, "{off_m}: {gap}");
+    }
+
     // every point in the file, none in its row
     let good = measure(&truth, &commands, &Session::default());
     let mut mixed = good.clone();

@@ -1,6 +1,7 @@
 //! Where the base stands, in closed form, wherever the measuring device is.
 
 use super::distances::by_distances;
+use super::input_checks::BETTER;
 use super::measurements::{Measurements, Observed};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector, add, dot, norm, scale, sub};
 use crate::model::effects::Kind;
@@ -15,6 +16,8 @@ const ALTERNATIONS: usize = 30;
 const FLAT: f64 = 1e-6;
 /// Where the points of the profile fit so well, metres, they are believed.
 const BELIEVED_M: f64 = 0.02;
+/// And where columns of the rows have them and they fit so well, metres, none is sought elsewhere.
+const NEAR_M: f64 = 0.001;
 /// A row that misses by this many times what half of the rows do is left out of the guess.
 const GROSS: f64 = 4.0;
 /// And the part of the rows that must remain.
@@ -47,6 +50,9 @@ pub struct Start {
     pub world_from_base: Pose,
     /// Each measured point on the flange, metres, by `(tool, point)`.
     pub points_on_flange_m: Vec<((String, Option<String>), Vector)>,
+    /// How far each of them is from where the profile, or the columns of the point, have it, metres;
+    /// `None` where they do not, or where they fit as well.
+    pub moved_m: Vec<Option<f64>>,
     /// Root mean square of the distances left, without gross errors, metres.
     pub rms_m: f64,
     /// The same with the tool and points as the profile has them; `None` where it does not have
@@ -70,6 +76,7 @@ impl Start {
         Self {
             world_from_base,
             points_on_flange_m: Vec::new(),
+            moved_m: Vec::new(),
             rms_m: 0.0,
             believed_rms_m: None,
             spread_m: 0.0,
@@ -345,8 +352,29 @@ pub(super) fn solve(sights: &[Sight], carriers: &Carriers) -> Placed {
     }
 }
 
-/// As [`solve`], without the rows that are far beyond the others.
-fn solve_without_gross(sights: &[Sight], carriers: &Carriers) -> Placed {
+/// How far each point is from where it is believed, with all of them fitted, where they then fit
+/// better by far; where those believed miss by less than `least`, metres, none.
+fn moved(sights: &[Sight], carriers: &Carriers, placed: &Placed, least: f64) -> Vec<Option<f64>> {
+    let believed: Option<Vec<Vector>> = carriers.iter().copied().collect();
+    let missed = placed.believed_rms_m.filter(|rms| *rms > least);
+    let Some((believed, before)) = believed.zip(missed) else {
+        return vec![None; carriers.len()];
+    };
+    // what is fitted is how far each point is from there: what does not show stays zero
+    let at = |s: &Sight| {
+        let [x, y, z] = believed[s.carrier];
+        let flange = s.flange * Pose::from_translation(x, y, z);
+        Sight { flange, ..*s }
+    };
+    let sights: Vec<Sight> = sights.iter().map(at).collect();
+    let fitted = alternate(&sights, placed.base, carriers.len());
+    let after = rms(&sights, &fitted.0, &fitted.1);
+    let gap = |by: &Vector| (after * BETTER < before).then(|| norm(*by));
+    fitted.1.iter().map(gap).collect()
+}
+
+/// As [`solve`], without the rows that are far beyond the others; and those that remain.
+fn solve_without_gross(sights: &[Sight], carriers: &Carriers) -> (Placed, Vec<Sight>) {
     let mut kept = sights.to_vec();
     let mut placed = solve(&kept, carriers);
     for _ in 0..CLEANINGS {
@@ -372,7 +400,7 @@ fn solve_without_gross(sights: &[Sight], carriers: &Carriers) -> Placed {
         placed = solve(&next, carriers);
         kept = next;
     }
-    placed
+    (placed, kept)
 }
 
 /// The standard deviation of some numbers.
@@ -449,10 +477,19 @@ pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     if sights.len() < 3 || spread[1] < FLAT * spread[0].max(1e-3) {
         return by_distances(profile, &bare_arm(profile), measurements);
     }
-    let placed = solve_without_gross(&sights, &carriers);
+    let (placed, kept) = solve_without_gross(&sights, &carriers);
+    // what columns say of a point is not what a person has looked at in the profile
+    let mut rows = measurements.rows.iter();
+    let least = if rows.any(|row| row.point_in_tool_m.is_some()) {
+        NEAR_M
+    } else {
+        BELIEVED_M
+    };
+    let moved_m = moved(&kept, &carriers, &placed, least);
     let (turned, turned_apart_rad) = orientations(measurements, &sights, &names, &placed.base);
     Some(Start {
         points_on_flange_m: names.into_iter().zip(placed.points).collect(),
+        moved_m,
         rms_m: placed.rms_m,
         believed_rms_m: placed.believed_rms_m,
         spread_m: norm(spread),

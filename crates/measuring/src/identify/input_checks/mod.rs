@@ -18,7 +18,7 @@ use super::line::Line;
 
 /// Another reading of a file must be better by this factor to be suggested; by twice as much where
 /// the file as it is may be of an uncalibrated arm.
-const BETTER: f64 = 4.0;
+pub(super) const BETTER: f64 = 4.0;
 /// The way out where nothing fits.
 const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows? every column in \
     its unit? `poseshift calibrate --loss tukey` if single rows are wrong";

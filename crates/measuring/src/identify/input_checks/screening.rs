@@ -449,31 +449,29 @@ fn expected(fits: &[Fit], profile: &Profile) -> (String, String) {
 
 /// Tools that are elsewhere than the profile says.
 fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
-    let mut remarks = Vec::new();
-    if start.believed_rms_m.is_none() {
-        return remarks;
-    }
-    for ((name, point), on_flange) in &start.points_on_flange_m {
-        let Some(tool) = profile.tool(name) else {
+    let mut remarks: Vec<Remark> = Vec::new();
+    let mut gaps: Vec<(&String, f64)> = Vec::new();
+    for (((name, _), _), gap) in start.points_on_flange_m.iter().zip(&start.moved_m) {
+        let Some(gap) = gap.filter(|_| profile.tool(name).is_some()) else {
             continue;
         };
-        let known = point
-            .as_ref()
-            .map_or(Some([0.0; 3]), |p| profile.points.get(p).copied());
-        let Some(known) = known else { continue };
-        let gap = norm(sub(*on_flange, tool.flange_from_tool.transform(known)));
-        if gap > WRONG_TOOL_M {
-            remarks.push(remark(
-                "tool-elsewhere",
-                WHOLE_FILE,
-                format!(
-                    "the point measured on tool `{name}` is {:.1} mm from where the profile has it",
-                    mm_from_m(gap)
-                ),
-                "is it the tool of the profile? where tool_frame is identified its deviation is \
-                 found",
-            ));
+        // of several points with columns of their own the farthest
+        match gaps.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, most)) => *most = most.max(gap),
+            None => gaps.push((name, gap)),
         }
+    }
+    for (name, gap) in gaps.into_iter().filter(|(_, gap)| *gap > WRONG_TOOL_M) {
+        remarks.push(remark(
+            "tool-elsewhere",
+            WHOLE_FILE,
+            format!(
+                "the point measured on tool `{name}` is {:.1} mm from where the profile has it",
+                mm_from_m(gap)
+            ),
+            "is it the tool of the profile? px_mm, py_mm, pz_mm are in the tool's own frame; where \
+             tool_frame is identified its deviation is found",
+        ));
     }
     remarks
 }
