@@ -76,6 +76,7 @@ fn columns_that_nothing_is_read_from_are_listed() {
     assert!(others.starts_with("columns-not-read false"), "{others}");
     assert!(others.ends_with("`operator`, `temp`"), "{others}");
     assert_eq!(remarks("time_s,temperature_c,sigma_mm", &plain), "");
+    assert_eq!(remarks("time_s,sigma_deg,sigma_mm", &plain), "");
 }
 
 #[test]
