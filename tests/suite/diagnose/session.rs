@@ -63,3 +63,38 @@ fn what_is_there_from_the_first_row_on_is_no_drift() {
         }
     }
 }
+
+#[test]
+fn a_device_that_tilts_slowly_is_not_surely_one_that_moved_at_once() {
+    // about a stand 2 m away
+    let base = case(group("clean"), 0, 4, 150);
+    let name = base.profile.tools.keys().next().expect("its tool").clone();
+    let tool = base.profile.tool(&name).expect("its tool");
+    let model = base.profile.real_model(&tool, &Conditions::default());
+    let tilted = moved(base, |row, degrees| {
+        let q = degrees.map(f64::to_radians);
+        let p = model.forward(&q, &Conditions::default()).translation;
+        let angle = 6e-5 * row as f64 / 150.0;
+        let (y, z) = (p[1] - 0.5, p[2] + 1.2);
+        [0.0, -1e3 * angle * z, 1e3 * angle * y]
+    });
+    let d = diagnosed(&tilted);
+    for one in &d.found {
+        let is_step = one.effect.definition().begins_at_a_row();
+        assert!(!is_step || one.standing != Standing::Certain);
+    }
+}
+
+#[test]
+fn a_joint_that_scatters_has_no_certain_wave() {
+    for seed in 1..5 {
+        // numbers that no effect follows
+        let by = |row: usize| (((row * row * 31 + 17 * row) % 211) as f64 / 211.0 - 0.5) * 2e-3;
+        let d = diagnosed(&turning(seed, 3, by));
+        for one in &d.found {
+            let is_wave = one.effect.definition().is_wave();
+            let is_high = is_wave && one.effect.site.periods() > 12.0;
+            assert!(!is_high || one.standing != Standing::Certain, "{seed}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be
 //! questioned.
 
+use super::instead::{Instead, instead};
 use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
 use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail};
@@ -63,6 +64,8 @@ pub(crate) struct Attempt {
     pub unknown: Vec<Unknown>,
     /// Functions outside the registry that explain more than the effect with this index.
     pub outdone: Vec<(usize, Unknown)>,
+    /// What is no effect and may be in the place of one found.
+    pub instead: Vec<Instead>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
     /// How much louder the residual is than what is known of the noise, where that is beyond
@@ -289,6 +292,7 @@ pub(crate) fn attempt(
     let moved = by_trust(trust, &session, profile, (&refit, &fit));
     let loudness = without_outliers(&session, (&refit, &fit), &used);
     let outdone = outdone((&session, &used), &library, &chosen, &refit);
+    let instead = instead(&session, &used, &chosen);
     let strained = strain(trust, &refit);
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)
@@ -305,6 +309,7 @@ pub(crate) fn attempt(
             leverage,
             unknown,
             outdone,
+            instead,
             likeness,
             strained,
             louder,

@@ -6,6 +6,7 @@
 
 pub(crate) mod attempt;
 pub(crate) mod conclusion;
+pub(crate) mod instead;
 pub mod poses;
 pub mod whereabouts;
 
@@ -155,6 +156,9 @@ pub(crate) fn stand(
                 unknown.name.clone(),
                 one.gain - unknown.fair_gain(one.sought.len()),
             );
+        }
+        for other in attempt.instead.iter().filter(|r| r.of == i) {
+            put(other.what.clone(), other.behind.max(TIE));
         }
         for group in stand_ins.iter().filter(|s| s.instead_of.contains(&i)) {
             let labels: Vec<String> = group.effects.iter().map(Effect::label).collect();
