@@ -379,6 +379,11 @@ pub(super) fn identify(
     let observability = observability_of(&problem, &solution, &fit);
     let expected_m = expected_error_m(&problem, &solution.estimate, solution.loss, &uncertainty);
     remarks.extend(plausibility::check_reach(expected_m, &after_misses));
+    remarks.extend(plausibility::check_left_out(
+        &problem,
+        options.shape,
+        solution.parameters.len(),
+    ));
     let compliance = options.selection.level == Level::Compliance;
     remarks.extend(screening::check_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;
