@@ -12,9 +12,9 @@ const LENGTHS: [&str; 29] = [
 ];
 /// Columns that hold angles.
 const ANGLES: [&str; 29] = [
-    "sigma", "q1", "q2", "q3", "q4", "q5", "q6", "rx", "ry", "rz", "rz2", "move1", "move2",
-    "move3", "move4", "move5", "move6", "e1", "e2", "e3", "e4", "e5", "e6", "e7", "e8", "e9",
-    "e10", "e11", "e12",
+    "q1", "q2", "q3", "q4", "q5", "q6", "rx", "ry", "rz", "rz2", "move1", "move2", "move3",
+    "move4", "move5", "move6", "e1", "e2", "e3", "e4", "e5", "e6", "e7", "e8", "e9", "e10", "e11",
+    "e12", "sigma",
 ];
 /// Columns that hold neither.
 const OTHERS: [&str; 42] = [
