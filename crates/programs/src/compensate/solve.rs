@@ -396,11 +396,15 @@ fn fake_of(
             .or_else(|| solved.clone().next())?;
         return shifted(job, arrival, shift, approach, outcome);
     }
-    let mut solved = solved.filter(|_| !arrival.displaced);
-    let found = solved.find(|(a, _)| {
-        a.branch == arrival.branch
+    let is_of_arrival = |(a, _): &(&Approach, &Outcome)| {
+        !arrival.displaced
+            && a.branch == arrival.branch
             && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
-    });
+    };
+    // other moves may come to the same joints from other sides
+    let is_own = |(a, _): &(&Approach, &Outcome)| a.motion == arrival.motion;
+    let mut found = solved.filter(is_of_arrival);
+    let found = found.clone().find(is_own).or_else(|| found.next());
     found.map(|(_, outcome)| outcome.q)
 }
 
