@@ -231,10 +231,17 @@ impl Check {
                 "--update-baseline stores this run",
             ));
         }
-        let stored = text(&files.source(path)?)?;
-        now.compare(&stored, self.tolerance)
+        let source = files.source(path)?;
+        now.compare(&text(&source)?, self.tolerance)
             .map(Some)
-            .map_err(|error| Failure::new(format!("{}: {error}", name_of(path))))
+            .map_err(|error| match error {
+                baseline::BaselineError::TooLarge { line, .. } => {
+                    let length = source.line(line.saturating_sub(1)).map(<[u8]>::len);
+                    let hint = "--update-baseline stores a run anew";
+                    Failure::at(&source, line, 1, length, error.to_string(), hint)
+                }
+                _ => Failure::new(format!("{}: {error}", name_of(path))),
+            })
     }
 
     fn tell(&self, found: &Run, refused: bool, notes: &[String], output: Output) -> String {

@@ -1,6 +1,6 @@
 //! Program files on the command line: files, folders of them, and standard input.
 
-use super::files::{Files, Identity, PREFIX, is_stream};
+use super::files::{Files, Identity, Listing, is_own, is_stream};
 use super::screen;
 use crate::nearest;
 use crate::printable::{name_of, printable};
@@ -183,6 +183,17 @@ impl Reading<'_> {
         }
         self.wrong.extend(walk.wrong);
         self.found.left_out.ignored.extend(walk.ignored);
+        let asked = self.asked;
+        let known = walk
+            .entries
+            .iter()
+            .map(|(entry, _)| entry.path().to_owned());
+        self.files.listed(Listing {
+            folder: folder.to_owned(),
+            ignored: self.ignored.clone(),
+            known: known.collect(),
+            is_read: Box::new(move |path| known_by(asked, path).next().is_some()),
+        });
         for (entry, below) in walk.entries {
             self.entry(&entry, below);
         }
@@ -210,8 +221,7 @@ impl Reading<'_> {
                 }
             };
             let is_folder = entry.file_type().is_dir();
-            // what a run that is at work has next to its places is none of the folder's
-            let is_own = entry.file_name().to_string_lossy().starts_with(PREFIX);
+            let is_own = is_own(&entry);
             let below = entry.path().strip_prefix(folder);
             let below = below.expect("a walk stays below its top").to_owned();
             if is_own || self.is_ignored(&below) {
@@ -242,13 +252,7 @@ impl Reading<'_> {
             return;
         }
         let file = entry.file_name().to_string_lossy();
-        let asked = |l: &&&dyn Language| self.asked.is_none_or(|a| a.about().id == l.about().id);
-        let known: Vec<&dyn Language> = LANGUAGES
-            .iter()
-            .filter(asked)
-            .filter(|language| has_extension(**language, path))
-            .copied()
-            .collect();
+        let known: Vec<&dyn Language> = known_by(self.asked, path).collect();
         if known.is_empty() {
             self.found.left_out.other.push(name);
             return;
@@ -288,6 +292,18 @@ impl Reading<'_> {
             });
         }
     }
+}
+
+/// The languages whose files are called so, of those that are asked for.
+fn known_by(
+    asked: Option<&'static dyn Language>,
+    path: &Path,
+) -> impl Iterator<Item = &'static dyn Language> {
+    let of = move |language: &&dyn Language| {
+        asked.is_none_or(|asked| asked.about().id == language.about().id)
+            && has_extension(*language, path)
+    };
+    LANGUAGES.iter().copied().filter(of)
 }
 
 /// The program files that are meant.

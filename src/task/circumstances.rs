@@ -6,6 +6,7 @@ use super::simulate::stand;
 use super::table::{Row, Table};
 use crate::geometry::units::DEG;
 use crate::identify::external::{column_of, from_files, in_files, track_columns};
+use crate::identify::measurements::beyond;
 use crate::identify::measurements::{
     DIRECTION_COLUMNS, EXTERNAL_MM_COLUMNS, FORCE_COLUMNS, MOVE_COLUMNS,
 };
@@ -175,8 +176,17 @@ pub(super) fn time_s(row: &Row) -> Result<Option<f64>, Failure> {
 }
 
 fn where_said(row: &Row, column: &str) -> Result<Option<f64>, Failure> {
-    let is_there = row.text(column).is_some();
-    is_there.then(|| row.number(column)).transpose()
+    if row.text(column).is_none() {
+        return Ok(None);
+    }
+    let number = row.number(column)?;
+    match beyond(column, number) {
+        Some(limit) => {
+            let message = format!("column {column}: {number:?} is beyond {limit}");
+            Err(row.failure_in(column, message))
+        }
+        None => Ok(Some(number)),
+    }
 }
 
 #[cfg(test)]

@@ -229,6 +229,16 @@ pub enum Fault {
         /// Their unit.
         unit: &'static str,
     },
+    /// A mass beyond what links of arms have.
+    #[error("`mass_kg` of the {label} is {found} kg; no link of an arm has {limit} kg or more")]
+    HeavyBody {
+        /// The body.
+        label: String,
+        /// What the file says, kg.
+        found: f64,
+        /// The limit, kg.
+        limit: f64,
+    },
     /// `large: true` that nobody can judge, or a reason for nothing.
     #[error(
         "`{label}`: `large: true` and `reason: \"…\"` stand together, and the reason is a text"
@@ -399,6 +409,9 @@ impl ProfileError {
             Fault::EffectsOfNominal => "set `model: calibrated`, or take the effects away".into(),
             Fault::Large { .. } => "is it in the unit of its key? `large: true` with `reason: \
                 \"…\"` in the entry says that it is meant"
+                .into(),
+            Fault::HeavyBody { .. } => "masses are in kg; `large: true` with `reason: \"…\"` in \
+                the entry says that it is meant"
                 .into(),
             Fault::LargeWithoutReason { .. } => {
                 "write `large: true, reason: \"…\"`, or leave both \

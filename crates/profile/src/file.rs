@@ -242,9 +242,18 @@ pub struct BodyFile {
     /// The link, from 1.
     pub link: u8,
     /// Mass.
-    pub mass_kg: Number,
+    #[schemars(with = "Number")]
+    pub mass_kg: Spanned<Number>,
     /// Centre of gravity in the link's frame.
     pub cog_mm: [Number; 3],
+    /// That the mass is meant though it is beyond what links have; stands with `reason`.
+    #[serde(default)]
+    #[schemars(with = "Option<bool>")]
+    pub large: Option<Spanned<bool>>,
+    /// Why it is meant.
+    #[serde(default)]
+    #[schemars(with = "Option<String>")]
+    pub reason: Option<Spanned<String>>,
 }
 
 /// A tool.

@@ -23,6 +23,8 @@ const MOST_LIMIT_DEG: f64 = 3600.0;
 const MOST_MM: f64 = 20_000.0;
 /// No link or tool is heavier, kg.
 const MOST_MASS_KG: f64 = 1e4;
+/// The heaviest arms, for 2.3 t, have 11 t with their pedestals, and none of their links half of it.
+pub(super) const HEAVY_KG: f64 = 5e3;
 /// And none has its centre of gravity farther away.
 const MOST_COG_MM: f64 = 1e6;
 /// No arm is shorter, all its rows together.
@@ -57,17 +59,7 @@ impl Profile {
             }
             kg => kg.map(|kg| kg.value.0),
         };
-        let mut bodies = Vec::new();
-        for body in &file.bodies {
-            let at = body.defined;
-            let body = &body.value;
-            let mass_kg = mass(body.mass_kg, at)?;
-            bodies.push(Body {
-                link: index("link", body.link, at)?,
-                mass_kg,
-                cog_m: cog(body.cog_mm, at)?,
-            });
-        }
+        let bodies: Vec<Body> = file.bodies.iter().map(body).collect::<Result<_, _>>()?;
         // a wrist's own may be near its axes, those of all links are not
         let farthest = bodies
             .iter()
@@ -330,6 +322,39 @@ fn mass(kg: Number, at: Location) -> Result<f64, ProfileError> {
         .at(at));
     }
     Ok(kg.0)
+}
+
+/// A mass on a link.
+fn body(entry: &Spanned<file::BodyFile>) -> Result<Body, ProfileError> {
+    let (body, at) = (&entry.value, entry.defined);
+    let (kg, place) = (body.mass_kg.value, body.mass_kg.defined);
+    let link = index("link", body.link, at)?;
+    let mass_kg = mass(kg, place)?;
+    let label = || format!("body of link {}", body.link);
+    let why = body.reason.as_ref();
+    match (body.large.as_ref(), why) {
+        (Some(large), Some(why)) if large.value && !why.value.trim().is_empty() => {}
+        (None, None) if mass_kg < HEAVY_KG => {}
+        (None, None) => {
+            let (label, found, limit) = (label(), mass_kg, HEAVY_KG);
+            return Err(Fault::HeavyBody {
+                label,
+                found,
+                limit,
+            }
+            .at(place));
+        }
+        (large, why) => {
+            let place = large.map(|large| large.defined);
+            let place = place.or(why.map(|why| why.defined)).unwrap_or(at);
+            return Err(Fault::LargeWithoutReason { label: label() }.at(place));
+        }
+    }
+    Ok(Body {
+        link,
+        mass_kg,
+        cog_m: cog(body.cog_mm, at)?,
+    })
 }
 
 fn cog(mm: [Number; 3], at: Location) -> Result<Vector, ProfileError> {

@@ -1,5 +1,6 @@
 //! The text of a profile that was made, not read: another file's arm, or one of the catalogue.
 
+use super::reading::HEAVY_KG;
 use super::{ControllerModel, FORMAT, Profile};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector};
@@ -176,8 +177,13 @@ pub fn made(profile: &Profile, comments: &Comments) -> String {
         "bodies:\n"
     };
     for body in &profile.bodies {
+        let meant = if body.mass_kg < HEAVY_KG {
+            ""
+        } else {
+            ", large: true, reason: \"what it is made of has it\""
+        };
         out += &format!(
-            "  - {{link: {}, mass_kg: {}, cog_mm: {}}}\n",
+            "  - {{link: {}, mass_kg: {}, cog_mm: {}{meant}}}\n",
             body.link + 1,
             number(body.mass_kg),
             mm(body.cog_m)

@@ -4,6 +4,7 @@
 mod disk;
 mod identity;
 mod journal;
+mod listing;
 mod place;
 mod recovery;
 #[cfg(test)]
@@ -12,7 +13,7 @@ mod transaction;
 mod work;
 
 pub(super) use identity::Identity;
-pub(super) use journal::PREFIX;
+pub(super) use listing::{Listing, is_own};
 pub(super) use place::{is_standard_output, is_stream};
 
 use super::screen;
@@ -58,6 +59,8 @@ struct Input {
 pub(super) struct Files {
     disk: Disk,
     inputs: RefCell<Vec<Input>>,
+    /// The folders that were read.
+    listings: RefCell<Vec<Listing>>,
     /// Folders in which no run is left that was stopped.
     settled: RefCell<BTreeSet<PathBuf>>,
     /// Standard input gives its bytes once.
@@ -339,8 +342,24 @@ impl Files {
         self.places(&outputs).map(|_| ())
     }
 
-    /// That nothing that was read is another file by now.
+    /// Keeps what a folder holds: what comes to it before the end is an error.
+    pub(super) fn listed(&self, listing: Listing) {
+        self.listings.borrow_mut().push(listing);
+    }
+
+    /// That nothing that was read is another file by now, and no other has come.
     fn refuse_changed(&self) -> Result<(), Failure> {
+        for listing in self.listings.borrow().iter() {
+            let how = match listing.added() {
+                Ok(None) => continue,
+                Ok(Some(path)) => format!("{} was added", name_of(&path)),
+                Err(path) => format!("{} cannot be listed any more", name_of(&path)),
+            };
+            return Err(Failure::with_hint(
+                format!("{how} after the folder was read"),
+                "nothing is written; run it again",
+            ));
+        }
         for input in self.inputs.borrow().iter() {
             let changed = |how: &str| {
                 Err(Failure::with_hint(

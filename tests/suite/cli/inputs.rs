@@ -219,6 +219,57 @@ fn an_input_that_changes_before_the_end_is_an_error() {
 }
 
 #[test]
+fn a_program_that_comes_to_the_folder_before_the_end_is_an_error() {
+    for (new, says) in [
+        ("in/new.mod", Some("in/new.mod was added")),
+        ("in/below/new.sys", Some("in/below/new.sys was added")),
+        ("with/new.mod", Some("with/new.mod was added")),
+        // what is left out, and what no run reads
+        ("in/old.mod", None),
+        ("in/notes.txt", None),
+        ("new.mod", None),
+    ] {
+        let folder = world();
+        let path = folder.path();
+        let cam = repository("programs/rapid/cam/in/cam.mod");
+        for name in ["in/below", "with"] {
+            std::fs::create_dir_all(path.join(name)).expect("scratch");
+        }
+        std::fs::copy(cam, path.join("in/cam.mod")).expect("scratch");
+        std::fs::copy(repository(SAMPLE), path.join("with/Deburr.mod")).expect("scratch");
+        // it waits for whoever reads its report, with all files ready
+        let mut child = Command::new(env!("CARGO_BIN_EXE_poseshift"))
+            .current_dir(path)
+            .args(["compensate", "in", "--with", "with", "--profile", "p.yaml"])
+            .args(["-o", "out", "--json", "--ignore", "old.*"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let mut out = child.stdout.take().expect("a pipe");
+        let mut first = [0];
+        out.read_exact(&mut first).expect("a report");
+        std::fs::copy(repository(SAMPLE), path.join(new)).expect("scratch");
+        out.read_to_end(&mut Vec::new()).expect("a report");
+        let output = child.wait_with_output().expect("it ended");
+        let reported = reported(&output);
+        let status = if says.is_some() { 2 } else { 0 };
+        assert_eq!(output.status.code(), Some(status), "{new}: {reported}");
+        assert!(
+            says.is_none_or(|says| reported.contains(says)),
+            "{new}: {reported}"
+        );
+        assert_eq!(path.join("out").exists(), says.is_none(), "{new}");
+        let left = std::fs::read_dir(path).expect("scratch");
+        let left = left.filter(|entry| {
+            let name = entry.as_ref().expect("an entry").file_name();
+            name.to_string_lossy().starts_with(".poseshift")
+        });
+        assert_eq!(left.count(), 0, "{new}");
+    }
+}
+
+#[test]
 fn an_input_that_is_only_touched_has_not_changed() {
     let folder = world();
     let path = folder.path();

@@ -12,6 +12,7 @@ mod hostile;
 mod identify;
 mod inputs;
 mod jobs_and_tables_of_poses;
+mod judged_on_reading;
 mod limits;
 mod marked;
 mod mistakes;

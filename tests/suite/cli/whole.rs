@@ -481,3 +481,75 @@ fn a_run_that_waits_to_print_has_replaced_nothing_and_is_undone_when_killed() {
     std::fs::remove_file(folder.path().join("cam.mod")).expect("scratch");
     assert_eq!(content(folder.path()), before, "{said}");
 }
+
+/// Runs two commands at the same time; their exit statuses and what they said.
+fn at_once(folder: &Path, commands: [&[&str]; 2]) -> [(Option<i32>, String); 2] {
+    let begun = commands.map(|arguments| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_poseshift"));
+        command.current_dir(folder).args(arguments);
+        command.env("SOURCE_DATE_EPOCH", "0");
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("the program starts")
+    });
+    begun.map(|child| {
+        let output = child.wait_with_output().expect("it ended");
+        (output.status.code(), reported(&output))
+    })
+}
+
+#[test]
+fn two_runs_at_once_leave_whole_files_and_no_journal() {
+    let new = wanted();
+    let folder = world();
+    let path = folder.path();
+    for _ in 0..20 {
+        reset(path);
+        // the same files: one comes first, the other sees it
+        let both = at_once(path, [&IN_PLACE, &IN_PLACE]);
+        let done = both.iter().filter(|(status, _)| *status == Some(0)).count();
+        assert!(done > 0, "{both:?}");
+        for (status, said) in &both {
+            assert!(matches!(status, Some(0..=2)), "{both:?}");
+            assert!(!said.contains("stopped"), "{both:?}");
+        }
+        assert!(content(path) == new, "{both:?}: {:?}", content(path).keys());
+    }
+    // other files next to one another
+    let into = |output: &'static str| {
+        [
+            "compensate",
+            "work",
+            "--profile",
+            "work/p.yaml",
+            "-o",
+            output,
+        ]
+    };
+    for number in 0..20 {
+        reset(path);
+        for output in ["a", "b"] {
+            let _ = std::fs::remove_dir_all(path.join(output));
+        }
+        let both = at_once(path, [&into("a"), &into("b")]);
+        let left: Vec<&str> = ["a", "b"]
+            .into_iter()
+            .filter(|output| path.join(output).exists())
+            .collect();
+        for ((status, said), output) in both.iter().zip(["a", "b"]) {
+            let waited = said.contains("another run of poseshift");
+            assert!(*status == Some(0) || waited, "{number}: {both:?}");
+            assert_eq!(*status == Some(0), left.contains(&output), "{both:?}");
+        }
+        for output in &left {
+            let made = files_below(&path.join(output));
+            assert_eq!(
+                made.len(),
+                files_below(&repository(PROGRAMS)).len(),
+                "{made:?}"
+            );
+        }
+        let names = files_below(path);
+        let mut names = names.iter().map(|name| name.to_string_lossy());
+        assert!(!names.any(|name| name.contains(".poseshift-")), "{both:?}");
+    }
+}

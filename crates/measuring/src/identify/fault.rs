@@ -8,18 +8,21 @@ use crate::nearest;
 pub(super) const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// Largest numbers by how the column's name ends, and what they are called.
-const MOST: [(&str, (f64, &str)); 2] = [
+const MOST: [(&str, (f64, &str)); 4] = [
     ("_mm", (1e8, "100 km: 1e8 mm")),
     ("_deg", (1e5, "277 turns: 1e5 deg")),
+    // seconds since 1970 are fewer, milliseconds are more
+    ("_s", (1e10, "317 years: 1e10 s")),
+    ("_n", (1e7, "the weight of 1000 tonnes: 1e7 N")),
 ];
-/// Of the other columns: seconds since 1970 are fewer.
+/// Of the other columns.
 const MOST_OTHERS: (f64, &str) = (1e12, "1e12");
 /// Temperatures that a robot may have, degrees Celsius.
 const TEMPERATURES_C: (std::ops::RangeInclusive<f64>, &str) =
     (-273.15..=1000.0, "-273 to 1000 degrees Celsius");
 
-/// The limit that a number of a column is beyond.
-pub(super) fn beyond(column: &str, number: f64) -> Option<&'static str> {
+/// The limit that a number of a column is beyond, by the unit that ends its name.
+pub fn beyond(column: &str, number: f64) -> Option<&'static str> {
     if column == "temperature_c" {
         let (range, limit) = TEMPERATURES_C;
         return (!range.contains(&number)).then_some(limit);

@@ -13,7 +13,7 @@ use crate::profile::Profile;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-pub use super::fault::{MeasurementError, MeasurementFault};
+pub use super::fault::{MeasurementError, MeasurementFault, beyond};
 
 /// Joint angles nearer than this are those of one configuration, radians: encoders read the same pose
 /// a little otherwise each time.

@@ -54,13 +54,27 @@ pub struct Comparison {
 }
 
 /// Why two runs cannot be compared.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BaselineError {
     /// No JSON.
     #[error("not a stored check: {message}")]
     Json {
         /// What the parser says.
         message: String,
+    },
+    /// A number that no check stores.
+    #[error("`{key}` is {found:?}; a check stores {low:?} to {high:?}")]
+    TooLarge {
+        /// The line, from 1.
+        line: usize,
+        /// The key.
+        key: &'static str,
+        /// What stands there.
+        found: f64,
+        /// The least.
+        low: f64,
+        /// The most.
+        high: f64,
     },
     /// Another kind of report.
     #[error("a report of the kind `{found}`; a stored check is `check/1`")]
@@ -92,7 +106,51 @@ pub fn read(text: &str) -> Result<Value, BaselineError> {
     if kind != "check/1" || !value["moves"].is_array() {
         return Err(BaselineError::Kind { found: kind.into() });
     }
+    refuse_endless(&value, text)?;
     Ok(value)
+}
+
+/// No room is as large, mm: 1000 km. Against a larger error no other would be worse.
+const MOST_MM: f64 = 1e9;
+/// No rotation is as large, degrees.
+const MOST_DEG: f64 = 360.0;
+
+/// Refuses what is compared where no check can have stored it.
+fn refuse_endless(run: &Value, text: &str) -> Result<(), BaselineError> {
+    let errors = MORE_IS_WORSE.into_iter();
+    let errors = errors.map(|(key, deg)| (key, 0.0, if deg { MOST_DEG } else { MOST_MM }));
+    let rooms = LESS_IS_WORSE.into_iter();
+    let rooms = rooms.map(|key| (key, -MOST_MM, MOST_MM));
+    let keys: Vec<(&str, f64, f64)> = errors.chain(rooms).collect();
+    for one in run["moves"].as_array().into_iter().flatten() {
+        for &(key, low, high) in &keys {
+            let found = one[key].as_f64();
+            if let Some(found) = found.filter(|found| !(low..=high).contains(found)) {
+                let line = line_of(text, key, found);
+                return Err(BaselineError::TooLarge {
+                    line,
+                    key,
+                    found,
+                    low,
+                    high,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The first line on which a key has this number.
+fn line_of(text: &str, key: &str, number: f64) -> usize {
+    let quoted = format!("\"{key}\"");
+    let is_it = |(at, _): &(usize, &str)| {
+        let behind = text[at + quoted.len()..].trim_start();
+        let value = behind.strip_prefix(':').map_or("", str::trim_start);
+        let end = value.find(|c: char| c == ',' || c == '}' || c.is_whitespace());
+        value[..end.unwrap_or(value.len())].parse() == Ok(number)
+    };
+    let at = text.match_indices(&quoted).find(is_it);
+    1 + at.map_or(0, |(at, _)| text[..at].matches('\n').count())
 }
 
 /// The names of files as the present run spells them, whatever the stored one wrote.
