@@ -59,7 +59,13 @@ calibration:
 ";
 /// What a comparison leaves out: the version of the format, and where a calibration comes from
 /// and what it is worth.
-const LEFT_OUT: [&str; 3] = ["poseshift", "calibration.quality", "calibration.provenance"];
+const LEFT_OUT: [&str; 5] = [
+    "poseshift",
+    "calibration.quality",
+    "calibration.provenance",
+    "bodies.large",
+    "bodies.reason",
+];
 /// Keys of effects are those of their definitions; a plane is no body of a link; angles stand
 /// for a quaternion; a controller with effects of its own is a calibrated one.
 const OTHERS: [&str; 4] = [
