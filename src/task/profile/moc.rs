@@ -73,6 +73,23 @@ fn words(line: &str) -> Vec<String> {
     all
 }
 
+/// Whether a line is none that another one goes on in: an empty one, a comment, a section, an entry.
+fn is_no_rest(line: &str) -> bool {
+    line.is_empty()
+        || line.starts_with('#')
+        || line.starts_with("-name ")
+        || !line.starts_with('-') && line.ends_with(':')
+}
+
+/// An entry that is not whole: numbers that it lacks would count as 0.
+fn cut_off(source: &Source, line: usize, how: &str) -> Failure {
+    let message =
+        format!("{how} its entry is not whole: the file is cut off or was joined of parts");
+    let hint =
+        "copy it anew from the folder SYSPAR of the backup; the last line ends in a line break";
+    Failure::at(source, line, 1, None, message, hint)
+}
+
 impl<'a> File<'a> {
     fn read(source: &'a Source) -> Result<Self, Failure> {
         let text = text(source)?;
@@ -89,8 +106,12 @@ impl<'a> File<'a> {
         }
         let mut entries: Vec<Entry> = Vec::new();
         let (mut section, mut goes_on) = (String::new(), false);
+        let last = text.lines().count();
         for (line, number) in text.lines().zip(1..) {
             let line = line.trim();
+            if goes_on && is_no_rest(line) {
+                return Err(cut_off(source, number - 1, "the line goes on (`\\`), and"));
+            }
             let (line, continues) = match line.strip_suffix('\\') {
                 Some(line) => (line, true),
                 None => (line, false),
@@ -106,11 +127,20 @@ impl<'a> File<'a> {
                         values: BTreeMap::new(),
                     });
                 }
+                if line.matches('"').count() % 2 == 1 {
+                    return Err(cut_off(source, number, "a quoted word has no end, and"));
+                }
+                if number == last && !continues && !text.ends_with(['\n', '\r']) {
+                    return Err(cut_off(source, number, "the line has no end, and"));
+                }
                 if let Some(entry) = entries.last_mut() {
                     put(entry, &words(line));
                 }
             }
             goes_on = continues;
+        }
+        if goes_on {
+            return Err(cut_off(source, last, "the line goes on (`\\`), and"));
         }
         Ok(Self { source, entries })
     }
@@ -130,6 +160,10 @@ impl<'a> File<'a> {
 
     fn number(&self, entry: &Entry, key: &str, without: f64) -> Result<f64, Failure> {
         let Some(text) = entry.text(key) else {
+            if entry.values.contains_key(key) {
+                let message = format!("{key} of {} has no value", entry.name());
+                return Err(self.refuse(entry, message, "write its number, or leave it out"));
+            }
             return Ok(without);
         };
         let number = text.parse().ok().filter(|n: &f64| n.is_finite());

@@ -213,6 +213,40 @@ fn a_backup_of_an_abb_controller_says_where_the_base_goes() {
     }
 }
 
+#[test]
+fn a_backup_that_is_cut_off_is_refused() {
+    let folder = scratch();
+    let profile = repository("robots/abb_irb120.yaml");
+    let profile = profile.to_str().expect("a plain path");
+    let refused = |text: &str, says: &str| {
+        std::fs::write(folder.path().join("MOC.cfg"), text).expect("a writable folder");
+        let all = ["profile", "import-moc", "MOC.cfg", "--profile", profile];
+        let more = ["-o", "bad.yaml", "--axis", "eax_a"];
+        let (status, reported) = run(folder.path(), &[&all[..], &more[..]].concat());
+        assert_eq!(status, 2, "{says}: {reported}");
+        assert!(reported.contains(says), "{says}: {reported}");
+        assert!(!folder.path().join("bad.yaml").exists());
+    };
+    let (goes_on, z) = ("pos_y -0.25\\\n", "      -base_frame_pos_z 0.0175");
+    let at = MOC.find(z).expect("a line of the robot");
+    assert!(MOC[..at].ends_with(goes_on));
+    // behind a line that goes on: with and without its line break, then an empty line or a section
+    refused(&MOC[..at], "MOC.cfg:16");
+    refused(&MOC[..at - 1], "MOC.cfg:16");
+    refused(&format!("{}\n#\nSINGLE:\n", &MOC[..at]), "goes on");
+    refused(&format!("{}SINGLE:\n", &MOC[..at]), "goes on");
+    // within a line: a number, a key, a quoted word
+    refused(&MOC[..at + z.len() - 2], "the line has no end");
+    refused(
+        &MOC[..at + "      -base_frame_pos_z".len()],
+        "the line has no end",
+    );
+    let key = format!("{}      -base_frame_pos_z\n", &MOC[..at]);
+    refused(&key, "base_frame_pos_z of ROB_1 has no value");
+    let quoted = MOC.find("ROB1_4600").expect("its type");
+    refused(&format!("{}\n", &MOC[..quoted + 4]), "quoted word");
+}
+
 const MACHINE: &str = "&ACCESS RV\nDEFDAT  $MACHINE PUBLIC\nINT $EX_AX_NUM=2 ;number\nINT \
     $AXIS_TYPE[12]\n$AXIS_TYPE[7]=1\n$AXIS_TYPE[8]=3\n$SOFTN_END[7]=-50.0\n$SOFTP_END[7]=4500.0\n$SOFTN_END[8]=-90.0\n$SOFTP_END[8]=90.0\nDECL EX_KIN $EX_KIN={ET1 #ERSYS,ET2 #EASYS,ET3 #NONE,ET4 #NONE,ET5 #NONE,ET6 #NONE}\nDECL ET_AX $ET1_AX={TR_A1 #E1,TR_A2 #NONE,TR_A3 #NONE}\nET1_NAME[]=\"KL\"\nDECL FRAME $ET1_TA1KR={X 0.0,Y 0.0,Z 450.0,A 0.0,B 90.0,C 0.0}\nDECL FRAME $ET1_TA2A1={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET1_TA3A2={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET1_TFLA3={X 0.0,Y 0.0,Z 0.0,A 0.0,B -90.0,C 0.0}\nDECL ET_AX $ET2_AX={TR_A1 #E2,TR_A2 #NONE,TR_A3 #NONE}\nDECL FRAME $ET2_TA1KR={X 0.0,Y 0.0,Z 700.0,A 0.0,B 0.0,C 90.0}\nDECL FRAME $ET2_TA2A1={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET2_TA3A2={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME $ET2_TFLA3={X 0.0,Y 0.0,Z 25.0,A 0.0,B 0.0,C 0.0}\nFRAME $ERSYSROOT={X 100.0,Y 200.0,Z 0.0,A 90.0,B 0.0,C 0.0}\nENDDAT\n";
 const CONFIG: &str = "DEFDAT  $CONFIG\nDECL MACHINE_DEF_STRUC \
