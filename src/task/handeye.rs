@@ -2,6 +2,7 @@
 
 use super::Document;
 use super::circumstances::Circumstances;
+use super::copies::{self, copies, without};
 use super::failure::Failure;
 use super::parts::{Ellipsoid, Pose, Sigma};
 use super::profile_file::ProfileFile;
@@ -112,22 +113,22 @@ pub struct HandEye {
     pub left_out_mm: f64,
     /// The same of rows left out of the fit.
     pub left_out_deg: f64,
-    /// Standard uncertainties of the camera.
-    pub sigma: Sigma,
-    /// Standard uncertainties of the board.
-    pub board_sigma: Sigma,
-    /// Standard deviation of one coordinate of a row.
-    pub noise_mm: f64,
-    /// Standard deviation of one rotation coordinate of a row.
-    pub noise_deg: f64,
+    /// Standard uncertainties of the camera; `null` where so few poses do not show them.
+    pub sigma: Option<Sigma>,
+    /// Standard uncertainties of the board; `null` likewise.
+    pub board_sigma: Option<Sigma>,
+    /// Standard deviation of one coordinate of a row; `null` likewise.
+    pub noise_mm: Option<f64>,
+    /// Standard deviation of one rotation coordinate of a row; `null` likewise.
+    pub noise_deg: Option<f64>,
     /// Root mean square rotations about the main directions, largest first.
     pub rotation_spread_deg: [f64; 3],
     /// Residuals of the rows.
     pub poses: Vec<Row>,
     /// The refinement by corners.
     pub corners: Option<Corners>,
-    /// Error ellipsoids of the camera and of the board.
-    pub ellipsoids: [Ellipsoid; 2],
+    /// Error ellipsoids of the camera and of the board, as far as they are known.
+    pub ellipsoids: Vec<Ellipsoid>,
     /// What a person should look at.
     pub findings: Vec<Finding>,
     /// How the robot's and the board's file are named.
@@ -153,7 +154,17 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
     let named = |error: &dyn std::fmt::Display| {
         Failure::new(format!("{} and {}: {error}", names[0], names[1]))
     };
-    let problem = Problem::new(setup, &robot, &board).map_err(|error| named(&error))?;
+    let (repeated, own) = distinct(&robot, &board);
+    let named = |error: &dyn std::fmt::Display| match repeated.len() {
+        0 => named(error),
+        count => {
+            let message = format!("{} and {}: {error}", names[0], names[1]);
+            let hint = format!("{count} row(s) that repeat an earlier one count once");
+            Failure::with_hint(message, hint)
+        }
+    };
+    let kept = [&robot, &board].map(|poses| without(poses.clone(), &repeated));
+    let problem = Problem::new(setup, &kept[0], &kept[1]).map_err(|error| named(&error))?;
     let refined = problem.refined().map_err(|error| named(&error))?;
     let corners = inputs
         .corners
@@ -161,18 +172,27 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
         .transpose()?;
     let accepted = corners.as_ref().filter(|c| c.accepted);
     let camera = accepted.map_or(&refined.camera, |c| &c.camera);
-    let covariance = accepted.map_or(&refined.camera_covariance, |c| &c.covariance);
-    let sigma = Six::of(covariance, camera);
+    let of_rows = refined.shows_noise();
+    // corners show their own noise
+    let covariance = accepted
+        .map(|c| &c.covariance)
+        .or_else(|| of_rows.then_some(&refined.camera_covariance));
+    let board_covariance = of_rows.then_some(&refined.board_covariance);
+    let sigma = covariance.map(|covariance| Six::of(covariance, camera));
     let by = |method: Method| problem.by(method).ok().as_ref().map(Into::into);
     let (left_out_m, left_out_rad) = left_out(&refined);
     let mut findings = Vec::new();
+    findings.extend(copies::finding(&repeated, names[0], |row| {
+        format!("row {}", row + 1)
+    }));
+    findings.extend(few_poses(&refined, names[0]));
     findings.extend(weak_rotation(&problem, names[0]));
-    findings.extend(outliers(&refined, names[0]));
+    findings.extend(outliers(&refined, &own, names[0]));
     findings.extend(other_scale(&refined, names[1]));
     findings.extend(corners.as_ref().and_then(|c| not_accepted(c, names[0])));
     let frame = Frame {
         to_from_from: *camera,
-        sigma: Some(sigma),
+        sigma,
         rmsd_m: Some(refined.distance_m),
         points: Some(problem.count()),
         provenance: provenance([
@@ -199,15 +219,15 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
         residual_deg: refined.rotation_rad / DEG,
         left_out_mm: mm_from_m(left_out_m),
         left_out_deg: left_out_rad / DEG,
-        sigma: (&sigma).into(),
-        board_sigma: (&Six::of(&refined.board_covariance, &refined.board)).into(),
-        noise_mm: mm_from_m(refined.sigma_position_m),
-        noise_deg: refined.sigma_rotation_rad / DEG,
+        sigma: sigma.as_ref().map(Into::into),
+        board_sigma: board_covariance.map(|c| (&Six::of(c, &refined.board)).into()),
+        noise_mm: of_rows.then(|| mm_from_m(refined.sigma_position_m)),
+        noise_deg: of_rows.then(|| refined.sigma_rotation_rad / DEG),
         rotation_spread_deg: problem.spread_rad.map(|s| s / DEG),
-        poses: refined
-            .rows
+        poses: own
             .iter()
             .zip(&robot)
+            .map(|(own, robot)| (&refined.rows[*own], robot))
             .map(|(row, robot)| Row {
                 residual_mm: mm_from_m(row.distance_m),
                 residual_deg: row.rotation_rad / DEG,
@@ -224,17 +244,57 @@ pub fn handeye(inputs: &Inputs, setup: Setup) -> Result<HandEye, Failure> {
             correction: (&c.correction).into(),
         }),
         ellipsoids: [
-            Ellipsoid::new("camera", covariance, camera.translation),
-            Ellipsoid::new(
-                "board",
-                &refined.board_covariance,
-                refined.board.translation,
-            ),
-        ],
+            covariance.map(|c| Ellipsoid::new("camera", c, camera.translation)),
+            board_covariance.map(|c| Ellipsoid::new("board", c, refined.board.translation)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         findings,
         names: names.map(Clone::clone),
         frame_text: frame.to_yaml(),
     })
+}
+
+/// Rows that repeat an earlier one, and of each row its place among the others.
+fn distinct(robot: &[Motion], board: &[Motion]) -> (Vec<copies::Copy>, Vec<usize>) {
+    let rows = robot.iter().zip(board);
+    let numbers = |(robot, board)| copies::numbers(robot).chain(copies::numbers(board));
+    let repeated = copies(rows.map(numbers));
+    let mut own: Vec<usize> = Vec::with_capacity(robot.len());
+    let mut next = 0;
+    for row in 0..robot.len() {
+        let copy = repeated.iter().find(|copy| copy[0] == row);
+        own.push(copy.map_or(next, |copy| own[copy[1]]));
+        next += usize::from(copy.is_none());
+    }
+    (repeated, own)
+}
+
+/// Up to so many poses the noise is hardly known.
+const FEW: usize = 8;
+
+/// Poses that do not show the noise, or hardly.
+fn few_poses(refined: &Refined, name: &str) -> Option<Finding> {
+    let count = refined.rows.len();
+    let message = if !refined.shows_noise() {
+        format!(
+            "{count} poses do not show their noise: a turn of the camera lays all positions on each \
+             other; how far camera and board are off is not known"
+        )
+    } else if count <= FEW {
+        let [rotations, positions] = refined.redundancy;
+        format!(
+            "{count} poses hardly show their noise: it comes from {positions:.0} redundant \
+             coordinates of positions and {rotations:.0} of rotations; in one case of twenty sigma \
+             is more than {:.1} times as large",
+            refined.sigma_times()
+        )
+    } else {
+        return None;
+    };
+    let finding = Finding::of_file("few-points", Severity::Warning, name, message);
+    Some(finding.hint("take about 15 poses"))
 }
 
 fn weak_rotation(problem: &Problem, name: &str) -> Option<Finding> {
@@ -280,7 +340,7 @@ const STANDS_OUT: f64 = 5.0;
 const SMALL: [f64; 2] = [1e-5, 1e-5];
 
 /// Rows that the others contradict; they are in the fit.
-fn outliers(refined: &Refined, name: &str) -> Vec<Finding> {
+fn outliers(refined: &Refined, own: &[usize], name: &str) -> Vec<Finding> {
     let left = |kind: usize| -> Vec<f64> {
         let rows = refined.rows.iter();
         rows.map(|row| [row.out_distance_m, row.out_rotation_rad][kind])
@@ -297,9 +357,10 @@ fn outliers(refined: &Refined, name: &str) -> Vec<Finding> {
     let rows = left(0).into_iter().zip(left(1)).enumerate();
     rows.filter(|(_, (distance, turn))| *distance > limits[0] || *turn > limits[1])
         .map(|(index, (distance, turn))| {
+            let row = own.iter().position(|at| *at == index).unwrap_or(index);
             let message = format!(
                 "row {} is {:.3} mm and {:.3} deg from where the others have it; it is in the fit",
-                index + 1,
+                row + 1,
                 mm_from_m(distance),
                 turn / DEG
             );

@@ -25,6 +25,7 @@ pub mod catalogue;
 pub mod check;
 mod circumstances;
 pub mod compensate;
+mod copies;
 pub mod diagnose;
 pub mod drift;
 pub mod explain;

@@ -361,9 +361,13 @@ fn hand_eye_facts(found: &HandEye) -> Vec<(String, String)> {
     };
     facts.extend(worst(&|row| row.residual_deg).map(fact));
     facts.push(("camera".into(), pose_text(&found.camera)));
-    facts.push(("camera, sigma".into(), sigma_text(&found.sigma)));
+    let sigma = |sigma: &Option<Sigma>| match sigma {
+        Some(sigma) => sigma_text(sigma),
+        None => "not known from so few poses".into(),
+    };
+    facts.push(("camera, sigma".into(), sigma(&found.sigma)));
     facts.push(("board".into(), pose_text(&found.board)));
-    facts.push(("board, sigma".into(), sigma_text(&found.board_sigma)));
+    facts.push(("board, sigma".into(), sigma(&found.board_sigma)));
     facts
 }
 
@@ -394,15 +398,17 @@ pub(crate) fn hand_eye_page(found: &HandEye) -> Page {
         ),
         facts: hand_eye_facts(found),
         points: Vec::new(),
-        ellipsoids: found.ellipsoids.to_vec(),
+        ellipsoids: found.ellipsoids.clone(),
         findings: found.findings.clone(),
     });
-    show_hand_eye(&mut page, found, &found.ellipsoids[usize::from(in_hand)]);
+    let of = if in_hand { "board" } else { "camera" };
+    let in_base = found.ellipsoids.iter().find(|one| one.of == of);
+    show_hand_eye(&mut page, found, in_base);
     page
 }
 
 /// The rows of a hand-eye pair, what is uncertain in the base, and what each method found.
-fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: &Ellipsoid) {
+fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: Option<&Ellipsoid>) {
     let rows = &found.poses;
     let place = |k: usize| rows.iter().map(move |r| fixed(r.place_mm[k], 2));
     let table = Table {
@@ -453,16 +459,18 @@ fn show_hand_eye(page: &mut Page, found: &HandEye, in_base: &Ellipsoid) {
     page.sections.push(Section::Cell(Box::new(Cell {
         title: "Poses".into(),
         note: format!(
-            "Where the flange was, seen from the base; the colour is the residual of \
-            each pose. The ellipsoid, magnified, is one standard deviation of the {}.",
-            in_base.of
+            "Where the flange was, seen from the base; the colour is the residual of each pose.{}",
+            in_base.map_or_else(String::new, |one| format!(
+                " The ellipsoid, magnified, is one standard deviation of the {}.",
+                one.of
+            ))
         ),
         table: "rows".into(),
         robot: None,
         bodies: Vec::new(),
         points,
         paths: Vec::new(),
-        ellipsoids: vec![drawn(in_base)],
+        ellipsoids: in_base.map(drawn).into_iter().collect(),
         along: Along::No(false),
     })));
     for (title, columns, unit) in [

@@ -41,17 +41,24 @@ pub(super) fn text(found: &HandEye, style: Style) -> String {
         rows.push(named("corners", &found.camera));
     }
     let mut cells = vec!["  sigma".to_owned()];
-    cells.extend(found.sigma.xyz_mm().map(|m| format!("{m:.4}")));
-    cells.extend(found.sigma.rxryrz_deg().map(|r| format!("{r:.5}")));
+    match &found.sigma {
+        Some(sigma) => {
+            cells.extend(sigma.xyz_mm().map(|m| format!("{m:.4}")));
+            cells.extend(sigma.rxryrz_deg().map(|r| format!("{r:.5}")));
+        }
+        None => cells.extend([(); 6].map(|()| "-".to_owned())),
+    }
     rows.push(cells);
     rows.push(row([board]));
     rows.push(named("refined", &found.board));
     let mut text = aligned(&rows, style.width);
-    text += &format!(
-        "{} poses; sigma of the rotation about the axes of the {}\n",
-        found.poses.len(),
-        what.split('_').next().unwrap_or_default()
-    );
+    let count = found.poses.len();
+    text += &if found.sigma.is_some() {
+        let holder = what.split('_').next().unwrap_or_default();
+        format!("{count} poses; sigma of the rotation about the axes of the {holder}\n")
+    } else {
+        format!("{count} poses; sigma is not known from so few\n")
+    };
     if let Some(corners) = &found.corners {
         text += &format!(
             "corners {:.4} mm before, {:.4} mm after, {:.4} mm when left out: {}\n",

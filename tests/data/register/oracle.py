@@ -119,7 +119,10 @@ def handeye():
         fit = least_squares(residual, x, jac="3-point", x_scale=[1e-3] * 3 + [1] * 3 + [1e-3] * 3 + [1] * 3, xtol=1e-15, ftol=1e-15, gtol=1e-15)
         x = fit.x
         left = fit.fun.reshape(-1, 2, 3) * np.array(sigma)[None, :, None]
-        sigma = [np.sqrt((left[:, k] ** 2).sum() / (3 * len(robot) - 6)) for k in (0, 1)]
+        # each kind has the redundancy that the hat matrix leaves it
+        q, _ = np.linalg.qr(fit.jac)
+        free = (1 - (q ** 2).sum(axis=1)).reshape(-1, 2, 3)
+        sigma = [np.sqrt((left[:, k] ** 2).sum() / free[:, k].sum()) for k in (0, 1)]
     X, Y = split(x)
     cov = np.linalg.inv(fit.jac.T @ fit.jac)
     expected["refined"] = {"translation_mm": X[1].tolist(), "quaternion_wxyz": pose(*X)[3:],

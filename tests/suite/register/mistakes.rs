@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Runs with files of the folder in the place of names that end in `.csv`.
-fn registered(folder: &Path, arguments: &[&str]) -> (i32, Value, String) {
+pub(super) fn registered(folder: &Path, arguments: &[&str]) -> (i32, Value, String) {
     let path = |name: &str| folder.join(name).to_str().expect("plain").to_owned();
     let words: Vec<String> = arguments
         .iter()
@@ -26,12 +26,12 @@ fn registered(folder: &Path, arguments: &[&str]) -> (i32, Value, String) {
     )
 }
 
-fn has(report: &Value, id: &str) -> bool {
+pub(super) fn has(report: &Value, id: &str) -> bool {
     let findings = report["findings"].as_array().expect("findings");
     findings.iter().any(|finding| finding["id"] == id)
 }
 
-fn write(folder: &Path, name: &str, text: &str) {
+pub(super) fn write(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join(name), text).expect("scratch");
 }
 
@@ -242,7 +242,7 @@ fn measured(times: f64) -> Vec<[f64; 3]> {
     EIGHT.iter().zip(&OFF).map(one).collect()
 }
 
-fn points(rows: &[[f64; 3]]) -> String {
+pub(super) fn points(rows: &[[f64; 3]]) -> String {
     rows.iter()
         .fold(String::from("x_mm,y_mm,z_mm\n"), |text, [x, y, z]| {
             format!("{text}{x:.4},{y:.4},{z:.4}\n")
@@ -314,7 +314,7 @@ fn a_stated_deviation_that_the_residuals_contradict_is_said() {
     }
 }
 
-fn boards(poses: &[Pose]) -> String {
+pub(super) fn boards(poses: &[Pose]) -> String {
     let mut text = String::from("x_mm,y_mm,z_mm,qw,qx,qy,qz\n");
     for pose in poses {
         let [x, y, z] = pose.translation.map(|v| v * 1e3);

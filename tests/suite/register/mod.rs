@@ -2,6 +2,7 @@
 
 mod camera;
 mod commands;
+mod few;
 mod mistakes;
 mod oracle;
 mod part;

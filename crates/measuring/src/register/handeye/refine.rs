@@ -3,11 +3,27 @@
 use crate::geometry::{Pose, Rotation, Vector, norm};
 use crate::register::uncertainty::{PoseCovariance, crossing};
 use nalgebra::{Matrix6, SMatrix, SVector, Vector3, Vector6};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// Largest number of steps.
 const STEPS: usize = 30;
 /// Standard deviations below these are rounding: radians, metres.
 const FLOOR: [f64; 2] = [1e-12, 1e-12];
+/// The noise of positions is at least this part of that of rotations times the distance between
+/// camera and board.
+///
+/// Corners of noise `s` on a board of extent `w` (root mean square along an axis) at distance `D`,
+/// seen at the angle `θ` to its normal: the board's place comes out with `s` across and `s D / w`
+/// along the view, its turn with `s / (w sin θ)` about the two axes that tilt it (a tilted square
+/// shortens by `sin θ` a radian) and `s / (√2 w)` in its plane. The ratio of the root mean squares
+/// is `√((2 w² + D²) / (2 / sin² θ + ½)) ≥ D / √(2 / sin² θ + ½)`, whatever `s` and `w` are: `D /
+/// 4.2` at the 20° of tilt from which poses are good. A flange that is turned by an error of the
+/// arm moves the board by more, `D √⅔`.
+const LEVER_PART: f64 = 0.25;
+/// The bound is no bound where residuals as small as these have less than this chance under it.
+const CONTRADICTED: f64 = 0.01;
+/// Unknowns that positions alone determine: both places, and the camera's turn.
+const OF_POSITIONS: usize = 9;
 
 /// What is left of one row: rotation (radians) and distance (metres) of the board from where the
 /// others say it is.
@@ -38,6 +54,10 @@ pub struct Refined {
     pub sigma_rotation_rad: f64,
     /// Standard deviation of one coordinate of a row's position, metres.
     pub sigma_position_m: f64,
+    /// How many residuals more than unknowns show these two, of rotations and of positions: `3 n −
+    /// tr(C N)` with what each kind adds to the normal matrix `N` of the fit. Together `6 n − 12`,
+    /// which is what both have where one shows the other.
+    pub redundancy: [f64; 2],
     /// Root mean square rotation left, radians.
     pub rotation_rad: f64,
     /// Root mean square distance left, metres.
@@ -82,23 +102,82 @@ fn moved(pose: &Pose, step: &[f64]) -> Pose {
         }
 }
 
+impl Refined {
+    /// Whether the rows show their noise: three poses can be laid on each other in all positions,
+    /// by a turn of the camera.
+    #[must_use]
+    pub fn shows_noise(&self) -> bool {
+        3 * self.rows.len() > OF_POSITIONS
+    }
+
+    /// How many times the standard uncertainties may be as large as they are given, in one case of
+    /// twenty: from χ² of the smaller [`redundancy`](Self::redundancy).
+    #[must_use]
+    pub fn sigma_times(&self) -> f64 {
+        let freedom = self.redundancy[0].min(self.redundancy[1]);
+        let low = ChiSquared::new(freedom).map_or(0.0, |chi| chi.inverse_cdf(0.05));
+        (freedom / low).sqrt()
+    }
+}
+
 /// Gauss–Newton from X; Y starts at the mean of what the rows say. Rotations and positions are
 /// weighted by their own noise, which comes from what is left of them.
+///
+/// Few rows leave little of positions, however large their noise is: they are followed then, and
+/// rotations given up for them. So their noise is not taken for smaller than [`LEVER_PART`] allows,
+/// unless the residuals contradict it.
 pub(super) fn refine(a: &[Pose], b: &[Pose], start: Pose) -> Refined {
+    let free = solve(a, b, start, None);
+    let places: Vec<Vector> = b.iter().map(|pose| pose.translation).collect();
+    let least_m = LEVER_PART * rms_m(&places);
+    if free.sigma[1] >= least_m * free.sigma[0] {
+        return finish(a, b, &free);
+    }
+    let bound = solve(a, b, start, Some(least_m));
+    let [rotations, positions] = bound.redundancy;
+    let ratio = (bound.own[1] / (least_m * bound.own[0])).powi(2);
+    let least = FisherSnedecor::new(positions, rotations)
+        .map_or(0.0, |chance| chance.inverse_cdf(CONTRADICTED));
+    let enough = 3 * a.len() > OF_POSITIONS;
+    let contradicted = enough && ratio < least;
+    finish(a, b, if contradicted { &free } else { &bound })
+}
+
+/// A fit with its weights.
+struct Solved {
+    camera: Pose,
+    board: Pose,
+    information: SMatrix<f64, 12, 12>,
+    /// By which the rows are weighted: radians, metres.
+    sigma: [f64; 2],
+    /// What is left of each kind for itself: radians, metres.
+    own: [f64; 2],
+    redundancy: [f64; 2],
+    steps: usize,
+}
+
+/// With the noise of each kind from what is left of it, or with a given ratio (metres) of
+/// positions' noise to rotations' and the size from both.
+fn solve(a: &[Pose], b: &[Pose], start: Pose, ratio_m: Option<f64>) -> Solved {
     let n = a.len();
-    let mut camera = start;
-    let mut board = a[0] * camera * b[0];
-    let mut sigma = [1.0, 1.0];
-    let mut steps = 0;
-    let mut information = SMatrix::<f64, 12, 12>::zeros();
+    let mut solved = Solved {
+        camera: start,
+        board: a[0] * start * b[0],
+        information: SMatrix::zeros(),
+        sigma: [1.0, ratio_m.unwrap_or(1.0)],
+        own: FLOOR,
+        redundancy: [0.0; 2],
+        steps: 0,
+    };
     for round in 0..STEPS {
-        steps = round + 1;
-        information.fill(0.0);
+        solved.steps = round + 1;
+        let sigma = solved.sigma;
+        let mut parts = [SMatrix::<f64, 12, 12>::zeros(); 2];
         let mut right = SVector::<f64, 12>::zeros();
         let mut sums = [0.0; 2];
-        let back = board.inverse();
+        let back = solved.board.inverse();
         for (a, b) in a.iter().zip(b) {
-            let (left, jacobian) = residual(a, b, &camera, &back);
+            let (left, jacobian) = residual(a, b, &solved.camera, &back);
             for k in 0..6 {
                 let kind = k / 3;
                 sums[kind] += left[k] * left[k];
@@ -110,45 +189,51 @@ pub(super) fn refine(a: &[Pose], b: &[Pose], start: Pose) -> Refined {
                     if w != 0.0 {
                         right[i] -= w * left[k];
                         for j in 0..=i {
-                            information[(i, j)] += w * row[j];
+                            parts[kind][(i, j)] += w * row[j];
                         }
                     }
                 }
             }
         }
-        information.fill_upper_triangle_with_lower_triangle();
-        let Some(factor) = information.cholesky() else {
+        for part in &mut parts {
+            part.fill_upper_triangle_with_lower_triangle();
+        }
+        solved.information = parts[0] + parts[1];
+        let Some(factor) = solved.information.cholesky() else {
             break;
         };
         let step = factor.solve(&right);
-        camera = moved(&camera, &step.as_slice()[..6]);
-        board = moved(&board, &step.as_slice()[6..]);
-        // six unknowns of each kind
+        solved.camera = moved(&solved.camera, &step.as_slice()[..6]);
+        solved.board = moved(&solved.board, &step.as_slice()[6..]);
+        let covariance = factor.inverse();
         #[allow(clippy::cast_precision_loss)]
-        let freedom = (3 * n - 6).max(1) as f64;
-        let now = [0, 1].map(|k| (sums[k] / freedom).sqrt().max(FLOOR[k]));
+        let (each, all) = (3.0 * n as f64, 6.0 * n as f64 - 12.0);
+        solved.redundancy = parts.map(|part| each - (covariance * part).trace());
+        solved.own = [0, 1].map(|k| {
+            let freedom = solved.redundancy[k].max(f64::EPSILON);
+            (sums[k] / freedom).sqrt().max(FLOOR[k])
+        });
+        let now = ratio_m.map_or(solved.own, |ratio_m| {
+            let both = sums[0] + sums[1] / (ratio_m * ratio_m);
+            let size = (both / all).sqrt().max(FLOOR[0]);
+            [size, ratio_m * size]
+        });
         let settled = (0..2).all(|k| (now[k] / sigma[k] - 1.0).abs() < 1e-6 || now[k] <= FLOOR[k]);
         // the first step mends what the start left; its noise is not yet that of the rows
         if round > 0 {
-            sigma = now;
+            solved.sigma = now;
         }
         if step.norm() < 1e-12 && (settled || round > 10) {
             break;
         }
     }
-    finish(a, b, camera, board, &information, sigma, steps)
+    solved
 }
 
-fn finish(
-    a: &[Pose],
-    b: &[Pose],
-    camera: Pose,
-    board: Pose,
-    information: &SMatrix<f64, 12, 12>,
-    sigma: [f64; 2],
-    steps: usize,
-) -> Refined {
-    let covariance = information
+fn finish(a: &[Pose], b: &[Pose], solved: &Solved) -> Refined {
+    let (camera, board, sigma) = (solved.camera, solved.board, solved.sigma);
+    let covariance = solved
+        .information
         .try_inverse()
         .unwrap_or_else(SMatrix::<f64, 12, 12>::zeros);
     let weights = Vector6::from_fn(|i, _| 1.0 / (sigma[i / 3] * sigma[i / 3]));
@@ -188,8 +273,9 @@ fn finish(
         sigma_rotation_rad: sigma[0],
         sigma_position_m: sigma[1],
         rotation_rad: rms(|r| r.rotation_rad),
+        redundancy: solved.redundancy,
         distance_m: rms(|r| r.distance_m),
-        steps,
+        steps: solved.steps,
         rows,
     }
 }
