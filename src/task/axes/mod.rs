@@ -5,6 +5,7 @@ pub mod positioner;
 use self::positioner::{PositionerAxis, positioner_axes, put, swept, values};
 use super::Document;
 use super::circumstances::Track;
+use super::copies::{self, copies, without};
 use super::failure::Failure;
 use super::measurements::identify_failure;
 use super::parts::{Pose, Sigma, findings as remarks};
@@ -168,7 +169,8 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     let mut sweeps = Vec::new();
     let device = profile.device.map(|device| device.world_from_device);
     let (of_joints, mut of_plates, stand) = read(profile, source, point)?;
-    for (mut sweep, lines) in of_joints {
+    for (mut sweep, mut lines) in of_joints {
+        findings.extend(once(&mut sweep, &mut lines, name));
         if let Some(world_from_device) = &device {
             place(&mut sweep, world_from_device);
         }
@@ -176,6 +178,9 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         sweeps.push(kept);
         let reported = |outlier: &Outlier| left_out(outlier, sweep.joint, lines[outlier.row], name);
         findings.extend(outliers.iter().map(reported));
+    }
+    for sweep in &mut of_plates {
+        findings.extend(once_on_plate(sweep, name));
     }
     let found = sweeps
         .iter()
@@ -247,6 +252,37 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
         findings,
         name: name.clone(),
     })
+}
+
+/// Leaves out rows of a sweep that repeat an earlier one.
+fn once(sweep: &mut Sweep, lines: &mut Vec<usize>, name: &str) -> Option<Finding> {
+    let numbers = |row: &Row| {
+        let turn = row.rotation.into_iter().flat_map(|r| r.0).flatten();
+        let place = row.q.into_iter().chain(row.point_m);
+        place.chain([row.direction]).chain(turn)
+    };
+    let repeated = copies(sweep.rows.iter().map(numbers));
+    let named = |row: usize| format!("line {}", lines[row]);
+    let found = copies::finding(&repeated, name, named)?;
+    let line = lines[repeated[0][0]];
+    sweep.rows = without(std::mem::take(&mut sweep.rows), &repeated);
+    *lines = without(std::mem::take(lines), &repeated);
+    Some(Finding {
+        line,
+        column: 1,
+        ..found
+    })
+}
+
+/// The same of the sweep of an axis of a positioner.
+fn once_on_plate(sweep: &mut OnPlate, name: &str) -> Option<Finding> {
+    let rows = sweep.rows.iter();
+    let repeated = copies(rows.map(|row| row.values.iter().copied().chain(row.point_m)));
+    let axis = sweep.axis + 1;
+    let named = |row: usize| format!("row {} of the sweep of e{axis}", row + 1);
+    let found = copies::finding(&repeated, name, named);
+    sweep.rows = without(std::mem::take(&mut sweep.rows), &repeated);
+    found
 }
 
 fn left_out(outlier: &Outlier, joint: usize, line: usize, name: &str) -> Finding {

@@ -1,7 +1,7 @@
 //! Points whose partners are known: Kabsch, robustly or with planes.
 
 use super::planes::{Touches, plane, touches_of};
-use super::points::{Feature, Pair, Points, matched};
+use super::points::{Feature, Pair, PointRow, Points, matched};
 use super::{Feature as TouchedFeature, Motion, Options, Registration, Residual, Scale};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
@@ -11,6 +11,7 @@ use crate::register::features::{self, FeatureError, Round, compensated, noise_of
 use crate::register::kabsch::{Fit, kabsch, noise_m};
 use crate::register::robust::{self, robust};
 use crate::task::Failure;
+use crate::task::copies::{self, copies, without};
 
 /// A residual above so many standard deviations of a coordinate is worth a look.
 const SUSPECT: f64 = 4.35;
@@ -51,12 +52,20 @@ pub(super) fn register(
     to: &Points,
     options: &Options,
 ) -> Result<Registration, Failure> {
-    let (pairs, dropped) = matched(from, to, options.drop_unmatched)?;
+    let (mut pairs, dropped) = matched(from, to, options.drop_unmatched)?;
     let mut findings = Vec::new();
     if !dropped.is_empty() {
         let message = format!("left out, for want of a partner: {}", dropped.join(", "));
         findings.push(warning("unmatched-ids", &to.name, message));
     }
+    for pair in &mut pairs {
+        findings.extend(touched_once(pair, &to.name));
+    }
+    let repeated = copies(pairs.iter().map(numbers));
+    findings.extend(copies::finding(&repeated, &to.name, |row| {
+        pairs[row].from.id.clone()
+    }));
+    let pairs = without(pairs, &repeated);
     let radius = options.probe_radius_m;
     let (mut touched, mut planes, mut on_planes) = (Vec::new(), Vec::new(), Vec::new());
     let mut features = Vec::new();
@@ -91,6 +100,25 @@ pub(super) fn register(
         features,
         ..Registration::new(&from.name, &to.name, motion, options)
     })
+}
+
+/// Leaves out touches of a feature that repeat an earlier one.
+fn touched_once(pair: &mut Pair, name: &str) -> Option<Finding> {
+    let repeated = copies(pair.to.iter().map(|row| row.point_m));
+    pair.to = without(std::mem::take(&mut pair.to), &repeated);
+    let id = &pair.from.id;
+    let named = |touch: usize| format!("touch {} of {id}", touch + 1);
+    copies::finding(&repeated, name, named)
+}
+
+/// What a pair of rows says.
+fn numbers(pair: &Pair) -> Vec<f64> {
+    let rows = std::iter::once(&pair.from).chain(&pair.to);
+    let number = |row: &&PointRow| {
+        let normal = row.normal.into_iter().flatten();
+        row.point_m.into_iter().chain(normal).collect::<Vec<f64>>()
+    };
+    rows.flat_map(number).collect()
 }
 
 fn by_points(
@@ -137,15 +165,19 @@ fn by_points(
     };
     let times = given.map(|given| noise_m(&residuals, used) / given);
     let contradicted = times.and_then(|times| other_sigma(times, 3 * fit.count - 6, name));
-    let mut explained = false;
+    let mut bad = None;
     if !options.robust {
         let quiet = contradicted.is_some();
-        explained = suspect(touched, &sets, weights, given, spread_m, quiet, findings);
+        bad = suspect(touched, &sets, weights, given, spread_m, quiet, findings);
     }
-    if !explained {
-        sets.refuse_unlike(&fit, used, spread_m)?;
-    }
+    sets.refuse_unlike(&fit, used, spread_m, bad)?;
     findings.extend(contradicted);
+    findings.extend(turned_over(
+        &fit,
+        fit.rmsd_m(&from, &to, used),
+        spread_m,
+        name,
+    ));
     if exact {
         findings.push(Finding::of_file(
             "few-points",
@@ -243,7 +275,14 @@ struct Sets<'a> {
 
 impl Sets<'_> {
     /// Refuses points that no motion and no change of size lays on their partners.
-    fn refuse_unlike(&self, fit: &Fit, used: Option<&[f64]>, spread_m: f64) -> Result<(), Failure> {
+    /// `bad` says which few rows are to blame, where the others fit.
+    fn refuse_unlike(
+        &self,
+        fit: &Fit,
+        used: Option<&[f64]>,
+        spread_m: f64,
+        bad: Option<String>,
+    ) -> Result<(), Failure> {
         let limit_m = UNLIKE * spread_m;
         let rmsd_m = fit.rmsd_m(self.from, self.to, used);
         if rmsd_m <= limit_m {
@@ -256,7 +295,8 @@ impl Sets<'_> {
             return Ok(());
         }
         let message = unlike(self.name, rmsd_m, limit_m);
-        Err(Failure::with_hint(message, self.order(limit_m)))
+        let hint = bad.unwrap_or_else(|| self.order(limit_m));
+        Err(Failure::with_hint(message, hint))
     }
 
     /// The order of rows in which they fit.
@@ -297,8 +337,8 @@ impl Sets<'_> {
     }
 }
 
-/// Without --robust: a point that the others contradict is reported, not left out. Whether the
-/// others fit.
+/// Without --robust: a point that the others contradict is reported, not left out. Which these are
+/// and the way out, where the others fit.
 fn suspect(
     touched: &[Touched],
     sets: &Sets,
@@ -307,9 +347,9 @@ fn suspect(
     spread_m: f64,
     sigma_contradicted: bool,
     findings: &mut Vec<Finding>,
-) -> bool {
+) -> Option<String> {
     if touched.len() > 2000 {
-        return false;
+        return None;
     }
     let Sets { from, to, name } = *sets;
     let found = match robust::agreeing(from, to, weights, given, FEWEST_SUSPECTED) {
@@ -319,27 +359,68 @@ fn suspect(
                 let finding = warning("no-agreement", name, error.to_string());
                 findings.push(finding.hint(error.hint()));
             }
-            return false;
+            return None;
         }
-        Err(_) => return false,
+        Err(_) => return None,
     };
     let (enough, hint) = if touched.len() < robust::FEWEST {
         (SUSPECT_OF_FIVE, "touch it again; --robust needs six points")
     } else {
         (SUSPECT, "--robust leaves such touches out")
     };
+    let mut named = Vec::new();
     for bad in found.rejected.iter().filter(|bad| bad.sigmas > enough) {
+        let id = &touched[bad.index].id;
+        let distance_mm = mm_from_m(bad.distance_m);
         let message = format!(
-            "{} is {:.3} mm from where the others put it, {:.1} standard deviations; it is in the \
-             fit",
-            touched[bad.index].id,
-            mm_from_m(bad.distance_m),
+            "{id} is {distance_mm:.3} mm from where the others put it, {:.1} standard deviations; \
+             it is in the fit",
             bad.sigmas
         );
         findings.push(warning("suspect-touch", name, message).hint(hint));
+        named.push(format!("{id} ({distance_mm:.3} mm)"));
     }
     let left_m = found.fit.rmsd_m(from, to, Some(&found.weights));
-    !found.rejected.is_empty() && left_m <= UNLIKE * spread_m
+    let more = named.len().saturating_sub(NAMED);
+    named.truncate(NAMED);
+    (!named.is_empty() && left_m <= UNLIKE * spread_m).then(|| {
+        let and = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        format!(
+            "the others fit to {:.3} mm without {}{and}: are rows exchanged? {hint}",
+            mm_from_m(left_m),
+            named.join(", ")
+        )
+    })
+}
+
+/// So many bad rows are named in an error.
+const NAMED: usize = 6;
+/// A mirror image fits as well that leaves less than this times what the motion does.
+const AS_WELL: f64 = 2.0;
+
+/// Points on a plane, to within their noise, that the motion lays on TO with the plane upside down:
+/// a mirrored reading would do the same.
+fn turned_over(fit: &Fit, rmsd_m: f64, spread_m: f64, name: &str) -> Option<Finding> {
+    let turned = fit.across_turned_rad;
+    let rounding_m = 1e-6 * spread_m;
+    let as_well = fit.mirrored_m <= AS_WELL * rmsd_m + rounding_m;
+    (as_well && turned > std::f64::consts::FRAC_PI_2).then(|| {
+        let message = format!(
+            "the points lie on a plane, to within their noise, and fit with it turned over by {:.1} \
+             deg ({:.3} mm are left): a mirror image of them fits as well ({:.3} mm)",
+            turned.to_degrees(),
+            mm_from_m(rmsd_m),
+            mm_from_m(fit.mirrored_m)
+        );
+        warning("plane-turned-over", name, message).hint(
+            "if the part does not lie upside down in TO, a set has an axis turned round or two \
+             coordinates swapped; a point off the plane settles it",
+        )
+    })
 }
 
 /// Weights of points: 1/σ² of `sigma_mm` (absolute), or the column `weight`.

@@ -281,9 +281,9 @@ fn rows_in_another_order_are_refused_and_the_order_is_named() {
             }
         }
     }
-    // one bad touch among good ones is named, not refused
+    // one bad touch among good ones is named, and refused only beyond 5 % of their spread
     let mut bad = good.clone();
-    bad[3][2] += 150.0;
+    bad[3][2] += 15.0;
     write(at, "to.csv", &points(&bad));
     let (status, report, reported) = registered(at, &["register", "from.csv", "to.csv"]);
     assert_eq!(status, 0, "{reported}");

@@ -8,6 +8,7 @@ mod oracle;
 mod part;
 mod procedure;
 mod recovery;
+mod spoiled;
 mod sweeps;
 
 use crate::support::table;

@@ -33,6 +33,11 @@ pub struct Fit {
     pub count: usize,
     /// Sum of weighted squared distances of the FROM points from their centre, m².
     pub from_spread_m2: f64,
+    /// Root mean square distance that the best mirror image leaves, weighted, metres: that of the
+    /// motion where the points lie on a plane.
+    pub mirrored_m: f64,
+    /// By what the motion turns the direction across the points, where they extend least, radians.
+    pub across_turned_rad: f64,
 }
 
 /// Sums over matched points, relative to their first pair.
@@ -181,7 +186,12 @@ pub fn kabsch(
         .map(|(i, j)| u[2][i] * h[(i, j)] * v[2][j])
         .sum();
     let gain = svd.values[0] + svd.values[1] + third;
-    refuse_mirrored(&svd.values, third, from_spread, to_spread, w)?;
+    let left = |third: f64| {
+        let gain = svd.values[0] + svd.values[1] + third;
+        ((from_spread + to_spread - 2.0 * gain).max(0.0) / w).sqrt()
+    };
+    let mirrored_m = left(-third);
+    refuse_mirrored(left(third), mirrored_m, third, (from_spread / w).sqrt())?;
     let to_centre_m = add(q, to[0]);
     let from_centre_m = add(p, from[0]);
     Ok(Fit {
@@ -194,26 +204,23 @@ pub fn kabsch(
         scale: gain / from_spread,
         count,
         from_spread_m2: from_spread,
+        mirrored_m,
+        across_turned_rad: dot(u[2], v[2]).clamp(-1.0, 1.0).acos(),
     })
 }
 
 /// A mirror image fits better than any rotation, by more than noise can make a flat set seem turned
 /// over.
 fn refuse_mirrored(
-    values: &nalgebra::DVector<f64>,
+    rigid_m: f64,
+    mirrored_m: f64,
     third: f64,
-    from_spread: f64,
-    to_spread: f64,
-    w: f64,
+    spread_m: f64,
 ) -> Result<(), RegisterError> {
-    let left = |gain: f64| ((from_spread + to_spread - 2.0 * gain).max(0.0) / w).sqrt();
-    let rigid = left(values[0] + values[1] + third);
-    let mirrored = left(values[0] + values[1] - third);
-    let rounding = 1e-6 * (from_spread / w).sqrt();
-    if third < 0.0 && rigid > rounding && mirrored < MIRRORED * rigid {
+    if third < 0.0 && rigid_m > 1e-6 * spread_m && mirrored_m < MIRRORED * rigid_m {
         return Err(RegisterError::Mirrored {
-            rigid_mm: mm_from_m(rigid),
-            mirrored_mm: mm_from_m(mirrored),
+            rigid_mm: mm_from_m(rigid_m),
+            mirrored_mm: mm_from_m(mirrored_m),
         });
     }
     Ok(())
