@@ -39,8 +39,7 @@ impl Reader<'_> {
             }
             literal.computed = is_pose;
             if !ahead.peek().is(b'(') {
-                let dot = memchr::memchr(b'.', text);
-                let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+                let (symbol, _) = self.member(text);
                 let known = &self.parsed.composed[first..];
                 if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
                     self.parsed.composed.push(symbol);
@@ -82,8 +81,7 @@ impl Reader<'_> {
                     let is_call = ahead.peek().is(b'(');
                     asks |=
                         is_call && matches!(verbs::value_of(text), Some(PoseCall::Actual { .. }));
-                    let dot = memchr::memchr(b'.', text);
-                    let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+                    let (symbol, _) = self.member(text);
                     let known = &self.parsed.composed[first..];
                     if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
                         self.parsed.composed.push(symbol);
@@ -135,7 +133,7 @@ impl Variables<'_, '_> {
             return true;
         }
         if matches!(value, Expr::Literal(_) | Expr::List(_))
-            || assignment.element.is_none_or(|at| at > 2)
+            || assignment.element.number().is_none_or(|at| at > 2)
         {
             return false;
         }
@@ -266,7 +264,7 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Where a pose is that is computed from variables: next to the targets that flow into it.
-    fn made_of(
+    pub(super) fn made_of(
         &mut self,
         named: Vec<VarId>,
         by: DisplacementId,

@@ -2,7 +2,7 @@
 
 use super::literals::{self, Found};
 use super::reader::{Read, Reader};
-use super::syntax::{Expr, ExprId, List, Literal, OTHER};
+use super::syntax::{At, Expr, ExprId, List, Literal, OTHER, Symbol};
 use super::tokens::{Kind, Token};
 use super::verbs::{self, Verb};
 use crate::program::kit::Fault;
@@ -36,7 +36,7 @@ impl Piece {
     }
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     /// One token of an expression; a call with its arguments, a bracket with what is in it.
     pub(super) fn part(&mut self, token: Token) -> Read<()> {
         match token.kind {
@@ -125,9 +125,8 @@ impl Reader<'_> {
                             Some(literal) => value = literal,
                             None => waiting.push((b']', next.start)),
                         }
-                    } else if looks && !text.contains(&b'.') && !verbs::is_operator(text) {
-                        let symbol = self.parsed.symbol(text);
-                        value = self.parsed.add(Expr::Name(symbol, short(token.start)));
+                    } else if looks && !verbs::is_operator(text) {
+                        value = self.name(text, token.start);
                     }
                 }
                 Kind::End => {
@@ -157,7 +156,9 @@ impl Reader<'_> {
     }
 
     fn mention(&mut self, value: ExprId, statement: usize) {
-        if let Expr::Name(name, _) = self.parsed.expression(value) {
+        if let Expr::Name(name, _) | Expr::Element(name, At::Member(_)) =
+            self.parsed.expression(value)
+        {
             let entry = (name, self.function, short(statement));
             self.parsed.mentions.push(entry);
         }
@@ -168,7 +169,7 @@ impl Reader<'_> {
         let mut token = first;
         loop {
             if token.kind == Kind::Word && !self.scanner.peek().is(b'(') {
-                let symbol = self.parsed.symbol(self.text(token));
+                let (symbol, _) = self.member(self.text(token));
                 let entry = (symbol, self.function, short(statement));
                 self.parsed.mentions.push(entry);
             }
@@ -218,32 +219,53 @@ impl Reader<'_> {
                     self.next()?;
                     let number = self.constant_index();
                     self.brackets(next)?;
-                    let symbol = self.parsed.symbol(text);
+                    let (symbol, member) = self.member(text);
                     if let Some(statement) = statement {
                         let entry = (symbol, self.function, short(statement));
                         self.parsed.mentions.push(entry);
                     }
-                    if self.scanner.peek().is(b'[') || text.contains(&b'.') {
+                    if self.scanner.peek().is(b'[') || member != At::Any {
                         return Ok(OTHER);
                     }
                     return Ok(self.parsed.add(Expr::Element(symbol, number)));
                 }
-                if text.contains(&b'.') || verbs::is_operator(text) {
+                if verbs::is_operator(text) {
                     return Ok(OTHER);
                 }
-                let symbol = self.parsed.symbol(text);
-                Ok(self.parsed.add(Expr::Name(symbol, short(token.start))))
+                Ok(self.name(text, token.start))
             }
             _ => Ok(OTHER),
         }
     }
 
+    /// A variable, or the member of one: `x.name`.
+    fn name(&mut self, text: &'a [u8], start: usize) -> ExprId {
+        let expression = match self.member(text) {
+            (symbol, At::Any) => Expr::Name(symbol, short(start)),
+            (symbol, member) => Expr::Element(symbol, member),
+        };
+        self.parsed.add(expression)
+    }
+
+    /// A variable, and which of its members a name means where it has a dot; [`At::Any`] without.
+    pub(super) fn member(&mut self, text: &'a [u8]) -> (Symbol, At) {
+        let Some(dot) = memchr::memchr(b'.', text) else {
+            return (self.parsed.symbol(text), At::Any);
+        };
+        let (symbol, member) = (&text[..dot], &text[dot + 1..]);
+        let symbol = self.parsed.symbol(symbol);
+        (symbol, At::Member(self.parsed.symbol(member)))
+    }
+
     /// The number of an element where it is written out, behind the opening bracket.
-    pub(super) fn constant_index(&self) -> Option<u32> {
+    pub(super) fn constant_index(&self) -> At {
         let mut ahead = self.scanner;
-        let (index, end) = (ahead.next().ok()?, ahead.next().ok()?);
-        let value = number::parse(self.text(index)).filter(|_| end.is(b']'))?;
-        (0..1000).find(|&index| f64::from(index) == value)
+        let (Ok(index), Ok(end)) = (ahead.next(), ahead.next()) else {
+            return At::Any;
+        };
+        let value = number::parse(self.text(index)).filter(|_| end.is(b']'));
+        let number = value.and_then(|value| (0..1000).find(|&index| f64::from(index) == value));
+        number.map_or(At::Any, At::Number)
     }
 
     /// A literal whose bracket was just read.

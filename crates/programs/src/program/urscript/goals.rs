@@ -2,7 +2,7 @@
 
 use super::common::{Common, TOOL};
 use super::numbers::{along_base, in_base, in_tool};
-use super::syntax::{Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol, unit};
+use super::syntax::{At, Expr, ExprId, FunctionId, LiteralId, Parsed, Symbol, unit};
 use super::variables::{MOST_STEPS, NotConstant, VarId, Variables};
 use crate::geometry::Pose;
 use crate::program::quantity::Quantity;
@@ -301,12 +301,23 @@ impl Goals<'_, '_, '_> {
     }
 
     /// Any of the elements of a list that the index may mean.
-    fn element(&mut self, name: Symbol, at: Option<u32>, function: FunctionId, steps: u32) -> Goal {
-        if self.variables.meaning(name, function).is_none() {
-            return Goal::to(self.not_in_files(name));
-        }
-        let Some(elements) = self.variables.elements(name, at, function) else {
-            return self.unknown();
+    fn element(&mut self, name: Symbol, at: At, function: FunctionId, steps: u32) -> Goal {
+        let is_member = matches!(at, At::Member(_));
+        let Some(variable) = self.variables.meaning(name, function) else {
+            // what has members may be a service of another computer
+            return if is_member {
+                self.unknown()
+            } else {
+                Goal::to(self.not_in_files(name))
+            };
+        };
+        let elements = self.variables.elements(name, at, function);
+        let Some(elements) = elements.filter(|found| !is_member || !found.values.is_empty()) else {
+            return if is_member {
+                self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps)
+            } else {
+                self.unknown()
+            };
         };
         let mut all = Vec::with_capacity(elements.values.len());
         for (value, within) in elements.values {

@@ -1,7 +1,7 @@
 //! What numbers may be, from all that the text assigns to them.
 
 use super::syntax::{Content, Event, Expr, ExprId, FunctionId, LiteralId, Symbol, unit};
-use super::variables::Variables;
+use super::variables::{VarId, Variables};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
 use crate::program::displacing::Displacing;
@@ -190,6 +190,22 @@ impl Variables<'_, '_> {
         id: LiteralId,
         function: FunctionId,
     ) -> Option<(Symbol, [Quantity; 3])> {
+        let is_position = |variable: u32| self.list[variable as usize].is_position;
+        self.grown_of(id, function, &is_position)
+    }
+
+    /// The variable whose elements a pose has, where moves go to that or not.
+    pub(super) fn grown_from(&self, id: LiteralId, function: FunctionId) -> Option<VarId> {
+        let (name, _) = self.grown_of(id, function, &|_| true)?;
+        self.meaning(name, function)
+    }
+
+    fn grown_of(
+        &self,
+        id: LiteralId,
+        function: FunctionId,
+        is_term: &dyn Fn(VarId) -> bool,
+    ) -> Option<(Symbol, [Quantity; 3])> {
         let literal = self.parsed.literal(id);
         let is_composed = literal.pose && literal.content == Content::Expressions;
         let range = literal.offset as usize..literal.end as usize;
@@ -200,7 +216,7 @@ impl Variables<'_, '_> {
         let mut along = [0.0; 3].map(Quantity::exactly);
         let mut count = 0;
         for (at, part) in parts(inside).enumerate() {
-            let (name, rest) = self.term_and_rest(part, at, function)?;
+            let (name, rest) = self.term_and_rest(part, at, function, is_term)?;
             if *of.get_or_insert(name) != name {
                 return None;
             }
@@ -216,18 +232,20 @@ impl Variables<'_, '_> {
 
     /// What an assignment adds to an element of a position, and of which.
     pub(super) fn growth(&self, number: u32) -> Option<(Symbol, usize, Quantity)> {
-        let at = self.parsed.assignments[number as usize].element? as usize;
+        let at = self.parsed.assignments[number as usize].element.number()? as usize;
         let (text, function) = self.text_of(Written::Assigned(number))?;
-        let (name, by) = self.term_and_rest(text, at, function)?;
+        let is_position = |variable: u32| self.list[variable as usize].is_position;
+        let (name, by) = self.term_and_rest(text, at, function, &is_position)?;
         (at < 3).then_some((name, at, by))
     }
 
-    /// The one element of a position that stands in a sum, and the rest of that.
+    /// The one element of such a variable that stands in a sum, and the rest of that.
     fn term_and_rest(
         &self,
         text: &[u8],
         at: usize,
         function: FunctionId,
+        is_term: &dyn Fn(VarId) -> bool,
     ) -> Option<(Symbol, Quantity)> {
         let mut term = None;
         let mut is_one = true;
@@ -239,8 +257,8 @@ impl Variables<'_, '_> {
             let name = self.parsed.known_symbol(inside[..open].trim_ascii())?;
             let variable = self.meaning(name, function)?;
             #[allow(clippy::cast_precision_loss)]
-            let is_element = index == at as f64 && self.list[variable as usize].is_position;
-            if !is_element {
+            let is_element = index == at as f64;
+            if !is_element || !is_term(variable) {
                 return None;
             }
             is_one &= term.is_none();

@@ -1,6 +1,6 @@
 //! Statements: functions, blocks, assignments.
 
-use super::syntax::{Assignment, Event, Expr, Function, FunctionId, OTHER, Parsed, Reach};
+use super::syntax::{Assignment, At, Event, Expr, Function, FunctionId, OTHER, Parsed, Reach};
 use super::tokens::{Kind, Scanner, Token};
 use super::verbs;
 use crate::program::kit::Fault;
@@ -28,7 +28,7 @@ struct Block {
 enum Part {
     None,
     /// An element, and its number where that is written out.
-    Element(Option<u32>),
+    Element(At),
     /// A part of an element.
     Deep,
 }
@@ -433,20 +433,22 @@ impl<'a> Reader<'a> {
         }
         let text = self.text(name);
         // `a.b = …` changes a part of a
-        let dot = memchr::memchr(b'.', text);
-        let symbol = self.parsed.symbol(&text[..dot.unwrap_or(text.len())]);
+        let (symbol, member) = self.member(text);
+        let (is_deep, element) = match (part, member) {
+            (Part::None, At::Member(_)) => (false, member),
+            (Part::None, _) => (false, At::Any),
+            (Part::Element(element), At::Any) => (false, element),
+            _ => (true, At::Any),
+        };
         self.parsed.assignments.push(Assignment {
             name: symbol,
             function: self.function,
             reach,
             value,
             offset: short(name.start),
-            part: part != Part::None || dot.is_some(),
-            deep: part == Part::Deep,
-            element: match part {
-                Part::Element(element) => element,
-                Part::None | Part::Deep => None,
-            },
+            part: part != Part::None || member != At::Any,
+            deep: is_deep,
+            element,
             is_number: alone.is_some(),
         });
         let number = short(self.parsed.assignments.len() - 1);

@@ -31,8 +31,8 @@ pub(super) enum Expr {
     List(u32),
     /// A variable, and its first byte.
     Name(Symbol, u32),
-    /// An element of a list, by its number where that is written out.
-    Element(Symbol, Option<u32>),
+    /// An element of a list or structure.
+    Element(Symbol, At),
     /// `pose_trans(a, b)`
     Trans(ExprId, ExprId),
     /// `pose_add(a, b)`
@@ -53,6 +53,26 @@ pub(super) enum Expr {
     Number(f64),
     /// Anything else.
     Other,
+}
+
+/// Which element of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// One that only the running program knows.
+    Any,
+    /// By its number.
+    Number(u32),
+    /// By its name: `x.name`.
+    Member(Symbol),
+}
+
+impl At {
+    pub(super) fn number(self) -> Option<u32> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Any | Self::Member(_) => None,
+        }
+    }
 }
 
 /// What stands between the brackets of a literal.
@@ -131,8 +151,8 @@ pub(super) struct Assignment {
     pub part: bool,
     /// That is a part of an element: `x[i][j] = …`
     pub deep: bool,
-    /// The number of that element, where it is written out.
-    pub element: Option<u32>,
+    /// Which, where it is an element.
+    pub element: At,
     /// Nothing but a number is.
     pub is_number: bool,
 }

@@ -337,6 +337,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             }
             let builder = &mut *self.goals.builder;
             match *event {
+                Event::Assign(number) if self.goals.variables.may_be_local(number) => {
+                    builder.begin_if(None);
+                    self.assign(number);
+                    self.goals.builder.end_choice();
+                }
                 Event::Assign(number) => self.assign(number),
                 Event::Tool(value, offset) => {
                     let tool = self.goals.tool(value, function);

@@ -4,7 +4,7 @@
 //! it goes: to a move it is a target. In `pose_trans(a, b)` a is a target and b its offset where
 //! other moves go to a; else a is a feature and b the target in it.
 
-use super::syntax::{Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
+use super::syntax::{At, Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::program::script::{DisplacementId, OVERWRITTEN, UNBOUNDED, short};
 use foldhash::{HashSet, HashSetExt};
@@ -64,7 +64,9 @@ impl Variables<'_, '_> {
             let variable = match parsed.expression(value) {
                 Expr::Literal(id) => {
                     changed |= !std::mem::replace(&mut self.targets[id as usize], true);
-                    None
+                    // a pose of the elements of another goes to that one
+                    let of = self.grown_from(id, function).filter(|_| through_features);
+                    of.filter(|of| !self.holds_actual(*of))
                 }
                 Expr::List(list) => {
                     if let Some(id) = self.joints_of(list) {
@@ -86,7 +88,10 @@ impl Variables<'_, '_> {
                     None
                 }
                 Expr::Trans(a, b) if through_features => {
-                    let is_offset = self.goes_to(a, function) || self.is_actual(a, function);
+                    // an inverse is a displacement backwards, no target
+                    let is_back = matches!(self.follow(b, function).0, Expr::Inverse(_));
+                    let is_offset =
+                        is_back || self.goes_to(a, function) || self.is_actual(a, function);
                     open.push((if is_offset { a } else { b }, function));
                     None
                 }
@@ -122,12 +127,7 @@ impl Variables<'_, '_> {
 
     /// What an element of a list may be: by its number where the list is written out once, else
     /// any. `None` where the text does not tell them all.
-    pub(super) fn elements(
-        &self,
-        name: Symbol,
-        at: Option<u32>,
-        function: FunctionId,
-    ) -> Option<Elements> {
+    pub(super) fn elements(&self, name: Symbol, at: At, function: FunctionId) -> Option<Elements> {
         let mut changed = None;
         let mut found = Vec::new();
         let mut seen = vec![self.meaning(name, function)?];
@@ -141,12 +141,22 @@ impl Variables<'_, '_> {
                     changed = Some(OVERWRITTEN);
                     continue;
                 }
-                if source.way == Assigned::Part {
-                    found.push((source.value, source.function));
+                if let Assigned::Part(part) = source.way {
+                    // lists have no members, structures no numbers
+                    if part == at || !matches!((part, at), (At::Member(_), _) | (_, At::Member(_)))
+                    {
+                        found.push((source.value, source.function));
+                    }
                     continue;
                 }
                 match self.parsed.expression(source.value) {
-                    Expr::List(list) => {
+                    Expr::Call(call) if self.is_structure(call) => {
+                        let At::Member(member) = at else { return None };
+                        let given = self.parsed.arguments_of(&self.parsed.calls[call as usize]);
+                        let own = given.iter().find(|(name, _)| *name == Some(member));
+                        found.extend(own.map(|(_, value)| (*value, source.function)));
+                    }
+                    Expr::List(list) if !matches!(at, At::Member(_)) => {
                         let elements = &self.parsed.lists[list as usize].elements;
                         found.extend(elements.iter().map(|value| (*value, source.function)));
                     }
@@ -165,7 +175,7 @@ impl Variables<'_, '_> {
                 }
             }
         }
-        if let Some(at) = at.filter(|_| is_one) {
+        if let Some(at) = at.number().filter(|_| is_one) {
             found = vec![*found.get(at as usize)?];
         }
         // an element of this list is one of the others; lists of lists are not looked into
@@ -195,6 +205,12 @@ impl Variables<'_, '_> {
             values: found,
             changed,
         })
+    }
+
+    /// Whether a call makes a structure of its arguments: `struct(a=…, b=…)`.
+    pub(super) fn is_structure(&self, call: u32) -> bool {
+        let call = &self.parsed.calls[call as usize];
+        self.parsed.bytes(call.name) == b"struct" && self.callees(call).is_empty()
     }
 
     /// The lists that a value takes elements of.
@@ -284,15 +300,23 @@ impl Variables<'_, '_> {
                 let mut both = [a, b].into_iter();
                 both.any(|of| self.comes_from_actual(of, function, steps / 2))
             }
-            Expr::Name(name, _) => self.meaning(name, function).is_some_and(|variable| {
-                let mut sources = self.sources(variable).filter(|s| !s.way.is_part());
-                let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();
-                all.peek().is_some()
-                    && all.all(|s| self.comes_from_actual(s.value, s.function, steps / 2))
-                    && sources.next().is_none()
-            }),
+            Expr::Name(name, _) => (self.meaning(name, function))
+                .is_some_and(|variable| self.holds_actual_within(variable, steps)),
             _ => false,
         }
+    }
+
+    /// Whether a variable only has values that are where the robot is.
+    fn holds_actual(&self, variable: VarId) -> bool {
+        self.holds_actual_within(variable, MOST_STEPS)
+    }
+
+    fn holds_actual_within(&self, variable: VarId, steps: u32) -> bool {
+        let mut sources = self.sources(variable).filter(|s| !s.way.is_part());
+        let mut all = sources.by_ref().take(MOST_STEPS as usize).peekable();
+        all.peek().is_some()
+            && all.all(|s| self.comes_from_actual(s.value, s.function, steps / 2))
+            && sources.next().is_none()
     }
 
     /// Finds the variables that are features and tools, and those whose positions have some of

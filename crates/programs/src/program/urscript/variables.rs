@@ -1,10 +1,11 @@
 //! Which variable a name means, and whether its value is one that the text tells.
 //!
 //! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that
-//! function; what a function and one around it assign is taken for one variable.
+//! function; what a function and one around it assign is taken for one variable, which the inner one
+//! may leave as it is.
 
 use super::syntax::{
-    Assignment, Called, Event, Expr, ExprId, FunctionId, LiteralId, Parsed, Reach, Symbol,
+    Assignment, At, Called, Event, Expr, ExprId, FunctionId, LiteralId, Parsed, Reach, Symbol,
 };
 use super::verbs;
 use crate::geometry::Pose;
@@ -26,8 +27,8 @@ pub(super) type VarId = u32;
 pub(super) enum Assigned {
     /// `x = …`
     Whole,
-    /// `x[i] = …`
-    Part,
+    /// `x[i] = …`, `x.a = …`
+    Part(At),
     /// `x[i][j] = …`
     Deep,
     /// By a call, or as the result of a function.
@@ -37,7 +38,7 @@ pub(super) enum Assigned {
 impl Assigned {
     /// Something else of the variable stays.
     pub(super) fn is_part(self) -> bool {
-        matches!(self, Self::Part | Self::Deep)
+        matches!(self, Self::Part(_) | Self::Deep)
     }
 }
 
@@ -268,12 +269,30 @@ impl<'n, 'a> Variables<'n, 'a> {
             };
             let way = match assignment {
                 Assignment { deep: true, .. } => Assigned::Deep,
-                Assignment { part: true, .. } => Assigned::Part,
+                Assignment {
+                    part: true,
+                    element,
+                    ..
+                } => Assigned::Part(*element),
                 _ => Assigned::Whole,
             };
             self.source(variable, assignment.value, assignment.function, way);
             self.assigned.push(variable);
         }
+    }
+
+    /// Whether an assignment may be of a variable of its own function, not of one around it.
+    ///
+    /// # Source
+    /// Universal Robots, "The `URScript` Programming Language", scoping rules: a name without
+    /// `local` or `global` is looked for among the global ones, else it is local.
+    pub(super) fn may_be_local(&self, number: u32) -> bool {
+        let assignment = &self.parsed.assignments[number as usize];
+        let is = |function| {
+            let known = self.names.get(&(function, assignment.name));
+            known == Some(&self.assigned[number as usize])
+        };
+        !is(0) && !is(assignment.function)
     }
 
     /// What calls give and functions return.

@@ -103,7 +103,7 @@ fn poses_with_expressions_stay_or_stand_next_to_the_targets_that_flow_into_them(
         "movel(p[q[0], q[1], 0,0,0,0])",
         "movel(p[.1,.2,f(3),0,0,0])",
         // nothing goes to x itself: its numbers stay
-        "x=p[.1,.2,.3,0,0,1]\ny=p[x[0],x[1],x[2]+0.05,x[3],x[4],x[5]]\nmovel(y)",
+        "x=p[.1,.2,.3,0,0,1]\ny=p[x[0],x[2],x[1]+0.05,x[3],x[4],x[5]]\nmovel(y)",
     ] {
         let found = displaced(lines);
         assert_eq!(

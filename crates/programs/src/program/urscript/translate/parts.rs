@@ -25,7 +25,7 @@ impl Translator<'_, '_, '_> {
     /// What an assignment makes of an element of a position.
     fn part_becomes(&mut self, own: VarId, number: u32, computed: RemarkId) -> How {
         let assignment = &self.goals.parsed.assignments[number as usize];
-        let element = assignment.element.map(|at| at as usize);
+        let element = assignment.element.number().map(|at| at as usize);
         // an angle of a joint takes the tool somewhere else altogether
         if self.goals.variables.holds_joints(own) {
             return How::PartNumber(computed);

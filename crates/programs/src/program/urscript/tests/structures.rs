@@ -1,0 +1,133 @@
+//! Members of structures, copies by elements, displacements backwards, names of inner functions.
+
+use super::*;
+use crate::program::Displacement;
+
+const W: &str = "w=p[.1,.2,.3,0,0,1]\n";
+
+#[test]
+fn members_of_structures_are_what_they_are_made_of() {
+    let s = format!("{W}s=struct(a=w,b=2)\n");
+    for go in [
+        "movel(s.a)",
+        "t=s\nmovel(t.a)",
+        "x=s.a\nmovel(x)",
+        "def f(t):\nmovel(t.a)\nend\nf(s)",
+        "def f(t):\nmovel(t.a)\nend\nf(struct(a=w,b=3))",
+        "movel(s.a)\ns.b=3",
+    ] {
+        let program = path(&format!("{s}{go}"));
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["w".into()], vec![]),
+            "{go}"
+        );
+        assert_eq!(program.moves[0].displacement, Displacement::None, "{go}");
+    }
+    // the tool of the move, the displacement of the member
+    let program = path(&format!(
+        "movel(w)\n{s}movel(pose_add(s.a,p[0,0,0.2,0,0,0]))"
+    ));
+    let Displacement::By(shift) = &program.moves[1].displacement else {
+        panic!("{:?}", program.moves[1].displacement)
+    };
+    assert_eq!(shift.in_frame.translation, [0.0, 0.0, 0.2]);
+    // one of several
+    let v = "v=p[.1,.2,.4,0,0,1]\n";
+    for more in ["s.a=v", "s=struct(a=v)", "if c:\ns=struct(b=1,a=v)\nend"] {
+        let program = path(&format!("{s}{v}{more}\nmovel(s.a)"));
+        assert_eq!(to(&program), ["w", "v"], "{more}");
+    }
+    let program = path(&format!("{s}{v}s.b=v\nmovel(s.a)"));
+    assert_eq!(to(&program), ["w"]);
+}
+
+#[test]
+fn what_is_made_of_a_structure_somehow_takes_its_correction_along() {
+    let s = format!("{W}movel(w)\ns=struct(a=w,b=2)\n");
+    for go in [
+        "s.a[2]=.5\nmovel(s.a)",
+        "movel(p[s.a[0],s.a[1],s.b,0,0,0])",
+        "r=struct(t=s)\nmovel(r.t.a)",
+        "r=foo(s)\nx=interpolate_pose(s.a,s.a,0.5)\nmovel(x)",
+        "h=s.a[2]+0.1\nmovel(p[h,h,h,0,0,0])",
+    ] {
+        let program = path(&format!("{s}{go}"));
+        let last = program.moves.last().expect("a move");
+        assert_eq!(to(&program), ["w", "w"], "{go}");
+        assert!(
+            matches!(
+                last.displacement,
+                Displacement::Unbounded | Displacement::Overwritten
+            ),
+            "{go}: {:?}",
+            last.displacement
+        );
+    }
+    // no structure of the file
+    for go in ["movel(s.a)", "s=rpc_factory(\"x\",\"y\")\nmovel(s.pose)"] {
+        let program = path(&format!("{W}movel(w)\n{go}"));
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["w".into(), "?".into()], vec!["computed-target"]),
+            "{go}"
+        );
+    }
+}
+
+#[test]
+fn a_copy_by_elements_goes_to_what_it_copies() {
+    for go in [
+        "movel(p[w[0],w[1],w[2],w[3],w[4],w[5]])",
+        "y=p[w[0],w[1],w[2],w[3],w[4],w[5]]\nmovel(y)",
+    ] {
+        let program = path(&format!("{W}{go}"));
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["w".into()], vec![]),
+            "{go}"
+        );
+    }
+    let program = path(&format!("{W}movel(p[w[0],w[1],w[2]+0.04,w[3],w[4],w[5]])"));
+    let Displacement::By(shift) = &program.moves[0].displacement else {
+        panic!("{:?}", program.moves[0].displacement)
+    };
+    assert_eq!(
+        (to(&program), shift.in_frame.translation),
+        (vec!["w".into()], [0.0, 0.0, 0.04])
+    );
+    // where the robot is
+    let program = path("w=get_actual_tcp_pose()\nmovel(p[w[0],w[1],w[2],w[3],w[4],w[5]])");
+    assert_eq!(to(&program), ["?"]);
+}
+
+#[test]
+fn what_an_inner_function_assigns_without_global_may_be_its_own() {
+    let lines = |reach: &str| {
+        format!(
+            "{W}v=p[.1,.2,.4,0,0,1]\n{reach}c=w\ndef f():\n{reach}c=v\nmovel(c)\nend\nf()\nmovel(c)"
+        )
+    };
+    let mut found = to(&path(&lines("")));
+    found.sort_unstable();
+    found.dedup();
+    assert_eq!(found, ["v", "w"]);
+    let program = path(&lines("global "));
+    assert_eq!(to(&program), ["v", "v"]);
+}
+
+#[test]
+fn what_is_displaced_by_an_inverse_is_the_target() {
+    for by in ["pose_inv(p[0,0,0.1,0,0,0])", "n"] {
+        let program = path(&format!(
+            "n=pose_inv(p[0,0,0.1,0,0,0])\n{W}movel(pose_trans(w,{by}))"
+        ));
+        let Displacement::By(shift) = &program.moves[0].displacement else {
+            panic!("{by}: {:?}", program.findings)
+        };
+        assert_eq!(
+            (to(&program), shift.in_tool.translation),
+            (vec!["w".into()], [0.0, 0.0, -0.1])
+        );
+    }
+}
