@@ -28,6 +28,7 @@
 
 mod cnd;
 mod drive;
+mod indexed;
 mod insert;
 mod instruction;
 mod job;

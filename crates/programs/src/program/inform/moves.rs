@@ -265,6 +265,7 @@ impl<'a> Reader<'a> {
                 Some(target) => Expr::Target(target),
                 None => self.unknown(Cause::NotInFiles),
             },
+            Operand::AnyP => self.any_position(place),
             _ => match self.written_by(operand, place) {
                 Some(Written::One(variable)) => Expr::Variable(variable),
                 _ => self.unknown(Cause::Computed),
@@ -277,7 +278,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The targets that an expression is, or that its variable is declared with.
-    fn targets_of(&self, value: Expr) -> Vec<TargetId> {
+    pub(super) fn targets_of(&self, value: Expr) -> Vec<TargetId> {
         let script = &self.builder.script;
         match value {
             Expr::Target(target) => vec![target],
@@ -323,6 +324,7 @@ impl<'a> Reader<'a> {
                 *set = set.iter().copied().filter(|one| *one != shift).collect();
             }
         }
+        self.settle_indexed();
         self.place_variables();
         self.follow_copies();
         self.finish_parts();
@@ -352,7 +354,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The tool and the work frame that the header above a target tells.
-    fn frames_of(&self, target: TargetId) -> (Expr, Expr) {
+    pub(super) fn frames_of(&self, target: TargetId) -> (Expr, Expr) {
         self.variables.of_headers[self.positions.points[target].header as usize]
     }
 

@@ -1,6 +1,7 @@
 //! Jobs as statements.
 
 use super::cnd::Conditions;
+use super::indexed::Indexed;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
@@ -43,6 +44,7 @@ pub(super) fn script<'a>(
         all_written: HashSet::new(),
         starts: Vec::new(),
         called: HashSet::new(),
+        indexed: Indexed::default(),
         shifts: false,
         here: Here::default(),
         external_names,
@@ -121,6 +123,8 @@ pub(super) struct Reader<'a> {
     pub starts: Vec<(RoutineId, Place)>,
     /// Jobs that others call.
     pub called: HashSet<RoutineId>,
+    /// Moves to P variables by a number that is not written out.
+    pub(super) indexed: Indexed,
     pub shifts: bool,
     pub here: Here,
     /// External axes that the profile describes.

@@ -6,6 +6,7 @@ use crate::program::marker::WIDEST_COMMENT;
 use crate::program::{Motion, Posture, Program, Shape, Value};
 
 mod followed;
+mod indexed;
 mod parts;
 mod posts;
 mod robust;

@@ -106,7 +106,18 @@ fn a_moved_axis_is_reported_with_its_value() {
 fn what_the_running_program_computes_stays_and_is_reported_once_a_place() {
     for (instructions, ids_of) in [
         ("MOVL LP000 V=5", &["computed-target"][..]),
-        ("MOVL P[I000] V=5", &["computed-target"]),
+        (
+            "MOVL P[I000] V=5",
+            &["computed-target", "position-variable"],
+        ),
+        (
+            "MOVL P[I000] V=5\nSETE P[I000] (1) 5",
+            &["computed-target", "position-variable"],
+        ),
+        (
+            "MOVL P[I000] V=5\nGETS PX077 $PX000",
+            &["computed-target", "position-variable"],
+        ),
         ("MOVL LP[I000] V=5", &["computed-target"]),
         ("GETS PX077 $PX002\nMOVL P077 V=5", &["computed-target"]),
         (
