@@ -4,7 +4,7 @@ use super::files::{Files, Identity, Listing, is_own, is_stream};
 use super::screen;
 use crate::nearest;
 use crate::printable::{name_of, printable};
-use crate::program::{LANGUAGES, Language, Source, has_extension};
+use crate::program::{LANGUAGES, Language, ReadError, Settings, Source, has_extension};
 use crate::task::Failure;
 use crate::task::programs::LeftOut;
 use clap::Args;
@@ -279,11 +279,20 @@ impl Reading<'_> {
             self.found.left_out.other.push(source.name);
         } else if !recognised {
             let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
-            let why = format!(
-                "it is called as {}, and is none: truncated?",
-                names.join(" or ")
-            );
-            self.wrong.push(format!("{}: {why}", source.name));
+            let why = known.iter().find_map(|language| {
+                let sources = std::slice::from_ref(&source);
+                language.script(sources, &Settings::default()).err()
+            });
+            let why = match &why {
+                Some(ReadError::NotThisLanguage { .. }) | None => "truncated?".to_owned(),
+                Some(error) => match error.place() {
+                    (_, 0, _) => error.message(),
+                    (_, line, column) => format!("{line}:{column}: {}", error.message()),
+                },
+            };
+            let names = names.join(" or ");
+            let message = format!("it is called as {names}, and is none: {why}");
+            self.wrong.push(format!("{}: {message}", source.name));
         } else {
             self.found.programs.push(ProgramFile {
                 path: path.to_owned(),

@@ -216,8 +216,8 @@ fn missing(names: &[&[u8]]) -> Wrong {
         return Wrong::Separator;
     }
     let has = |column: &&[u8]| names.iter().any(|name| name.eq_ignore_ascii_case(column));
-    let orientation = POSE[3..].iter().any(&has);
-    let found: &[&'static [u8]] = if orientation {
+    let is_pose = POSE[3..].iter().any(&has) || POSE[..3].iter().all(&has);
+    let found: &[&'static [u8]] = if is_pose {
         &POSE
     } else if JOINTS.iter().any(&has) {
         &JOINTS

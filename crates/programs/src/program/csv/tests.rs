@@ -154,7 +154,12 @@ fn broken_tables_are_reported_with_line_and_column() {
             (2, 5),
             "a quoted cell is not closed",
         ),
-        ("x_mm,y_mm,z_mm\n1,2,3\n".into(), (0, 0), "no header with"),
+        ("x,y,z\n1,2,3\n".into(), (0, 0), "no header with"),
+        (
+            "x_mm,y_mm,z_mm\n1,2,3\n".into(),
+            (1, 1),
+            "a header without `qw`",
+        ),
         (String::new(), (0, 0), "no header with"),
         (
             format!("{head},branch,near1_deg,near2_deg,near3_deg,near4_deg,near5_deg,near6_deg\n"),
