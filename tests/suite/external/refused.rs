@@ -85,6 +85,20 @@ fn a_target_that_moves_use_at_two_values_is_shared() {
         found(&profile(TRACK, &[ARM, RAIL]), data, &body),
         ["target-shared"]
     );
+    let shared = run(
+        &profile(TRACK, &[ARM, RAIL]),
+        &[("a.mod", &rapid(data, &body))],
+    );
+    let shared = shared.expect("a program").findings;
+    let message = &shared
+        .iter()
+        .find(|f| f.id == "target-shared")
+        .expect("it")
+        .message;
+    assert!(
+        message.contains("differ in where external axes stand"),
+        "{message}"
+    );
     // without an error of arm or rail nothing is left to tell them apart but the posture
     let off = format!(
         "{HOME}MoveJ p,v100,fine,t;\nEOffsSet [40,0,0,0,0,0];\nEOffsOff;\nMoveJ p,v100,fine,t;\n"

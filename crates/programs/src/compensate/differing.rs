@@ -16,6 +16,7 @@ struct Differing {
     tool: bool,
     load: bool,
     frame: bool,
+    external: bool,
     posture: bool,
     arc: bool,
     side: bool,
@@ -38,7 +39,8 @@ impl Differing {
             tool: others()
                 .any(|other| !same_tool(other) && (!load || is_elsewhere(job, first, other))),
             load,
-            frame: others().any(|other| !same_frame(other)),
+            frame: others().any(|other| !same_frame(other) && !is_moved(job, first, other)),
+            external: others().any(|other| !same_frame(other) && is_moved(job, first, other)),
             posture: others().any(|other| {
                 let moved = |i: usize| (other.nominal_q[i] - first.nominal_q[i]).abs() > SAME_RAD;
                 let alike = same_tool(other) && same_frame(other);
@@ -57,6 +59,7 @@ impl Differing {
             (self.tool, "tool"),
             (self.load, "load"),
             (self.frame, "work frame"),
+            (self.external, "where external axes stand"),
             (self.posture, "posture"),
             (self.arc, "rotation on an arc"),
             (self.side, "side from which a joint comes"),
@@ -74,6 +77,12 @@ impl Differing {
 fn mass_kg(job: &Job, approach: &Approach) -> Option<f64> {
     let tool = job.ground.setting.tools[approach.tool as usize].as_ref();
     tool.and_then(|tool| tool.load).map(|(mass_kg, _)| mass_kg)
+}
+
+/// Whether two approaches have one work frame, with external axes that stand elsewhere.
+fn is_moved(job: &Job, a: &Approach, b: &Approach) -> bool {
+    let [a, b] = [a, b].map(|of| &job.ground.program.frames[of.frame as usize]);
+    a.name == b.name && a.stand.is_some() && a.stand != b.stand
 }
 
 /// Whether two approaches have the tool elsewhere on the flange.
