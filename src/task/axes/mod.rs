@@ -223,6 +223,12 @@ pub fn axes(file: &ProfileFile, source: &Source, point: Option<&str>) -> Result<
     };
     let base_sag = sag_of(Frame::Base, pair(0, 1), &placed_base)?;
     let tool_sag = sag_of(Frame::Tool, pair(5, 4), &placed_tool)?;
+    if mounted.load.is_none() && (base_sag.is_some() || tool_sag.is_some()) {
+        let message = "no tool of the profile says what hangs on the flange: the sag in sigma is that \
+                       of the arm alone";
+        let found = Finding::of_file("no-tool-mass", Severity::Note, name, message.to_owned());
+        findings.push(found.hint("give the tool `mass_kg` and `cog_mm` in the profile"));
+    }
     // the device is where the profile has it, or where the base that it sees is the profile's
     let home = base_pose.map(|base| at_home(profile, &stand, &base));
     let found_device = home.map(|base| profile.world_from_base * base.inverse());

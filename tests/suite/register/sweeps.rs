@@ -126,8 +126,24 @@ fn the_sag_of_the_arm_is_in_the_sigma_and_three_rows_have_none() {
     assert!((z - TRUE_Z_MM).abs() < 3.0 * sigma, "{z} +/- {sigma}");
     assert_eq!(found["base_sag"]["from"], "profile");
     // without compliance in the profile, a typical arm's
-    let (_, stiff, _) = axes("robots/abb_irb120.yaml", |_, _| ());
+    let folder = scratch();
+    let text = std::fs::read_to_string(repository(PROFILE)).expect("a profile");
+    let without = |start: &str| {
+        let lines = text.lines().filter(|line| !line.contains(start));
+        lines.map(|line| format!("{line}\n")).collect::<String>()
+    };
+    let soft = folder.path().join("stiff.yaml");
+    std::fs::write(&soft, without("effect: joint_compliance")).expect("scratch");
+    let (_, stiff, _) = axes(soft.to_str().expect("a name"), |_, _| ());
     assert_eq!(stiff["base_sag"]["from"], "typical");
+    assert_eq!(stiff["findings"], serde_json::json!([]));
+    let z = stiff["base"]["z_mm"].as_f64().expect("a number");
+    let sigma = stiff["base_sigma"]["z_mm"].as_f64().expect("a number");
+    assert!((z - TRUE_Z_MM).abs() < 2.5 * sigma, "{z} +/- {sigma}");
+    // and without a tool that weighs something, it is said
+    let (_, bare, _) = axes("robots/abb_irb120.yaml", |_, _| ());
+    assert_eq!(bare["base_sag"]["from"], "typical");
+    assert_eq!(bare["findings"][0]["id"], "no-tool-mass");
     let (status, few, _) = axes(PROFILE, |_, rows| {
         let mut count = std::collections::BTreeMap::new();
         rows.retain(|row| {

@@ -172,7 +172,7 @@ pub const TABLE: &[Kind] = &[
     row("no-masses", Note, "the profile has no masses: compliance of the joints is not identified", "give `bodies` and the tool's mass, or --level 2 if the arm is light and stiff", &["calibrate", "validate", "diagnose"], &[]),
     row("no-shapes", Note, "the profile has no shapes: whether the arm touches itself is not looked at", "give the links shapes in the profile", &["plan"], &[]),
     row("no-targets", Warning, "no target in the program: nothing is changed", "a program that calls others is compensated together with them", &["compensate"], &[]),
-    row("no-tool-mass", Note, "a tool has no mass: what it weighs goes into the compliance of the joints", "give the tool `mass_kg` and `cog_mm` in the profile", &["calibrate", "validate", "diagnose"], &[]),
+    row("no-tool-mass", Note, "a tool has no mass: what it weighs goes into the compliance of the joints; in `axes` it is missing from the sag", "give the tool `mass_kg` and `cog_mm` in the profile", &["calibrate", "validate", "diagnose", "axes"], &[]),
     row("nominal-clearance", Warning, "the nominal arm comes nearer to a body than is allowed", "look at the simulation: it had that already", &["check"], &[]),
     row("nominal-collision", Warning, "the nominal arm touches a body", "look at the simulation: it had that already", &["check"], &[]),
     row("nominal-missing", Warning, "a compensated program is compared with its own targets, which are not where the tool is wanted", "give the original with --nominal", &["check"], &[]),
