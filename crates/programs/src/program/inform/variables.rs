@@ -241,7 +241,7 @@ fn constant(builder: &mut Builder, value: Held) -> VariableId {
     let declared = Expr::Value(builder.script.value(value));
     builder
         .script
-        .variable(Variable::new(Box::default(), Place::NOWHERE, declared))
+        .variable(Variable::new("", Place::NOWHERE, declared))
 }
 
 /// The coordinates of the robot itself, which ride on the axes of its base.

@@ -114,6 +114,24 @@ fn a_number_that_fits_nothing_is_an_error() {
         ("VEC3", "VEC2", "VEC2"),
         (r#""indices":1"#, r#""indices":7"#, "accessor 7"),
         (r#""mesh":0"#, r#""mesh":1"#, "mesh 1"),
+        // the lower 32 bits of these are an index or a type that is there
+        (
+            r#""indices":1"#,
+            r#""indices":4294967297"#,
+            "4294967297 is named",
+        ),
+        (r#""nodes":[0]"#, r#""nodes":[4294967296]"#, "4294967296"),
+        ("5121", "4294972417", "4294972417"),
+        ("5121", "5120", "5120"),
+        ("5121", "1", "unknown"),
+        ("VEC3", "vec3", "unknown"),
+        (
+            r#""indices":1"#,
+            r#""indices":1,"mode":7"#,
+            "mode that is not known",
+        ),
+        (r#""bufferView":1"#, r#""bufferView":2"#, "buffer view 2"),
+        (r#""POSITION":0"#, r#""POSITION":2"#, "accessor 2"),
         (r#""nodes":[0]"#, r#""nodes":[0,0]"#, "two parents"),
         (
             r#"{"mesh":0}"#,
@@ -121,6 +139,7 @@ fn a_number_that_fits_nothing_is_an_error() {
             "two parents",
         ),
         (r#"{"mesh":0}"#, r#"{"mesh":0,"children":[1]}"#, "node 1"),
+        (r#"{"mesh":0}"#, r#"{"mesh":0,"skin":0}"#, "a skin bends"),
         (
             r#"{"mesh":0}"#,
             r#"{"mesh":0,"rotation":[0,0,0,0]}"#,
@@ -155,6 +174,37 @@ fn a_number_that_fits_nothing_is_an_error() {
 }
 
 #[test]
+fn what_has_no_shape_is_not_looked_at() {
+    // a scene of nothing, an attribute of a maker, a texture without an image, an animation of
+    // something else than a node
+    for (from, to) in [
+        (r#""scenes":["#, r#""scene":1,"scenes":[{},"#),
+        (r#""POSITION":0"#, r#""POSITION":0,"_PART":9"#),
+        (r#""asset""#, r#""textures":[{}],"materials":7,"asset""#),
+        (
+            r#""asset""#,
+            r#""animations":[{"channels":[{"sampler":0,"target":{"path":"pointer"}}],"samplers":[]}],"asset""#,
+        ),
+        (
+            r#"{"mesh":0}"#,
+            r#"{"mesh":0,"extras":{"saved":1700000000000}}"#,
+        ),
+    ] {
+        assert!(PLAIN.contains(from), "{from}");
+        let text = PLAIN.replacen(from, to, 1);
+        let found = read(text.as_bytes(), &none);
+        assert_eq!(found.map(|found| found.len()), Ok(1), "{to}");
+    }
+}
+
+#[test]
+fn a_text_of_more_values_than_any_scene_is_an_error() {
+    let text = format!("[0{}]", ",0".repeat(text::MOST_VALUES));
+    let error = read(text.as_bytes(), &none).expect_err("values");
+    assert!(error.contains("more than 10000000 values"), "{error}");
+}
+
+#[test]
 fn sparse_items_take_the_place_of_those_of_the_accessor() {
     let sparse = r#""type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"byteOffset":1,"componentType":5121},
         "values":{"bufferView":0,"byteOffset":24}}"#;
@@ -180,6 +230,16 @@ fn sparse_items_take_the_place_of_those_of_the_accessor() {
             "whole",
         ),
         (r#""byteOffset":24"#, r#""byteOffset":30"#, "1 items"),
+        (
+            r#""byteOffset":24"#,
+            r#""byteOffset":18446744073709551615"#,
+            "beyond",
+        ),
+        (
+            r#""sparse":{"count":1"#,
+            r#""sparse":{"count":18446744073709551615"#,
+            "18446744073709551615 items",
+        ),
         (
             r#""count":3,"type":"VEC3""#,
             r#""count":1,"type":"VEC3""#,
