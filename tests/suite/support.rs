@@ -151,6 +151,61 @@ pub fn poseshift() -> assert_cmd::Command {
     command
 }
 
+/// The program as somebody for whom permissions count.
+#[cfg(unix)]
+pub struct WithoutRights(Vec<std::ffi::OsString>);
+
+#[cfg(unix)]
+impl WithoutRights {
+    /// As who runs the tests; root without the capabilities that let it past permissions. None,
+    /// which is said, where permissions count for nobody.
+    pub fn new() -> Option<Self> {
+        use std::os::unix::fs::MetadataExt;
+        let folder = scratch();
+        let closed = folder.path().join("closed");
+        std::fs::write(&closed, "").expect("scratch");
+        permit(&closed, 0o000);
+        let mut before = Vec::new();
+        if std::fs::metadata(&closed).expect("a file").uid() == 0 {
+            before.extend(["setpriv", "--inh-caps=-all", "--bounding-set=-all"].map(Into::into));
+        }
+        let made = Self(before);
+        let succeeds = |program: &str, file: &Path| {
+            let output = made.command(program.as_ref()).arg(file).output();
+            output.is_ok_and(|output| output.status.success())
+        };
+        if succeeds("ls", folder.path()) && !succeeds("cat", &closed) {
+            return Some(made);
+        }
+        skipped("everybody may read everything here, and setpriv does not change it");
+        None
+    }
+
+    fn command(&self, program: &std::ffi::OsStr) -> std::process::Command {
+        let mut words = self.0.iter().map(AsRef::as_ref).chain([program]);
+        let mut command = std::process::Command::new(words.next().expect("the program"));
+        command.args(words);
+        command
+    }
+
+    /// Runs it in a folder.
+    pub fn run(&self, folder: &Path, arguments: &[&str]) -> std::process::Output {
+        let mut command = self.command(env!("CARGO_BIN_EXE_poseshift").as_ref());
+        let command = command.current_dir(folder).args(arguments);
+        // as wide as where nobody looks
+        let output = command.env_remove("COLUMNS").output();
+        output.expect("the program starts")
+    }
+}
+
+/// Gives a file or folder other permissions.
+#[cfg(unix)]
+pub fn permit(path: &Path, mode: u32) {
+    use std::os::unix::fs::PermissionsExt;
+    let permissions = std::fs::Permissions::from_mode(mode);
+    std::fs::set_permissions(path, permissions).expect("scratch");
+}
+
 /// What a command that succeeds prints with `--json`.
 pub fn report(command: &mut assert_cmd::Command) -> serde_json::Value {
     let run = command.output().expect("the program starts");

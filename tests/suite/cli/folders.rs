@@ -1,5 +1,7 @@
 //! A folder passes nothing over in silence.
 
+#[cfg(unix)]
+use crate::support::{WithoutRights, permit};
 use crate::support::{files_below, poseshift, repository, scratch};
 use serde_json::Value;
 use std::path::Path;
@@ -171,27 +173,50 @@ fn links_pipes_and_what_may_not_be_read_are_named() {
 #[cfg(unix)]
 #[test]
 fn files_and_folders_without_permission_are_named() {
-    use std::os::unix::fs::PermissionsExt;
     let folder = world();
     let path = folder.path();
-    std::fs::create_dir(path.join("in/locked")).expect("scratch");
     std::fs::copy(repository(SAMPLE), path.join("in/x.mod")).expect("scratch");
-    for (name, mode) in [("in/x.mod", 0o755), ("in/locked", 0o755)] {
-        let closed = std::fs::Permissions::from_mode(0o000);
-        std::fs::set_permissions(path.join(name), closed).expect("scratch");
-        if std::fs::read(path.join(name)).is_ok() || std::fs::read_dir(path.join(name)).is_ok() {
-            eprintln!("SKIPPED: this user may read everything");
-        } else {
-            let output = run(path, &["check", "in"]);
-            assert_eq!(output.status.code(), Some(2), "{}", reported(&output));
-            assert!(
-                reported(&output).contains(&format!("{name}: ")),
-                "{}",
-                reported(&output)
-            );
+    std::fs::create_dir(path.join("in/locked")).expect("scratch");
+    std::fs::write(path.join("in/locked/y.mod"), "MODULE y\nENDMODULE\n").expect("scratch");
+    let Some(without) = WithoutRights::new() else {
+        return;
+    };
+    let check = ["check", "in", "--profile", "p.yaml"];
+    let folders = ["compensate", "in", "-o", "out", "--profile", "p.yaml"];
+    let one = [
+        "compensate",
+        "in/x.mod",
+        "-o",
+        "x.mod",
+        "--profile",
+        "p.yaml",
+    ];
+    for (closed, command, glob) in [
+        ("in/x.mod", &check[..], Some("x.*")),
+        ("in/x.mod", &folders, Some("x.*")),
+        ("in/x.mod", &one, None),
+        ("in/locked", &check, Some("locked")),
+        ("in/locked", &folders, Some("locked")),
+        ("p.yaml", &check, None),
+        ("p.yaml", &folders, None),
+    ] {
+        let before = files_below(path);
+        permit(&path.join(closed), 0o000);
+        let refused = without.run(path, command);
+        let said = reported(&refused);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(refused.status.code(), Some(2), "{closed}: {said}");
+        for word in [closed, "ermission denied"] {
+            assert!(said.contains(word), "{closed}: {said}");
         }
-        let open = std::fs::Permissions::from_mode(mode);
-        std::fs::set_permissions(path.join(name), open).expect("scratch");
+        if let Some(glob) = glob {
+            let taken = without.run(path, &[command, &["--ignore", glob]].concat());
+            assert_eq!(taken.status.code(), Some(0), "{}", reported(&taken));
+            let written = std::fs::remove_dir_all(path.join("out"));
+            assert_eq!(written.is_ok(), command == folders);
+        }
+        permit(&path.join(closed), 0o755);
+        assert_eq!(files_below(path), before);
     }
 }
 

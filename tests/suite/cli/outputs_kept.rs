@@ -2,7 +2,7 @@
 //! device.
 #![cfg(unix)]
 
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{WithoutRights, files_below, permit, poseshift, repository, scratch, skipped};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -119,7 +119,7 @@ fn mode_and_owner_of_a_replaced_file_stay_and_its_time_is_new() {
         if let Some((user, group)) = owner
             && chown(&out, Some(user), Some(group)).is_err()
         {
-            eprintln!("SKIPPED: owners cannot be changed here");
+            skipped("owners cannot be changed here");
             continue;
         }
         let permissions = std::fs::Permissions::from_mode(mode);
@@ -166,4 +166,62 @@ fn new_files_and_folders_obey_the_umask() {
             assert_eq!(found.mode() & 0o777, mode, "{name} with {umask}");
         }
     }
+}
+
+#[test]
+fn who_may_not_write_there_changes_nothing() {
+    let folder = world();
+    let path = folder.path();
+    for name in ["closed", "open"] {
+        std::fs::create_dir(path.join(name)).expect("scratch");
+        std::fs::write(path.join(name).join("out.mod"), "old").expect("scratch");
+    }
+    let Some(without) = WithoutRights::new() else {
+        return;
+    };
+    let compensate = |output: &str| {
+        let command = ["compensate", "in.mod", "--profile", "p.yaml", "-o", output];
+        let done = without.run(path, &command);
+        let said = reported(&done);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        (done.status.code(), said)
+    };
+    let old = |name: &str| std::fs::read(path.join(name)).expect("a file") == b"old";
+
+    permit(&path.join("closed"), 0o555);
+    for output in ["closed/out.mod", "closed/new.mod", "closed/new/new.mod"] {
+        let before = files_below(path);
+        let (status, said) = compensate(output);
+        assert_eq!(status, Some(2), "{said}");
+        for word in ["cannot write", "closed", "ermission denied"] {
+            assert!(said.contains(word), "{output}: {said}");
+        }
+        assert_eq!(files_below(path), before);
+        assert!(old("closed/out.mod"));
+    }
+    permit(&path.join("closed"), 0o755);
+
+    // what is one's own stays so
+    let out = path.join("open/out.mod");
+    permit(&out, 0o640);
+    let owner = std::fs::metadata(&out).expect("a file").uid();
+    let (status, said) = compensate("open/out.mod");
+    assert_eq!(status, Some(0), "{said}");
+    let after = std::fs::metadata(&out).expect("a file");
+    assert!(is_marked(&out));
+    assert_eq!((after.uid(), after.mode() & 0o777), (owner, 0o640));
+
+    // what is another's cannot stay so, and is left
+    std::fs::write(&out, "old").expect("scratch");
+    if chown(&out, Some(owner + 1), None).is_err() {
+        return skipped("owners cannot be changed here");
+    }
+    permit(&out, 0o666);
+    let (status, said) = compensate("open/out.mod");
+    assert_eq!(status, Some(2), "{said}");
+    for word in ["its owner", "cannot be kept"] {
+        assert!(said.contains(word), "{said}");
+    }
+    assert!(old("open/out.mod"));
+    assert_eq!(files_below(&path.join("open")).len(), 1);
 }
