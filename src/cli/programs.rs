@@ -281,15 +281,15 @@ impl Reading<'_> {
             let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
             let why = known.iter().find_map(|language| {
                 let sources = std::slice::from_ref(&source);
-                language.script(sources, &Settings::default()).err()
+                match language.script(sources, &Settings::default()) {
+                    Ok(_) | Err(ReadError::NotThisLanguage { .. }) => None,
+                    Err(error) => Some(match error.place() {
+                        (_, 0, _) => error.message(),
+                        (_, line, column) => format!("{line}:{column}: {}", error.message()),
+                    }),
+                }
             });
-            let why = match &why {
-                Some(ReadError::NotThisLanguage { .. }) | None => "truncated?".to_owned(),
-                Some(error) => match error.place() {
-                    (_, 0, _) => error.message(),
-                    (_, line, column) => format!("{line}:{column}: {}", error.message()),
-                },
-            };
+            let why = why.unwrap_or_else(|| "truncated?".into());
             let names = names.join(" or ");
             let message = format!("it is called as {names}, and is none: {why}");
             self.wrong.push(format!("{}: {message}", source.name));

@@ -95,6 +95,22 @@ fn texts_that_cannot_be_read_as_programs_are_named() {
         std::fs::write(folder.path().join("in/x.mod"), content).expect("scratch");
         refused(folder.path(), &[words], "x.mod");
     }
+    for (content, why) in [
+        (
+            "x_mm;y_mm;z_mm;qw;qx;qy;qz\n1;2;3;1;0;0;0\n",
+            "1:1: found a semicolon or a tab",
+        ),
+        (
+            "x_mm,y_mm,z_mm,rx_deg\n",
+            "1:1: found a header without `qw`",
+        ),
+        ("a,b\n1,2\n", "truncated?"),
+    ] {
+        let folder = world();
+        std::fs::write(folder.path().join("in/x.csv"), content).expect("scratch");
+        let words = format!("x.csv: it is called as CSV of poses or joints, and is none: {why}");
+        refused(folder.path(), &[&words], "x.csv");
+    }
     // given alone likewise
     let folder = world();
     std::fs::write(folder.path().join("x.mod"), utf_16(&sample, true)).expect("scratch");

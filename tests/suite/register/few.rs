@@ -1,6 +1,6 @@
 //! `handeye` of few poses, and of copies of them: what they do not show is not given.
 
-use super::mistakes::{boards, has, registered, write};
+use super::mistakes::{HANDEYE, boards, has, registered, write};
 use super::{noisy, random_pose, seeded};
 use crate::support::scratch;
 use poseshift::geometry::{Pose, Rotation, norm, sub};
@@ -127,14 +127,6 @@ fn sigma_of_few_poses_is_that_of_their_scatter() {
         assert!((found / student - 1.0).abs() < 0.1, "{count}: {found}");
     }
 }
-
-const HANDEYE: [&str; 5] = [
-    "handeye",
-    "robot.csv",
-    "board.csv",
-    "--setup",
-    "eye-in-hand",
-];
 
 #[test]
 fn few_poses_and_copies_of_them_have_no_sigma_or_a_warning() {

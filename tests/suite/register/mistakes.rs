@@ -325,7 +325,7 @@ pub(super) fn boards(poses: &[Pose]) -> String {
 }
 
 /// Robot and board of these tests.
-const HANDEYE: [&str; 5] = [
+pub(super) const HANDEYE: [&str; 5] = [
     "handeye",
     "robot.csv",
     "board.csv",

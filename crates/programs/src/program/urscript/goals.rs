@@ -300,24 +300,20 @@ impl Goals<'_, '_, '_> {
         }
     }
 
-    /// Any of the elements of a list that the index may mean.
+    /// Any of the elements of a list that the index may mean; the member of a structure.
     fn element(&mut self, name: Symbol, at: At, function: FunctionId, steps: u32) -> Goal {
         let is_member = matches!(at, At::Member(_));
-        let Some(variable) = self.variables.meaning(name, function) else {
+        let elements = match self.variables.meaning(name, function) {
             // what has members may be a service of another computer
-            return if is_member {
-                self.unknown()
-            } else {
-                Goal::to(self.not_in_files(name))
-            };
-        };
-        let elements = self.variables.elements(name, at, function);
-        let Some(elements) = elements.filter(|found| !is_member || !found.values.is_empty()) else {
-            return if is_member {
-                self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps)
-            } else {
-                self.unknown()
-            };
+            None if is_member => return self.unknown(),
+            None => return Goal::to(self.not_in_files(name)),
+            Some(variable) => match self.variables.elements(name, at, function) {
+                Some(elements) if !elements.values.is_empty() => elements,
+                _ if is_member => {
+                    return self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps);
+                }
+                _ => return self.unknown(),
+            },
         };
         let mut all = Vec::with_capacity(elements.values.len());
         for (value, within) in elements.values {

@@ -1,8 +1,7 @@
 //! Which variable a name means, and whether its value is one that the text tells.
 //!
 //! A `global` is one in the whole file, a `local` and what a function alone assigns belong to that
-//! function; what a function and one around it assign is taken for one variable, which the inner one
-//! may leave as it is.
+//! function; what one around it assigns too is one variable, which the inner one may leave as it is.
 
 use super::syntax::{
     Assignment, At, Called, Event, Expr, ExprId, FunctionId, LiteralId, Parsed, Reach, Symbol,
@@ -292,7 +291,8 @@ impl<'n, 'a> Variables<'n, 'a> {
             let known = self.names.get(&(function, assignment.name));
             known == Some(&self.assigned[number as usize])
         };
-        !is(0) && !is(assignment.function)
+        let unit = self.parsed.functions[assignment.function as usize].unit;
+        ![0, unit, assignment.function].into_iter().any(is)
     }
 
     /// What calls give and functions return.

@@ -1,9 +1,22 @@
 //! Members of structures, copies by elements, displacements backwards, names of inner functions.
 
 use super::*;
-use crate::program::Displacement;
+use crate::program::{Displacement, Shift};
 
 const W: &str = "w=p[.1,.2,.3,0,0,1]\n";
+
+/// What all moves go to, and what is found.
+fn gone_to(program: &Program) -> (String, String) {
+    (to(program).join(" "), ids(program).join(" "))
+}
+
+/// By what the last move is displaced.
+fn shift(program: &Program) -> &Shift {
+    match &program.moves.last().expect("a move").displacement {
+        Displacement::By(shift) => shift,
+        other => panic!("{other:?}"),
+    }
+}
 
 #[test]
 fn members_of_structures_are_what_they_are_made_of() {
@@ -17,21 +30,14 @@ fn members_of_structures_are_what_they_are_made_of() {
         "movel(s.a)\ns.b=3",
     ] {
         let program = path(&format!("{s}{go}"));
-        assert_eq!(
-            (to(&program), ids(&program)),
-            (vec!["w".into()], vec![]),
-            "{go}"
-        );
+        assert_eq!(gone_to(&program), ("w".into(), String::new()), "{go}");
         assert_eq!(program.moves[0].displacement, Displacement::None, "{go}");
     }
     // the tool of the move, the displacement of the member
     let program = path(&format!(
         "movel(w)\n{s}movel(pose_add(s.a,p[0,0,0.2,0,0,0]))"
     ));
-    let Displacement::By(shift) = &program.moves[1].displacement else {
-        panic!("{:?}", program.moves[1].displacement)
-    };
-    assert_eq!(shift.in_frame.translation, [0.0, 0.0, 0.2]);
+    assert_eq!(shift(&program).in_frame.translation, [0.0, 0.0, 0.2]);
     // one of several
     let v = "v=p[.1,.2,.4,0,0,1]\n";
     for more in ["s.a=v", "s=struct(a=v)", "if c:\ns=struct(b=1,a=v)\nend"] {
@@ -67,11 +73,8 @@ fn what_is_made_of_a_structure_somehow_takes_its_correction_along() {
     // no structure of the file
     for go in ["movel(s.a)", "s=rpc_factory(\"x\",\"y\")\nmovel(s.pose)"] {
         let program = path(&format!("{W}movel(w)\n{go}"));
-        assert_eq!(
-            (to(&program), ids(&program)),
-            (vec!["w".into(), "?".into()], vec!["computed-target"]),
-            "{go}"
-        );
+        let found = ("w ?".into(), "computed-target".into());
+        assert_eq!(gone_to(&program), found, "{go}");
     }
 }
 
@@ -82,20 +85,11 @@ fn a_copy_by_elements_goes_to_what_it_copies() {
         "y=p[w[0],w[1],w[2],w[3],w[4],w[5]]\nmovel(y)",
     ] {
         let program = path(&format!("{W}{go}"));
-        assert_eq!(
-            (to(&program), ids(&program)),
-            (vec!["w".into()], vec![]),
-            "{go}"
-        );
+        assert_eq!(gone_to(&program), ("w".into(), String::new()), "{go}");
     }
     let program = path(&format!("{W}movel(p[w[0],w[1],w[2]+0.04,w[3],w[4],w[5]])"));
-    let Displacement::By(shift) = &program.moves[0].displacement else {
-        panic!("{:?}", program.moves[0].displacement)
-    };
-    assert_eq!(
-        (to(&program), shift.in_frame.translation),
-        (vec!["w".into()], [0.0, 0.0, 0.04])
-    );
+    assert_eq!(to(&program), ["w"]);
+    assert_eq!(shift(&program).in_frame.translation, [0.0, 0.0, 0.04]);
     // where the robot is
     let program = path("w=get_actual_tcp_pose()\nmovel(p[w[0],w[1],w[2],w[3],w[4],w[5]])");
     assert_eq!(to(&program), ["?"]);
@@ -114,6 +108,16 @@ fn what_an_inner_function_assigns_without_global_may_be_its_own() {
     assert_eq!(found, ["v", "w"]);
     let program = path(&lines("global "));
     assert_eq!(to(&program), ["v", "v"]);
+    // what stands outside functions is shared, also next to other files
+    let own = Source::new("a.script", lines("").into_bytes());
+    let other = Source::new(
+        "b.script",
+        b"def g():\nmovel(p[.1,.2,.5,0,0,1])\nend\n".to_vec(),
+    );
+    for sources in [vec![own.clone()], vec![own, other]] {
+        let program = read_sources(&sources).expect("a program");
+        assert_eq!(to(&program)[..2], ["v", "v"]);
+    }
 }
 
 #[test]
@@ -122,12 +126,7 @@ fn what_is_displaced_by_an_inverse_is_the_target() {
         let program = path(&format!(
             "n=pose_inv(p[0,0,0.1,0,0,0])\n{W}movel(pose_trans(w,{by}))"
         ));
-        let Displacement::By(shift) = &program.moves[0].displacement else {
-            panic!("{by}: {:?}", program.findings)
-        };
-        assert_eq!(
-            (to(&program), shift.in_tool.translation),
-            (vec!["w".into()], [0.0, 0.0, -0.1])
-        );
+        assert_eq!(to(&program), ["w"], "{by}");
+        assert_eq!(shift(&program).in_tool.translation, [0.0, 0.0, -0.1]);
     }
 }
