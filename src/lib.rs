@@ -63,7 +63,7 @@ mod cli;
         reason = "the command line alone lays texts out for a terminal"
     )
 )]
-pub mod report;
+mod report;
 pub mod task;
 #[cfg(feature = "urdf")]
 pub mod urdf;
@@ -74,3 +74,5 @@ use poseshift_programs::xml;
 
 #[cfg(feature = "cli")]
 pub use cli::run_with;
+#[cfg(feature = "html")]
+pub use report::{Drawing, Readable, check_html, check_junit, check_words, compensation_words};

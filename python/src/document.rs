@@ -1,6 +1,6 @@
 //! What a command found: its JSON, its text, its page.
 
-use poseshift::report::Readable;
+use poseshift::Readable;
 use pyo3::prelude::*;
 
 /// What is reported of a result.
