@@ -5,7 +5,7 @@ use crate::diagnose::{NoiseSource, Verdict};
 use crate::report::layout::{SPREAD_HEADER, aligned, spread_row};
 use crate::report::{LEAST_PROBABILITY, Style};
 use crate::task::diagnose::{
-    Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup, PositionerDiagnosis,
+    ChangedEffect, Diagnosis, Effect, FoundEffect, Group, ImpossibleGroup, PositionerDiagnosis,
 };
 use crate::task::parts::Statistics;
 
@@ -19,6 +19,7 @@ fn summary(d: &Diagnosis) -> String {
     for effect in &d.effects {
         out += &found(effect);
     }
+    out += &d.changed.iter().map(changed).collect::<String>();
     out += &residual(d);
     if !d.reasons.is_empty() {
         out += match d.found.verdict {
@@ -73,6 +74,24 @@ fn found(effect: &FoundEffect) -> String {
         out += &format!(" Or {}: {}.", first.what, odds(first.odds));
     }
     out + "\n"
+}
+
+/// An effect of the profile that is not what it was.
+fn changed(effect: &ChangedEffect) -> String {
+    let values = effect.values().map(|(key, [was, now, sigma])| {
+        let [was, now] = [was, now].map(|x| x.unwrap_or(f64::NAN));
+        format!(
+            "{key} {was:.4e} → {now:.4e} ± {:.1e}",
+            sigma.unwrap_or(f64::NAN)
+        )
+    });
+    format!(
+        "{:<9} {}: {} ({} times that; the profile has it, and was fitted again).\n",
+        "changed",
+        effect.effect.label,
+        values.collect::<Vec<_>>().join(", "),
+        fixed(effect.times_sigma, 0),
+    )
 }
 
 /// The verdict in words, with what it is worth on rows that were not used.

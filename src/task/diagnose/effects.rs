@@ -100,6 +100,52 @@ pub struct FoundEffect {
     pub sentence: String,
 }
 
+/// An effect of the profile that was fitted anew, frames and geometry with it, and is not what it
+/// was; the values are those that came out.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ChangedEffect {
+    /// The effect.
+    #[serde(flatten)]
+    pub effect: Effect,
+    /// Values of the profile, of what was fitted, by the keys of files.
+    pub was: Map<String, Value>,
+    /// Standard deviations of what came out.
+    pub sigma: Map<String, Value>,
+    /// How far the farthest value is from where it was, in its standard deviations.
+    pub times_sigma: Option<f64>,
+}
+
+impl ChangedEffect {
+    /// Of each parameter its key, the value before and after, and the standard deviation.
+    pub fn values(&self) -> impl Iterator<Item = (&str, [Option<f64>; 3])> {
+        self.was.iter().map(|(key, was)| {
+            let now = self.effect.values.iter().find(|(own, ..)| own == key);
+            let sigma = self.sigma.get(key).and_then(Value::as_f64);
+            (key.as_str(), [was.as_f64(), now.map(|(_, x, _)| *x), sigma])
+        })
+    }
+}
+
+impl From<&engine::Changed> for ChangedEffect {
+    fn from(c: &engine::Changed) -> Self {
+        let parameters = c.before.definition().parameters;
+        let of_each = |value: &dyn Fn(usize, f64) -> f64| {
+            let each = c.sigmas.iter().map(|(number, sigma)| {
+                let p = &parameters[*number];
+                let value = value(*number, *sigma) / p.unit.in_si();
+                (p.key.to_owned(), json!(finite(value)))
+            });
+            each.collect()
+        };
+        Self {
+            effect: (&c.after).into(),
+            was: of_each(&|number, _| c.before.parameters[number]),
+            sigma: of_each(&|_, sigma| sigma),
+            times_sigma: finite(c.times),
+        }
+    }
+}
+
 /// What may be in the place of an effect found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Against {

@@ -4,7 +4,7 @@ mod effects;
 mod plates;
 mod rows;
 
-pub use effects::{Against, Effect, Evidence, FoundEffect};
+pub use effects::{Against, ChangedEffect, Effect, Evidence, FoundEffect};
 pub use plates::PositionerDiagnosis;
 pub(super) use plates::of_the_arm;
 pub use rows::{
@@ -25,6 +25,7 @@ use crate::diagnose::{
 };
 use crate::finding::Finding;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::parameters::Subject;
 use crate::identify::pick::Pick;
 use crate::model::effects::SiteKey;
 use plates::{left_out, of_arm};
@@ -65,6 +66,8 @@ pub struct Diagnosis {
     pub cannot_test: Vec<Untested>,
     /// What was fitted along with them and is no finding.
     pub absorbed: Vec<&'static str>,
+    /// Effects of the profile that were fitted along and are not what they were, the clearest first.
+    pub changed: Vec<ChangedEffect>,
     /// Errors on rows not used.
     pub held_out: HeldOut,
     /// The residual that remains.
@@ -293,6 +296,7 @@ pub fn diagnose(
             })
             .collect(),
         absorbed: absorbed(&d),
+        changed: d.changed.iter().map(Into::into).collect(),
         held_out: HeldOut {
             before: before.map(Into::into),
             absorbed: d.absorbed_only.map(Into::into),
@@ -427,12 +431,13 @@ fn absorbed(d: &Found) -> Vec<&'static str> {
     }
     if d.absorbed {
         all.extend(["tool_frame", "link_geometry"]);
-        if d.problem
-            .parameters
-            .iter()
-            .any(|p| p.key.starts_with("joint_compliance"))
-        {
-            all.push("joint_compliance");
+        for parameter in &d.problem.parameters {
+            if let Subject::Effect(slot) = parameter.subject {
+                let id = d.estimate.effects[slot.effect].definition().id;
+                if !all.contains(&id) {
+                    all.push(id);
+                }
+            }
         }
     }
     all

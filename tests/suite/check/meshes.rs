@@ -297,20 +297,26 @@ fn meshes_that_mean_harm_are_errors() {
         assert!(status == 2 && error.contains("no plain file"), "{error}");
     }
     let (text, _) = gltf("");
+    let with_text = |text: &str| -> Vec<u8> {
+        let mut bytes = glb();
+        // the header counts the JSON chunk
+        let count = u32::from_le_bytes(bytes[12..16].try_into().expect("four"));
+        let binary = bytes.split_off(20 + count as usize);
+        bytes.truncate(12);
+        bytes.extend(u32::try_from(text.len()).expect("short").to_le_bytes());
+        bytes.extend(b"JSON");
+        bytes.extend(text.as_bytes());
+        bytes.extend(binary);
+        bytes
+    };
     let offset = text.replace(r#""byteOffset":96"#, r#""byteOffset":18446744073709551615"#);
-    let mut bytes = glb();
-    let json = offset.into_bytes();
-    // the header counts the JSON chunk
-    let binary =
-        bytes.split_off(20 + u32::from_le_bytes(bytes[12..16].try_into().expect("four")) as usize);
-    bytes.truncate(12);
-    bytes.extend(u32::try_from(json.len()).expect("short").to_le_bytes());
-    bytes.extend(b"JSON");
-    bytes.extend(json);
-    bytes.extend(binary);
-    refused(folder.path(), "offset.glb", &bytes, "beyond its buffer");
     let circle = text.replace(r#"{"mesh":0}"#, r#"{"mesh":0,"children":[0]}"#);
-    refused(folder.path(), "circle.gltf", circle.as_bytes(), "");
+    for (file, text, says) in [
+        ("offset.glb", offset, "beyond its buffer"),
+        ("circle.glb", circle, "node 0 has two parents"),
+    ] {
+        refused(folder.path(), file, &with_text(&text), says);
+    }
     let plain = dae(0.001, "Z_UP", same);
     for (file, from, to, says) in [
         (

@@ -1,5 +1,6 @@
 //! The diagnosis, against hidden truth: a reduced blind trial, and the command line.
 
+mod changed;
 mod commands;
 mod page;
 mod physics;

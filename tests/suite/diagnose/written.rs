@@ -9,10 +9,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 const PROFILE: &str = "robots/abb_irb120_thesis.yaml";
-type Joints = [f64; 6];
+pub(super) type Joints = [f64; 6];
 
 /// Postures all over the work space.
-fn everywhere(seed: u64, count: usize) -> Vec<Joints> {
+pub(super) fn everywhere(seed: u64, count: usize) -> Vec<Joints> {
     let mut random = StdRng::seed_from_u64(seed);
     let limits = [130.0, 80.0, 70.0, 130.0, 95.0, 140.0];
     let one = |_| limits.map(|limit: f64| random.random_range(-limit..limit));
@@ -37,9 +37,9 @@ fn along_a_path(count: usize) -> Vec<Joints> {
 
 /// The arm of a profile measured at postures at which each joint is off by what `hidden` says, in
 /// degrees.
-fn measured(
+pub(super) fn measured(
     folder: &Path,
-    name: &str,
+    (profile, name): (&Path, &str),
     (joints, noise_mm): (&[Joints], f64),
     hidden: impl Fn(&Joints) -> Joints,
 ) -> PathBuf {
@@ -54,7 +54,7 @@ fn measured(
     let seen = folder.join("seen.csv");
     poseshift()
         .args(["simulate", "--tool", "artifact", "--seed", "7", "--profile"])
-        .arg(repository(PROFILE))
+        .arg(profile)
         .args(["--noise-mm", &noise_mm.to_string(), "--joints"])
         .arg(&real)
         .arg("-o")
@@ -96,7 +96,12 @@ fn mean(profile: &Path, rows: &Path) -> f64 {
 fn written(joints: &[Joints], hidden: impl Fn(&Joints) -> Joints) -> ([f64; 4], Value) {
     let folder = scratch();
     let none = |_: &Joints| [0.0; 6];
-    let calibrated = measured(folder.path(), "first.csv", (&everywhere(5, 80), 0.03), none);
+    let calibrated = measured(
+        folder.path(),
+        (&repository(PROFILE), "first.csv"),
+        (&everywhere(5, 80), 0.03),
+        none,
+    );
     let start = folder.path().join("start.yaml");
     poseshift()
         .args(["calibrate", "--level", "3", "--profile"])
@@ -107,10 +112,15 @@ fn written(joints: &[Joints], hidden: impl Fn(&Joints) -> Joints) -> ([f64; 4], 
         .arg(&start)
         .assert()
         .success();
-    let rows = measured(folder.path(), "rows.csv", (joints, 0.03), &hidden);
+    let rows = measured(
+        folder.path(),
+        (&repository(PROFILE), "rows.csv"),
+        (joints, 0.03),
+        &hidden,
+    );
     let others = measured(
         folder.path(),
-        "others.csv",
+        (&repository(PROFILE), "others.csv"),
         (&everywhere(99, 200), 0.0),
         &hidden,
     );

@@ -1,5 +1,6 @@
 //! The answer, and how the profile's own calibration is trusted on the way to it.
 
+use crate::diagnose::estimator::refit::Changed;
 use crate::diagnose::judgement::attempt::{Attempt, attempt};
 use crate::diagnose::judgement::conclusion::conclude;
 use crate::diagnose::judgement::poses::Telling;
@@ -186,6 +187,9 @@ pub struct Diagnosis {
     pub cannot_test: Vec<CannotTest>,
     /// Whether frames, geometry (and compliance) were fitted anew.
     pub absorbed: bool,
+    /// Effects of the profile, frames and geometry left out, that were fitted anew and are not what
+    /// they were: the clearest first.
+    pub changed: Vec<Changed>,
     /// Whether the base was fitted: the device is elsewhere than the profile says.
     pub elsewhere: bool,
     /// Errors on rows not used: the present model, then with everything.

@@ -60,5 +60,6 @@ pub mod question;
 pub mod search;
 
 pub use diagnosis::{Alternative, Diagnosis, Found, NoiseSource, Options, Verdict, diagnose};
+pub use estimator::refit::Changed;
 pub use judgement::{Against, Standing};
 pub use proof::Compared;

@@ -11,6 +11,7 @@ pub(super) const STANDINGS: [&str; 3] = ["possible", "likely", "certain"];
 /// Every list that is not empty.
 pub(super) fn show(page: &mut Page, found: &Diagnosis) {
     let all = [
+        changed,
         spots,
         alternatives,
         groups,
@@ -131,6 +132,42 @@ fn spots(page: &mut Page, found: &Diagnosis) {
     };
     let title = "Where the present model misses";
     page.show("where", title, "Strongest first.", table);
+}
+
+/// Effects of the profile that are not what they were, a row for each parameter.
+fn changed(page: &mut Page, found: &Diagnosis) {
+    let list: Vec<_> = (found.changed.iter())
+        .flat_map(|c| c.values().map(move |values| (c, values)))
+        .collect();
+    if list.is_empty() {
+        return;
+    }
+    let number = |at: usize, digits: usize| {
+        let numbers = list
+            .iter()
+            .map(move |(_, (_, values))| rounded(values[at], digits));
+        numbers.collect::<Vec<_>>()
+    };
+    let table = Table {
+        columns: vec![
+            Column::texts("effect", list.iter().map(|(c, _)| c.effect.label.clone())),
+            Column::texts("value", list.iter().map(|(_, (key, _))| (*key).to_owned())),
+            Column::numbers("profile", "", number(0, DIGITS)),
+            Column::numbers("fitted", "", number(1, DIGITS)),
+            Column::numbers("standard deviation", "", number(2, 2)),
+            Column::numbers(
+                "farthest, times that",
+                "",
+                list.iter().map(|(c, _)| rounded(c.times_sigma, 3)),
+            ),
+        ],
+    };
+    page.show(
+        "changed",
+        "What is not as the profile has it",
+        "Frames, geometry and the profile's effects were fitted anew.",
+        table,
+    );
 }
 
 fn alternatives(page: &mut Page, found: &Diagnosis) {

@@ -4,11 +4,13 @@
 use super::fit::{Fit, Normal};
 use super::table::{Column, Layout, table};
 use crate::diagnose::as_calibrated::known_of;
+use crate::diagnose::question::is_frame_or_geometry;
 use crate::diagnose::search::Chosen;
 use crate::diagnose::search::candidates::{least, parameter};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
+use crate::model::effects::Effect;
 use crate::profile::Profile;
 use nalgebra::DMatrix;
 
@@ -17,6 +19,9 @@ const TURNS: usize = 4;
 /// A calibration that does not say how sure it is knows its parameters to this part of their typical
 /// sizes.
 const KNOWN: f64 = 0.3;
+/// An effect of the profile has changed where one of its parameters is farther from where it was, in
+/// standard deviations: chance 6e-7 for each.
+const CHANGED: f64 = 5.0;
 /// No calibration is surer, in typical sizes.
 const SURE: f64 = 1e-3;
 
@@ -83,6 +88,19 @@ pub fn put(estimate: &mut Estimate, chosen: &[Chosen]) -> Vec<usize> {
         places.push(at);
     }
     places
+}
+
+/// An effect that was fitted again, and came out elsewhere than it was.
+#[derive(Clone, Debug)]
+pub struct Changed {
+    /// As the profile has it.
+    pub before: Effect,
+    /// As these measurements say.
+    pub after: Effect,
+    /// Standard deviation of each parameter that was fitted, by its number, SI.
+    pub sigmas: Vec<(usize, f64)>,
+    /// How far the farthest of them is from where it was, in its standard deviations.
+    pub times: f64,
 }
 
 /// What a fit begins with.
@@ -166,6 +184,51 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, L
         residual,
     };
     (refit, last)
+}
+
+/// Effects of the profile, frames and geometry left out, that were fitted freely and came out
+/// elsewhere beyond chance: the farthest first.
+pub(crate) fn changed(
+    start: Start,
+    profile: &Profile,
+    (refit, fit): (&Refit, &Fit),
+) -> Vec<Changed> {
+    let Start {
+        problem, shares, ..
+    } = start;
+    let mut all: Vec<Changed> = Vec::new();
+    for (at, after) in refit.estimate.effects.iter().enumerate() {
+        let before = profile.effects.iter().find(|e| e.same_place(after));
+        let Some(before) = before.filter(|e| !is_frame_or_geometry(e.kind)) else {
+            continue;
+        };
+        // what was found on top of it is named on its own
+        if refit.places.contains(&at) {
+            continue;
+        }
+        let own = problem.parameters.iter().zip(shares).enumerate();
+        let fitted = own.filter_map(|(i, (parameter, share))| match parameter.subject {
+            Subject::Effect(slot) if slot.effect == at && *share == 1.0 => {
+                Some((slot.parameter, fit.deviation(i) * parameter.scale))
+            }
+            _ => None,
+        });
+        let sigmas: Vec<(usize, f64)> = fitted.collect();
+        let times = sigmas.iter().map(|(number, sigma)| {
+            (after.parameters[*number] - before.parameters[*number]).abs() / sigma
+        });
+        let times = times.fold(0.0, f64::max);
+        if times > CHANGED {
+            all.push(Changed {
+                before: before.clone(),
+                after: after.clone(),
+                sigmas,
+                times,
+            });
+        }
+    }
+    all.sort_by(|a, b| b.times.total_cmp(&a.times));
+    all
 }
 
 /// Values of what was fitted freely, of these parameters, that lie below what is physical.

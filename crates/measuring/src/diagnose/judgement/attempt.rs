@@ -7,7 +7,7 @@ use crate::diagnose::diagnosis::Options;
 use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail};
 use crate::diagnose::estimator::fit::Fit;
 use crate::diagnose::estimator::gain::{Given, Kept};
-use crate::diagnose::estimator::refit::{Last, Refit, moved, refit};
+use crate::diagnose::estimator::refit::{Changed, Last, Refit, changed, moved, refit};
 use crate::diagnose::estimator::table::{Column, dot};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
@@ -68,6 +68,8 @@ pub(crate) struct Attempt {
     pub instead: Vec<Instead>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
+    /// Effects of the profile that were fitted again and are not what they were.
+    pub changed: Vec<Changed>,
     /// How much louder the residual is than what is known of the noise, where that is beyond
     /// chance.
     pub louder: Option<Louder>,
@@ -294,6 +296,7 @@ pub(crate) fn attempt(
     let outdone = outdone((&session, &used), &library, &chosen, &refit);
     let instead = instead(&session, &used, &chosen);
     let strained = strain(trust, &refit);
+    let changed = changed(session.start(), profile, (&refit, &fit));
     // with what was found: it may have changed from one repetition to the next
     let repeats = (session.repeats)
         .and_then(|_| of_repeats(&session.problem, &session.layout, &refit.residual, &used));
@@ -312,6 +315,7 @@ pub(crate) fn attempt(
             instead,
             likeness,
             strained,
+            changed,
             louder,
             repeats,
             merit,

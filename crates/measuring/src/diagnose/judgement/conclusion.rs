@@ -119,6 +119,7 @@ pub(crate) fn conclude(
         ),
         cannot_test: session.candidates.cannot_test.clone(),
         absorbed: attempt.trust == Trust::Nothing,
+        changed: attempt.changed.clone(),
         elsewhere: session.elsewhere,
         held_out: spreads[0].zip(spreads[spreads.len() - 1]),
         absorbed_only: spreads[1],

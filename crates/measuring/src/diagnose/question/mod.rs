@@ -81,6 +81,11 @@ pub fn is_nominal(profile: &Profile) -> bool {
     !geometry && profile.controller == ControllerModel::Nominal
 }
 
+/// What every calibration fits, whatever the profile has.
+pub(crate) fn is_frame_or_geometry(kind: Kind) -> bool {
+    matches!(kind, Kind::BaseFrame | Kind::ToolFrame | Kind::LinkGeometry)
+}
+
 /// What is fitted along: frames and geometry, what the profile already has, and joint compliance
 /// where it has nothing yet.
 fn selection(profile: &Profile) -> Selection {
@@ -95,11 +100,7 @@ fn selection(profile: &Profile) -> Selection {
     let own = profile.effects.iter().filter(|e| {
         let is_of_arm = !e.definition().of_external_axis();
         // of frames and geometry the level says what is fitted
-        let is_of_level = matches!(
-            e.kind,
-            Kind::BaseFrame | Kind::ToolFrame | Kind::LinkGeometry
-        );
-        is_of_arm && !is_of_level && !e.definition().search.held
+        is_of_arm && !is_frame_or_geometry(e.kind) && !e.definition().search.held
     });
     selection.identify = own.map(Pick::of).collect();
     selection
