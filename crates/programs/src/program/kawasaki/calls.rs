@@ -6,7 +6,9 @@ use super::remarks::{COMPUTED, taken_apart};
 use super::sections::Statement;
 use super::targets::Name;
 use crate::program::Source;
-use crate::program::script::{Argument, Call, Expr, Held, RoutineId, Start, VariableId};
+use crate::program::script::{
+    Argument, Call, Expr, Held, How, RoutineId, Start, TableId, VariableId, Written,
+};
 use crate::program::words::{Kind, Words, unquoted};
 
 /// A name that a program hands to another, which may write it.
@@ -101,6 +103,16 @@ impl<'a> Reader<'a> {
         self.assigned.extend(names);
     }
 
+    /// Elements that programs are handed to write are there before any text asks for one of them.
+    pub(super) fn note_written(&mut self, handed: &[Handed]) {
+        for one in handed.iter().filter(|one| !is_array(&one.name)) {
+            if self.written.contains(&(one.by, one.name.stem.clone())) {
+                let place = self.builder.script.routines[one.by as usize].place;
+                self.assign(&one.name, place, one.by);
+            }
+        }
+    }
+
     /// Targets whose numbers a program reads out of them stay as they are.
     pub(super) fn refuse_apart(&mut self) {
         let mut apart: Vec<_> = std::mem::take(&mut self.apart).into_iter().collect();
@@ -144,11 +156,12 @@ impl<'a> Reader<'a> {
             return;
         }
         let callees = self.programs_of(part.text(0));
-        let mut arguments = Vec::new();
+        let (mut arguments, mut chosen) = (Vec::new(), Vec::new());
         if part.is(1, b'(') {
             let given = part.inside(1).0.list();
             for (number, given) in given.into_iter().enumerate() {
                 self.argument(given, number, &callees, &mut arguments);
+                chosen.extend(self.chosen(given, number, &callees));
             }
         }
         let call = self.call_of(part.text(0), callees, arguments);
@@ -156,6 +169,11 @@ impl<'a> Reader<'a> {
             self.builder.start(call);
         } else {
             self.put_call(call);
+        }
+        // what only the running program chooses is then what the parameter is
+        for (table, parameter) in chosen {
+            let how = How::Whole(Expr::Variable(parameter));
+            self.write(Written::AnyOf(table), how);
         }
     }
 
@@ -288,6 +306,33 @@ impl<'a> Reader<'a> {
                 arguments.push(Argument::new(Some(parameter), value, value.variable()));
             }
         }
+    }
+
+    /// The array of which a call gives an element that only the running program chooses, with the
+    /// parameters that it is given for where programs write these.
+    fn chosen(
+        &mut self,
+        given: Words,
+        number: usize,
+        callees: &[RoutineId],
+    ) -> Vec<(TableId, VariableId)> {
+        let name =
+            Name::of(given).filter(|(name, words)| *words == given.len() && name.key.is_none());
+        let table = name.and_then(|(name, _)| Some((self.table(&name)?, name)));
+        let Some((table, name)) = table else {
+            return Vec::new();
+        };
+        let mut all = Vec::new();
+        for &callee in callees {
+            let Some(parameter) = self.parameters[callee as usize].get(number) else {
+                continue;
+            };
+            let stem = stem_of(parameter, &name);
+            if self.written.contains(&(callee, stem.clone())) {
+                all.push((table, self.parameter(callee, stem, Vec::new())));
+            }
+        }
+        all
     }
 
     /// The number that a call gives; `None` where the text does not tell it.

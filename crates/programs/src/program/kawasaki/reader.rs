@@ -183,6 +183,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         reader.note_assigned(program, routine, &mut handed);
     }
     reader.note_handed(&handed);
+    reader.note_written(&handed);
     reader.note_arrays(&handed);
     reader.find_plates(starts[1]);
     for (routine, program) in (0..).zip(&sections.programs) {
@@ -234,7 +235,9 @@ impl<'a> Reader<'a> {
                     for of in self.names_in(part.behind(1 + defined.len()), routine) {
                         self.copied.push((owned.clone(), of));
                     }
-                    self.written.insert((routine, name.stem));
+                    self.written.insert((routine, name.stem.clone()));
+                    let place = Place::new(file, short(line.start));
+                    self.assign(&name, place, routine);
                 }
             } else if line.keyword == "HSENSE" {
                 let names = sensed(part).map(|name| (routine, name.stem));

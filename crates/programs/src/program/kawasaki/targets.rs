@@ -235,6 +235,18 @@ impl<'a> Reader<'a> {
         made
     }
 
+    /// A name that a program writes is one of its array, wherever that stands in the text.
+    pub(super) fn assign(&mut self, name: &Name, place: Place, routine: RoutineId) {
+        if name.key.is_some() {
+            let before = std::mem::take(&mut self.here);
+            self.here.file = place.file;
+            self.here.at = place.offset as usize;
+            self.here.routine = routine;
+            self.variable(name);
+            self.here = before;
+        }
+    }
+
     /// Names of the program's own begin with a dot; parameters are its own, too.
     fn is_local(&self, name: &Name) -> bool {
         self.owner(name).is_some()

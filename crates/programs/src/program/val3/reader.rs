@@ -467,7 +467,7 @@ impl<'a> Reader<'a> {
         let given = line.inside(at + 1).0;
         self.uses(given);
         let given = given.list();
-        let (mut arguments, mut written) = (Vec::new(), Vec::new());
+        let (mut arguments, mut written, mut chosen) = (Vec::new(), Vec::new(), Vec::new());
         for (number, value) in given.into_iter().enumerate() {
             let parameter =
                 callee.and_then(|callee| Some((callee, self.parameter(callee, number)?)));
@@ -498,6 +498,9 @@ impl<'a> Reader<'a> {
                 self.copies.entry(parameter).or_default().extend(of);
             }
             let back = value.variable().filter(|_| by_reference);
+            if by_reference && back.is_none() {
+                chosen.extend(target.filter(|one| !one.has_field).zip(parameter));
+            }
             arguments.push(Argument::new(parameter, value, back));
         }
         let (place, callees) = (self.place(line.span().start), callee.into_iter().collect());
@@ -507,6 +510,11 @@ impl<'a> Reader<'a> {
             self.builder.call(call);
         } else {
             self.builder.start(call);
+        }
+        // an element that only the running program chooses is then what the parameter is
+        for (target, parameter) in chosen {
+            let how = How::Whole(Expr::Variable(parameter));
+            self.write(&target, line.span().start, how);
         }
         // arrays whose elements are not followed, and parts of points
         for target in written {

@@ -440,3 +440,25 @@ fn a_tool_or_base_that_turns_many_times_is_in_another_unit() {
         );
     }
 }
+
+#[test]
+fn an_element_that_the_running_program_chooses_is_what_programs_make_of_it() {
+    let last = |code: &str, more: &str| {
+        let text = format!("{more}.PROGRAM main()\nTOOL grip\nBASE NULL\n{code}\n.END\n{POINTS}");
+        let program = read_files(&[&text]).expect("a program");
+        targets(&program).join(" ")
+    };
+    // written by number before any text names one of the array
+    let set = ".PROGRAM sub(.i)\nPOINT w[.i] = p1\n.END\n";
+    let code = "POINT w[1] = p[1]\nCALL sub(1)\nLMOVE w[1]";
+    assert_eq!(last(code, set), "p1 p[1]");
+    // handed over by number
+    let set = ".PROGRAM rd(.x)\nPOINT .x = p1\n.END\n.PROGRAM through(.y)\nCALL rd(.y)\n.END\n";
+    for name in ["rd", "through"] {
+        let code = format!("FOR i = 1 TO 2\nCALL {name}(p[i])\nEND\nLMOVE p[2]");
+        assert_eq!(last(&code, set), "p1 p[2]");
+    }
+    // a program that only reads it leaves it
+    let goes = ".PROGRAM rd(.x)\nLMOVE .x\n.END\n";
+    assert_eq!(last("CALL rd(p[i])\nLMOVE p[1]", goes), "p[1] p[2]");
+}

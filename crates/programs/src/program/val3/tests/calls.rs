@@ -171,3 +171,28 @@ fn what_is_said_of_positions_that_are_not_known_is_what_is_so() {
         "{said:?}"
     );
 }
+
+#[test]
+fn an_element_that_the_running_program_chooses_is_what_programs_make_of_it() {
+    let point = |key: u32| format!("key=\"{key}\" x=\"{key}.5\" fatherId=\"fA[0]\"");
+    let data = data("fA", "frame", &[FRAME])
+        + &data("tA", "tool", &[TOOL])
+        + &data("nI", "num", &["key=\"0\" value=\"1\""])
+        + &data("pA", "pointRx", &[&point(0), &point(1)])
+        + &data("pQ", "pointRx", &[&point(0)]);
+    let code = "for nI=0 to 1\ncall rd(pA[nI])\nendFor\nmovel(pA[1],tA,m)";
+    let reads = |usage: &str| {
+        let own = parameter("x_p", "pointRx", usage);
+        let program = read_files(&[
+            ("m/m.dtx", dtx(&data)),
+            ("m/start.pgx", pgx("start", "", code)),
+            ("m/rd.pgx", pgx("rd", &own, "x_p=pQ")),
+        ]);
+        let program = program.expect("a project");
+        let found = placed(&program);
+        let names = found.iter().map(|(name, ..)| (*name).to_owned());
+        names.collect::<Vec<_>>()
+    };
+    assert_eq!(reads("reference"), ["pA[1]", "pQ"]);
+    assert_eq!(reads("value"), ["pA[1]"]);
+}
