@@ -1,7 +1,7 @@
 //! What displaces a point is never judged smaller than what the text allows.
 
 use super::displaced::{misses, of_krl, of_rapid, of_urscript, unknown};
-use super::{P, PLAIN, done, errors, given, message, profile_of, rapid};
+use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile_of, rapid};
 use poseshift::compensate::{Compensation, Options, compensate};
 use poseshift::program::{Source, language_of};
 
@@ -325,4 +325,46 @@ fn joint_moves_of_threads_are_reported_where_moves_to_poses_follow() {
         "{:?}",
         straight.findings
     );
+}
+
+#[test]
+fn the_side_from_which_joints_come_to_a_derived_point_is_named_where_nothing_says_it() {
+    // down to p, then up from far below to points that a counter raises
+    let body = |at: &str| {
+        format!(
+            "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveL p,v100,fine,tool0;\n\
+             FOR i FROM 1 TO 3 DO\nMoveL low,v100,fine,tool0;\nMoveL Offs(p,0,0,{at}),v100,fine,tool0;\nENDFOR"
+        )
+    };
+    let data = format!(
+        "CONST robtarget p := [[330,10,380],{P};\nCONST robtarget low := [[330,10,300],{P};"
+    );
+    let of = |effects: &[&str], at: &str| done(effects, &[("t.mod", &rapid(&data, &body(at)))]);
+    let sides = |done: &Compensation| {
+        let found = done.findings.iter();
+        let found =
+            found.filter(|f| f.id == "direction-uncertain" && f.message.contains("derived"));
+        let found = found.filter(|f| f.message.contains("for that alone"));
+        found.map(|f| f.message.clone()).collect::<Vec<_>>()
+    };
+    let known = of(&[BACKLASH], "2");
+    assert_eq!(sides(&known), [""; 0]);
+    let off: f64 = number(message(&known, "displaced-target"), "lands ");
+    let unknown = of(&[BACKLASH], "i*2");
+    let said = sides(&unknown);
+    assert_eq!(said.len(), 1, "{:?}", unknown.findings);
+    let side = number(&said[0], "may be ");
+    // nearly all of it is the side
+    assert!((side - off).abs() < 0.05 * off && off > 0.3, "{side} {off}");
+    assert_eq!(sides(&of(&[PLAIN], "i*2")), [""; 0]);
+}
+
+/// The number behind these words.
+fn number(text: &str, behind: &str) -> f64 {
+    let (_, rest) = text.split_once(behind).expect("the words");
+    let number = rest
+        .split(' ')
+        .next()
+        .and_then(|number| number.parse().ok());
+    number.unwrap_or_else(|| panic!("{text}"))
 }

@@ -118,3 +118,34 @@ fn resume_leaves_the_robot_anywhere_in_the_routine_that_is_interrupted() {
         );
     }
 }
+
+#[test]
+fn an_interrupt_that_moves_the_robot_makes_directions_uncertain() {
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let trap = |inside: &str| {
+        let data = format!(
+            "VAR intnum i1;\nCONST robtarget a := [[330,10,420],{P};\nCONST robtarget b := \
+             [[330,10,380],{P};\nCONST robtarget c := [[330,10,330],{P};\nTRAP tr\n{inside}\nENDTRAP"
+        );
+        let body = "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nCONNECT i1 \
+            WITH tr;\nISignalDI di1,1,i1;\nMoveL a,v100,fine,tool0;\nMoveL b,v100,fine,tool0;";
+        super::rapid(&data, body)
+    };
+    let said = |effects: &[&str], inside: &str| {
+        let done = done(effects, &[("t.mod", &trap(inside))]);
+        let found = done.findings.into_iter();
+        let found = found.filter(|f| f.id == "direction-uncertain" && f.message.contains("`tr`"));
+        found.map(|f| (f.line, f.message)).collect::<Vec<_>>()
+    };
+    let moves = "StopMove;\nStorePath;\nMoveL c,v100,fine,tool0;\nRestoPath;\nStartMove;";
+    let found = said(&[backlash], moves);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].0, 6, "where the trap stands");
+    let message = &found[0].1;
+    assert!(
+        message.contains("joint 2") && message.contains("and at another move"),
+        "{message}"
+    );
+    assert_eq!(said(&[backlash], "TPWrite \"x\";"), []);
+    assert_eq!(said(&[PLAIN], moves), []);
+}

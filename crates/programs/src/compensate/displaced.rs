@@ -17,6 +17,10 @@ use std::f64::consts::TAU;
 /// So far from a target is looked how long its correction is right, metres.
 const DISTANCES_M: [f64; 10] = [1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
 
+/// What a side adds is reported beyond this, as one set of numbers serves approaches that differ by
+/// no more.
+const LEAST_M: f64 = 2e-6;
+
 fn is_displaced(motion: &Move) -> bool {
     motion.displacement != Displacement::None
 }
@@ -57,6 +61,7 @@ pub(super) fn check(
     let mut judged = Judged::default();
     let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
     let mut of_joints = BTreeSet::new();
+    let mut of_sides: BTreeMap<_, (&Move, Side)> = BTreeMap::new();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
@@ -89,6 +94,11 @@ pub(super) fn check(
         let Some(verdict) = base.judge(&motion.displacement, &mut judged) else {
             continue;
         };
+        if let Some(side) = base.side(motion, arrivals.is_empty()) {
+            let before = of_sides.entry((motion.file, motion.offset, target));
+            let before = before.or_insert((motion, side));
+            before.1 = before.1.max(side);
+        }
         let statement = (motion.file, motion.offset, verdict.id, target);
         let (_, verdicts) = of_statements
             .entry(statement)
@@ -96,6 +106,9 @@ pub(super) fn check(
         if !verdicts.contains(&verdict) {
             verdicts.push(verdict);
         }
+    }
+    for ((.., target), (motion, side)) in of_sides {
+        findings.push(unknown_side(job, motion, target, &side));
     }
     let hint = "give the point a target of its own if it must be exact; --max-derived-error \
         raises the limit";
@@ -129,6 +142,40 @@ fn uncorrected(job: &Job, motion: &Move, target: TargetId) -> Finding {
         (--joint-targets correct)";
     let ground = &job.ground;
     ground.at_move("displaced-target", Severity::Warning, motion, message, hint)
+}
+
+/// Joints with backlash of which nothing says from which side they come to a derived point.
+#[derive(Clone, Copy)]
+struct Side {
+    joints: [bool; 6],
+    /// How far the tool may be off for it, metres.
+    off_m: f64,
+}
+
+impl Side {
+    /// That of two by which the tool may be farther off.
+    fn max(self, other: Self) -> Self {
+        if other.off_m > self.off_m {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+fn unknown_side(job: &Job, motion: &Move, target: TargetId, side: &Side) -> Finding {
+    let joints = (0..6).filter(|i| side.joints[*i]);
+    let joints: Vec<String> = joints.map(|i| (i + 1).to_string()).collect();
+    let message = format!(
+        "nothing says from which side joint {} with backlash comes to a point derived from {}: \
+         for that alone the tool may be {:.3} mm off",
+        joints.join(", "),
+        job.ground.name_of(target),
+        mm_from_m(side.off_m)
+    );
+    let hint = "go there by a target of its own, or come from a point with numbers of its own";
+    let (id, severity) = ("direction-uncertain", Severity::Warning);
+    job.ground.at_move(id, severity, motion, message, hint)
 }
 
 /// What is found of a displacement.
@@ -193,6 +240,52 @@ impl Base<'_> {
             Displacement::Overwritten => self.overwritten(),
             Displacement::By(shift) => self.by(shift),
         })
+    }
+
+    /// What the side adds from which joints with backlash come to the point where the text does not
+    /// say it: `is_unknown` where it does not say how the robot comes there at all.
+    fn side(&self, motion: &Move, is_unknown: bool) -> Option<Side> {
+        let is_known = match motion.displacement {
+            Displacement::By(_) => !is_unknown,
+            Displacement::Unknown | Displacement::Within(_) | Displacement::AtLeast(_) => false,
+            Displacement::None | Displacement::Unbounded | Displacement::Overwritten => {
+                return None;
+            }
+        };
+        let sides = self.uses.iter().map(|of| {
+            let equipped = self.job.ground.arm_with(of.tool as usize);
+            let real = &equipped.inverse.real;
+            let at = |joint: usize, side: f64| {
+                let mut conditions = of.conditions(self.job);
+                conditions.direction[joint] = side;
+                real.forward(&of.nominal_q, &conditions)
+            };
+            let assumed = if is_known {
+                of.direction
+            } else {
+                self.direction
+            };
+            let mut side = Side {
+                joints: [false; 6],
+                off_m: 0.0,
+            };
+            for joint in 0..6 {
+                if !equipped.has_backlash[joint] || is_known && assumed[joint] != 0 {
+                    continue;
+                }
+                side.joints[joint] = true;
+                let apart_m = at(joint, -1.0).separation(&at(joint, 1.0)).distance_m;
+                // in the middle of both it is half as far to either
+                side.off_m += if assumed[joint] == 0 {
+                    0.5 * apart_m
+                } else {
+                    apart_m
+                };
+            }
+            side
+        });
+        let most = sides.reduce(Side::max)?;
+        (most.off_m > LEAST_M).then_some(most)
     }
 
     /// The verdict of a largest miss, whose message begins so; `None` where nothing bounds it.

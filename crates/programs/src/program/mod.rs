@@ -387,6 +387,18 @@ pub enum Before {
     Several(u32),
 }
 
+/// A routine that may run between any two moves of others (a trap, an interrupt, a thread), and
+/// moves the robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interrupt {
+    /// Where it stands.
+    pub place: Place,
+    /// Its name.
+    pub name: Box<str>,
+    /// Its moves, in order: indices in [`Program::moves`].
+    pub moves: Vec<u32>,
+}
+
 /// What program files hold.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Program {
@@ -415,6 +427,8 @@ pub struct Program {
     pub led: Vec<(u32, u32)>,
     /// The place and the name of each call; empty where none of them is in [`Program::led`].
     pub calls: Vec<(Place, Box<str>)>,
+    /// Routines that may run between any two moves of the others, and move the robot.
+    pub interrupts: Vec<Interrupt>,
     /// Where targets say that external axes stand, by target.
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by [`Move::instruction`]: they go before their targets.

@@ -53,6 +53,8 @@ pub(super) struct Reached {
     /// A call between the moves before and this one that may have led the robot elsewhere: index in
     /// [`Script::calls`].
     pub led: Option<u32>,
+    /// A routine that runs between any two statements of the others came here.
+    pub is_concurrent: bool,
 }
 
 /// With what a move runs, whichever way the program came to it.

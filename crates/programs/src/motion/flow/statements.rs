@@ -55,6 +55,12 @@ impl<'a> Flow<'a> {
         }
     }
 
+    /// The routine that a stop is in.
+    pub(in crate::motion) fn routine_of(&self, stop: usize) -> RoutineId {
+        let behind = (self.instances).partition_point(|of| of.first_stop as usize <= stop);
+        self.instances[behind - 1].routine
+    }
+
     pub(super) fn instance(&mut self, routine: RoutineId, depth: u32, caller: u32) -> u32 {
         let of = &self.script.routines[routine as usize];
         let first_stop = short(self.reached.len());
@@ -351,6 +357,7 @@ impl<'a> Flow<'a> {
             target,
             before: state.before,
             led: state.led.take(),
+            is_concurrent: self.is_concurrent,
         });
         state.before = self.sets.one(stop);
     }

@@ -5,8 +5,9 @@ use crate::finding::Severity;
 use crate::motion::before::{ANYWHERE, START};
 use crate::motion::flow::Reached;
 use crate::program::script::{Expr, Held, Place, short};
-use crate::program::{Before, FrameId, Shape, TargetId, Tool, ToolId};
+use crate::program::{Before, FrameId, Interrupt, Shape, TargetId, Tool, ToolId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use std::ops::Range;
 
 impl Resolver<'_, '_> {
     /// Puts moves in the place of stops.
@@ -29,11 +30,33 @@ impl Resolver<'_, '_> {
             for motion in &mut self.report.program.moves[first as usize..end as usize] {
                 motion.before = before;
             }
+            if reached.is_concurrent && first != end {
+                self.interrupt(stop, first..end);
+            }
             if let Some(call) = reached.led {
                 let called = (first..end).map(|motion| (motion, call));
                 self.report.program.led.extend(called);
             }
         }
+        for of in &mut self.report.program.interrupts {
+            of.moves.sort_unstable();
+        }
+    }
+
+    /// Notes moves of a routine that runs between any two moves of others.
+    fn interrupt(&mut self, stop: usize, moves: Range<u32>) {
+        let routine = &self.script.routines[self.flow.routine_of(stop) as usize];
+        let interrupts = &mut self.report.program.interrupts;
+        let at = interrupts.iter().position(|of| of.place == routine.place);
+        let at = at.unwrap_or_else(|| {
+            interrupts.push(Interrupt {
+                place: routine.place,
+                name: routine.name.clone(),
+                moves: Vec::new(),
+            });
+            interrupts.len() - 1
+        });
+        interrupts[at].moves.extend(moves);
     }
 
     /// The moves of the stops before one.

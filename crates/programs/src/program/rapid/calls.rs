@@ -303,7 +303,7 @@ impl Translator<'_> {
             };
             let back = match (value, argument) {
                 (Expr::Variable(variable), Some(argument))
-                    if resolved.is_written_back(datum)
+                    if self.is_shared(datum, argument)
                         && (kind.is_frame() || self.is_one_of(argument)) =>
                 {
                     Some(variable)
@@ -397,6 +397,28 @@ impl Translator<'_> {
                 self.emit_write(self.here, variable, How::Whole(value));
             }
         }
+    }
+
+    /// Whether a parameter is by reference and written, or what it is given is: by its own name, or
+    /// through another parameter.
+    fn is_shared(&self, parameter: u32, argument: &Argument) -> bool {
+        let resolved = self.resolved;
+        let given = || {
+            let (name, _) = resolved.place_of(&argument.expression)?;
+            match resolved.meaning(name, self.context) {
+                Meaning::One(datum) => Some(Entity::Declared(datum)),
+                Meaning::Nothing => Some(Entity::Undeclared(name)),
+                Meaning::Several(_) => None,
+            }
+        };
+        resolved.is_written_back(parameter)
+            || resolved.is_by_reference(parameter)
+                && given().is_some_and(|entity| {
+                    // the variable of a caller's caller may be
+                    let is_handed_on = matches!(entity, Entity::Declared(datum)
+                        if resolved.is_by_reference(datum));
+                    is_handed_on || resolved.is_written(entity)
+                })
     }
 
     /// Whether an argument is a variable of its own, which a routine may write as a whole.

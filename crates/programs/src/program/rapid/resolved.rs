@@ -204,16 +204,20 @@ impl<'a> Resolved<'a> {
         self.in_parts.contains(&datum)
     }
 
-    /// Whether what a routine writes into a parameter is written where it is called.
-    pub(super) fn is_written_back(&self, parameter: u32) -> bool {
-        let by_reference = matches!(
+    /// Whether a parameter is the variable that a call gives it.
+    pub(super) fn is_by_reference(&self, parameter: u32) -> bool {
+        matches!(
             self.datum(parameter).storage,
             Storage::Parameter {
                 by_reference: true,
                 ..
             }
-        );
-        by_reference && self.written[parameter as usize]
+        )
+    }
+
+    /// Whether what a routine writes into a parameter is written where it is called.
+    pub(super) fn is_written_back(&self, parameter: u32) -> bool {
+        self.is_by_reference(parameter) && self.written[parameter as usize]
     }
 
     /// The data that an expression is or a part of which it is, and which element of them.

@@ -8,7 +8,7 @@ use super::moves::Verb;
 use super::numbers::{axis, turned_by_any};
 use super::project::{Program, World};
 use super::remarks::{COMPUTED, REORDERED, frame_assigned, library};
-use super::targets::{Of, Variables};
+use super::targets::{Known, Of, Variables};
 use crate::program::Source;
 use crate::program::displacing::grown_by_any;
 use crate::program::notation::mentions;
@@ -64,6 +64,8 @@ pub(super) struct Reader<'a> {
     /// Frames, transformations, descriptors and tools that the running program changes, by index
     /// in [`World::data`].
     pub assigned: HashSet<u32>,
+    /// Values of data that programs write, by key.
+    filled: Vec<(Known, &'a [u8])>,
     /// What each variable may be a copy of.
     pub copies: HashMap<VariableId, Vec<VariableId>>,
     pub arrays: Arrays<'a>,
@@ -109,6 +111,10 @@ pub(super) fn script<'a>(sources: &'a [Source], mut world: World<'a>) -> Script 
         reader.program(program, code, Reader::note_assigned);
     }
     reader.entries.finish();
+    // an index that only the running program knows may be any that some program writes
+    for (known, key) in std::mem::take(&mut reader.filled) {
+        reader.element(known, key);
+    }
     while !std::mem::replace(&mut reader.is_settled, true) {
         for (program, code) in codes.iter().enumerate() {
             reader.program(program, code, Reader::note_given);
@@ -170,8 +176,14 @@ impl<'a> Reader<'a> {
     }
 
     fn note(&mut self, target: &Reference<'a>) {
-        if let Some(Of::Project(datum)) = self.meaning(target).map(|known| known.of) {
+        let Some(known) = self.meaning(target) else {
+            return;
+        };
+        if let Of::Project(datum) = known.of {
             self.assigned.insert(datum);
+            if known.kind.is_place() || known.kind == Kind::Tool {
+                self.filled.extend(target.key.map(|key| (known, key)));
+            }
         }
     }
 

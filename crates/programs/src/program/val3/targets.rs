@@ -157,6 +157,9 @@ impl Variables<'_> {
     }
 }
 
+/// The key of what stands for all values of an array of which none is taught.
+const ANY: &[u8] = b"...";
+
 /// The target that a value is; `None` where it is none, or was never taught.
 fn target_of(builder: &mut Builder, datum: &Datum, at: usize) -> Option<TargetId> {
     let element = &datum.elements[at];
@@ -314,6 +317,7 @@ impl<'a> Reader<'a> {
             (Kind::OtherArm, _) => self.unknown(other_arm(&name)),
             _ => match target {
                 Some(target) => Expr::Target(target),
+                None if key == ANY => self.builder.script.unknown(unknown_value(of.kind)),
                 None if of.kind == Kind::Joint => self.unknown(joints_not_taught(&name)),
                 None => self.unknown(not_taught(&name, self.assigned.contains(&datum))),
             },
@@ -333,7 +337,9 @@ impl<'a> Reader<'a> {
         let keys = match known.of {
             Of::Project(datum) => {
                 let elements = self.world.data[datum as usize].elements.iter();
-                elements.map(|element| element.key).collect()
+                let all: Vec<_> = elements.map(|element| element.key).collect();
+                // none is taught: one stands for all that programs write
+                if all.is_empty() { vec![ANY] } else { all }
             }
             Of::Program(_) => self.keys(known, name).unwrap_or_default(),
         };

@@ -143,3 +143,47 @@ fn what_a_routine_writes_into_a_part_by_reference_is_written() {
     );
     assert_eq!((to(&program), ids(&program)), (vec!["p3"], vec![]));
 }
+
+#[test]
+fn a_parameter_by_reference_is_the_variable_that_it_is_given() {
+    for (sub, expected) in [
+        // the routine writes the variable by its own name
+        (
+            "q:=p1;\nsub q;\nENDPROC\nPROC sub(INOUT robtarget p)\nq:=p2;\nMoveJ p,v5,z5,t;",
+            "p2",
+        ),
+        (
+            "a{1}:=p1;\nsub a{1};\nENDPROC\nPROC sub(INOUT robtarget p)\na{1}:=p2;\nMoveJ p,v5,z5,t;",
+            "p2",
+        ),
+        // or through another parameter
+        (
+            "q:=p1;\nsub q,q;\nENDPROC\nPROC sub(INOUT robtarget p,INOUT robtarget r)\np:=p2;\nMoveJ r,v5,z5,t;",
+            "p2",
+        ),
+        // or it is handed on
+        (
+            "q:=p1;\nouter q;\nENDPROC\nPROC outer(INOUT robtarget a)\nsub a;\nENDPROC\nPROC sub(INOUT robtarget p)\n\
+             q:=p2;\nMoveJ p,v5,z5,t;",
+            "p2",
+        ),
+        // a parameter by value is what it was
+        (
+            "q:=p1;\nsub q;\nENDPROC\nPROC sub(robtarget p)\nq:=p2;\nMoveJ p,v5,z5,t;",
+            "p1",
+        ),
+    ] {
+        let text = sub.replacen(
+            "\nENDPROC",
+            "\nENDPROC\nVAR robtarget q;\nVAR robtarget a{2};",
+            1,
+        );
+        let program = path(&text);
+        assert_eq!(to(&program), [expected], "{sub}");
+    }
+    let program = path(
+        "q:=p1;\nsub q;\nENDPROC\nVAR robtarget q;\nPROC sub(INOUT robtarget p)\nq.trans.z:=q.trans.z+60;\n\
+         MoveL p,v5,z5,t;",
+    );
+    assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
+}

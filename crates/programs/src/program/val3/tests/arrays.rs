@@ -137,3 +137,44 @@ fn a_parameter_is_composed_in_the_frame_of_what_it_is_given() {
     let [x, y, _] = by("world");
     assert!((x - 0.3).abs() < 1e-12 && y.abs() < 1e-12);
 }
+
+/// Targets that moves go to in a project with points `pA[0]`, `pA[1]` and arrays of which `values`
+/// are taught.
+fn gone_to(values: &[&str], start: &str, fill: (&str, &str)) -> (Vec<String>, Vec<&'static str>) {
+    let point = |key: u32| format!("key=\"{key}\" x=\"{key}.5\" fatherId=\"fA[0]\"");
+    let all = data("fA", "frame", &[FRAME])
+        + &data("tA", "tool", &[TOOL])
+        + &data("pA", "pointRx", &[&point(0), &point(1)])
+        + &data("pV", "pointRx", values);
+    let program = read_files(&[
+        ("m/m.dtx", dtx(&all)),
+        ("m/start.pgx", pgx("start", "", start)),
+        ("m/fill.pgx", pgx(fill.0, "", fill.1)),
+    ]);
+    let program = program.expect("a project");
+    let mut names: Vec<String> = moves(&program)
+        .iter()
+        .map(|(name, _)| (*name).to_owned())
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    (names, program.findings.iter().map(|f| f.id).collect())
+}
+
+#[test]
+fn an_array_without_values_is_what_programs_write_into_it() {
+    let start = "for nI=0 to 1\npV[nI]=pA[nI]\nendFor\nmovel(pV[nI],tA,m)";
+    let (names, said) = gone_to(&[], start, ("none", ""));
+    assert_eq!(names, ["pA[0]", "pA[1]"]);
+    assert!(said.contains(&"computed-target"), "{said:?}");
+}
+
+#[test]
+fn a_value_that_a_program_further_down_writes_is_gone_to_as_well() {
+    let taught = "key=\"0\" x=\"7\" fatherId=\"fA[0]\"";
+    for name in ["afill", "zfill"] {
+        let start = format!("call {name}()\nmovel(pV[nI],tA,m)");
+        let (names, _) = gone_to(&[taught], &start, (name, "pV[1]=pA[1]"));
+        assert_eq!(names, ["pA[1]", "pV"], "{name}");
+    }
+}
