@@ -71,11 +71,25 @@ impl ProfileFile {
     }
 }
 
+/// Bytes of a profile, a cell, a frame or a URDF: a hundred thousand bodies.
+const LARGEST_TEXT: usize = 64 << 20;
+
 /// A file's text, which must be UTF-8.
 ///
 /// # Errors
-/// A byte that is not.
+/// A byte that is not; more than any such file has.
 pub fn text(source: &Source) -> Result<String, Failure> {
+    if source.bytes.len() > LARGEST_TEXT {
+        return Err(Failure::with_hint(
+            format!(
+                "{}: it has {} bytes; of profiles, cells, frames and URDFs at most {LARGEST_TEXT} \
+                 are read",
+                source.name,
+                source.bytes.len()
+            ),
+            "is it the right file?",
+        ));
+    }
     String::from_utf8(source.bytes.clone()).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let name = &source.name;

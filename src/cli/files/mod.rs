@@ -37,8 +37,8 @@ use transaction::{New, Transaction};
 /// A file to write: where, as the user names it, and what it holds.
 pub(super) type NewFile<'a> = (PathBuf, Cow<'a, [u8]>);
 
-/// Bytes of a mesh file: some ten million triangles.
-const LARGEST_MESH: u64 = 1 << 30;
+/// Bytes of a file: some ten million triangles, moves or rows.
+const LARGEST: u64 = 1 << 30;
 /// A file that was changed so shortly before it was read may be changed again without another time.
 const RACY: Duration = Duration::from_secs(2);
 
@@ -100,6 +100,15 @@ fn refuse_onto_itself(identity: Option<&Identity>) -> io::Result<()> {
     Ok(())
 }
 
+/// More than any file has that is read as a whole.
+fn refuse_large(about: &std::fs::Metadata) -> io::Result<()> {
+    if about.is_file() && about.len() > LARGEST {
+        let message = format!("it has {} bytes; at most {LARGEST} are read", about.len());
+        return Err(io::Error::other(message));
+    }
+    Ok(())
+}
+
 impl Files {
     /// A file's bytes.
     pub(super) fn read(&self, path: &Path) -> Result<Vec<u8>, Failure> {
@@ -117,6 +126,7 @@ impl Files {
     /// All that an open file gives.
     fn taken(&self, path: &Path, mut file: File) -> io::Result<Vec<u8>> {
         let before = file.metadata()?;
+        refuse_large(&before)?;
         let identity = Identity::of_file(&file).filter(|_| before.is_file());
         refuse_onto_itself(identity.as_ref())?;
         let mut bytes = Vec::with_capacity(usize::try_from(before.len()).unwrap_or(0));
@@ -181,13 +191,6 @@ impl Files {
         if !about.is_file() {
             return Err(io::Error::other("it is no plain file"));
         }
-        if about.len() > LARGEST_MESH {
-            let message = format!(
-                "it has {} bytes; at most {LARGEST_MESH} are read",
-                about.len()
-            );
-            return Err(io::Error::other(message));
-        }
         self.bytes(path)
     }
 
@@ -230,16 +233,32 @@ impl Files {
                 folder
             }
         });
+        let mut recover = |folder: &Path| -> Result<(), Failure> {
+            if let Some(said) = recovery::recover(&self.disk, folder)? {
+                screen::warn(&said);
+                was_any = true;
+            }
+            Ok(())
+        };
+        let mut is_new = false;
         for folder in above.chain([path]) {
             if !self.settled.borrow_mut().insert(folder.to_owned()) {
                 continue;
             }
+            is_new = true;
             if let Ok(folder) = folder.canonicalize()
                 && folder.is_dir()
-                && let Some(said) = recovery::recover(&self.disk, &folder)?
             {
-                screen::warn(&said);
-                was_any = true;
+                recover(&folder)?;
+            }
+        }
+        // new folders are put in place as a whole: the journal stands above the first of them
+        let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
+        if let Some(whole) = whole.ok().filter(|_| is_new) {
+            for folder in whole.ancestors().skip(2) {
+                if recovery::concerns(folder, &whole) {
+                    recover(folder)?;
+                }
             }
         }
         Ok(was_any)

@@ -11,6 +11,16 @@ use std::path::Path;
 /// Names that a message lists.
 const NAMED: usize = 5;
 
+/// Whether a journal in a folder is of a file, or of a folder that it is in.
+pub(super) fn concerns(folder: &Path, path: &Path) -> bool {
+    let Ok(bytes) = fs::read(journal::of(folder)) else {
+        return false;
+    };
+    let read = Journal::read(&bytes, folder).ok().flatten();
+    let is_of = |entry: &Entry| path.starts_with(&entry.target);
+    read.is_some_and(|(_, journal)| journal.entries.iter().any(is_of))
+}
+
 /// Finishes or undoes what a run that was stopped left in a folder, and says so.
 ///
 /// # Errors

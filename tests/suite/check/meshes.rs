@@ -41,11 +41,16 @@ fn f32_of(number: f64) -> f32 {
 }
 
 fn stl_ascii() -> Vec<u8> {
+    stl(1.0)
+}
+
+/// The wall in a unit of so many per millimetre.
+fn stl(per_mm: f64) -> Vec<u8> {
     let (corners, faces) = wall();
     let mut text = "solid wall\n".to_owned();
     for face in faces {
         text += "facet normal 0 0 0\nouter loop\n";
-        for [x, y, z] in face.map(|k| corners[k]) {
+        for [x, y, z] in face.map(|k| corners[k].map(|mm| mm * per_mm)) {
             text += &format!("vertex {x} {y} {z}\n");
         }
         text += "endloop\nendfacet\n";
@@ -251,6 +256,21 @@ fn a_mesh_in_metres_is_not_taken_for_one_in_millimetres() {
     assert!(status == 1 && found.iter().flatten().any(|mm| *mm <= 0.0));
     let (_, out, _) = check(&cell(folder.path(), "mesh: m.obj, scale: 1"), &[]);
     assert!(!out.contains("mesh-unit"), "{out}");
+    // a file that says its unit is in metres once it is applied
+    std::fs::write(folder.path().join("m.dae"), dae(0.001, "Z_UP", |p| p)).expect("scratch");
+    let (status, out, _) = check(&cell(folder.path(), "mesh: m.dae, scale: 1"), &[]);
+    assert!(status == 1 && out.contains("mesh-unit"), "{out}");
+    assert!(out.contains("leave `scale` out"), "{out}");
+    let (status, found) = clearances(&cell(folder.path(), "mesh: m.dae, scale: 1000"));
+    assert!(status == 1 && found.iter().flatten().any(|mm| *mm <= 0.0));
+    // an STL in metres, next to a body whose size is known and that is larger than the arm
+    std::fs::write(folder.path().join("m.stl"), stl(1e-3)).expect("scratch");
+    let hall = "mesh: m.stl}\n  - {name: hall, at: {x_mm: 0, y_mm: 0, z_mm: -4000, rx_deg: 0, ry_deg: 0, rz_deg: 0}, box_mm: [9000, 9000, 100]";
+    let (status, out, error) = check(&cell(folder.path(), hall), &[]);
+    assert!(
+        status == 1 && out.contains("`hall` is"),
+        "{status} {out} {error}"
+    );
 }
 
 /// What a mesh or its neighbour is refused for: status 2 and one line, no panic and no crash.
@@ -330,6 +350,12 @@ fn meshes_that_mean_harm_are_errors() {
             "count='8'",
             "count='9999999999999999999'",
             "points of 3",
+        ),
+        (
+            "faces.dae",
+            "<triangles count='12'>",
+            "<triangles count='13'>",
+            "it is cut off",
         ),
         (
             "stride.dae",

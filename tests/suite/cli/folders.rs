@@ -148,6 +148,29 @@ fn a_program_that_ends_too_early_is_named() {
     }
 }
 
+#[test]
+fn a_script_that_ends_inside_its_last_call_is_named() {
+    let folder = scratch();
+    let script =
+        "def a():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-1.5,1.5,-1.5,-1.5,0])\nend\na()\n";
+    for (end, expected) in [
+        (script.len(), 1),
+        (script.len() - 3, 2),
+        (script.len() - 2, 2),
+    ] {
+        std::fs::write(folder.path().join("a.script"), &script[..end]).expect("scratch");
+        let output = poseshift()
+            .current_dir(folder.path())
+            .args(["check", "a.script", "--profile"])
+            .arg(repository("robots/universal_robots_ur5.yaml"))
+            .output()
+            .expect("the program starts");
+        let is_refused = output.status.code() == Some(2);
+        assert_eq!(is_refused, expected == 2, "{end}: {}", reported(&output));
+        assert!(!is_refused || reported(&output).contains("a.script"));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn links_pipes_and_what_may_not_be_read_are_named() {

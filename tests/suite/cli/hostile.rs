@@ -396,6 +396,49 @@ fn an_arm_that_is_nowhere_judges_neither_measurements_nor_programs() {
 }
 
 /// Asserts that a command ends so and says this; its standard output.
+#[test]
+fn files_larger_than_any_that_is_meant_are_refused_at_once() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let large = |name: &str, bytes: u64| {
+        let file = std::fs::File::create(folder.path().join(name)).expect("scratch");
+        file.set_len(bytes).expect("a file of zeros");
+    };
+    large("large.yaml", 65 << 20);
+    large("large.urdf", 65 << 20);
+    large("huge.csv", (1 << 30) + 1);
+    let truth = repository(TRUTH).display().to_string();
+    let of_texts = "at most 67108864 are read";
+    refused(
+        folder.path(),
+        &["profile", "show", &at("large.yaml")],
+        2,
+        of_texts,
+    );
+    let urdf = ["profile", "from-urdf", &at("large.urdf"), "-o", "p.yaml"];
+    refused(folder.path(), &urdf, 2, of_texts);
+    let program = repository("programs/rapid/olp/in/Deburr.mod")
+        .display()
+        .to_string();
+    let cell = [
+        "check",
+        &program,
+        "--profile",
+        &truth,
+        "--cell",
+        &at("large.yaml"),
+    ];
+    refused(folder.path(), &cell, 2, of_texts);
+    let rows = [
+        "validate",
+        "--profile",
+        &truth,
+        "--measurements",
+        &at("huge.csv"),
+    ];
+    refused(folder.path(), &rows, 2, "at most 1073741824 are read");
+}
+
 fn refused(folder: &Path, arguments: &[&str], status: i32, said: &str) -> String {
     let output = poseshift()
         .current_dir(folder)

@@ -482,6 +482,46 @@ fn a_run_that_waits_to_print_has_replaced_nothing_and_is_undone_when_killed() {
     assert_eq!(content(folder.path()), before, "{said}");
 }
 
+#[test]
+fn what_was_begun_in_new_folders_is_undone_by_a_run_that_reads_in_them() {
+    let folder = world();
+    let cam = repository("programs/rapid/cam/in/cam.mod");
+    std::fs::copy(cam, folder.path().join("cam.mod")).expect("scratch");
+    let before = content(folder.path());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_poseshift"))
+        .current_dir(folder.path())
+        .args([
+            "compensate",
+            "cam.mod",
+            "--profile",
+            "work/p.yaml",
+            "--json",
+        ])
+        .args(["-o", "new/deep/cam.mod", "--report", "work/report.html"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // it stands above the first folder that is new
+    let journal = folder.path().join(".poseshift-journal");
+    while !journal.exists() {
+        let ended = child.try_wait().expect("a child");
+        assert!(ended.is_none(), "nothing is begun");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    std::thread::sleep(Duration::from_millis(100));
+    child.kill().expect("it runs");
+    child.wait().expect("it ended");
+    assert!(journal.exists());
+    let read = ["check", "new/deep/cam.mod", "--profile", "work/p.yaml"];
+    let said = reported(&run(folder.path(), &read));
+    assert!(
+        said.contains("undone what a run that was stopped"),
+        "{said}"
+    );
+    assert!(!journal.exists(), "{said}");
+    assert_eq!(content(folder.path()), before, "{said}");
+}
+
 /// Runs two commands at the same time; their exit statuses and what they said.
 fn at_once(folder: &Path, commands: [&[&str]; 2]) -> [(Option<i32>, String); 2] {
     let begun = commands.map(|arguments| {

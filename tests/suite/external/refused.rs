@@ -341,6 +341,12 @@ fn a_profile_says_where_it_is_wrong() {
             "axis 1 is not an axis of a positioner",
             "1 is E1",
         ),
+        // a step of 500 mm in a metre
+        (
+            "{effect: track_scale, axis: 1, ratio: 0.5}",
+            "ratio",
+            "large: true",
+        ),
         (
             "{effect: track_straightness, axis: 1, along: x, degree: 2, mm: 1}",
             "must be one of y, z",

@@ -41,6 +41,8 @@ pub struct Mesh {
     pub file: String,
     /// Neither the file nor anybody else says how long its unit is: a millimetre is assumed.
     pub unit_assumed: bool,
+    /// The file says how long its unit is, and a scale that was given makes it smaller.
+    pub shrunk: bool,
 }
 
 /// Why a mesh cannot be used.
@@ -127,16 +129,16 @@ impl Mesh {
         neighbour: Neighbour,
     ) -> Result<Self, MeshError> {
         let default = if says_its_unit(name) { 1000.0 } else { 1.0 };
-        let (unit_assumed, scale) = match scale {
-            Some(scale) => (false, scale),
-            None => (!says_its_unit(name), [default; 3]),
-        };
+        let unit_assumed = scale.is_none() && !says_its_unit(name);
+        let scale = scale.unwrap_or([default; 3]);
+        let shrunk = says_its_unit(name) && scale.iter().all(|scale| scale.abs() < default);
         let raw = triangles(name, bytes, neighbour)?;
         let scaled = |point: Vector| std::array::from_fn(|i| m_from_mm(point[i] * scale[i]));
         let triangles: Vec<Triangle> = raw.iter().map(|t| t.map(scaled)).collect();
         Ok(Self {
             file: name.into(),
             unit_assumed,
+            shrunk,
             ..Self::of(&triangles, scale[0])?
         })
     }

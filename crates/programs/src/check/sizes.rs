@@ -34,21 +34,32 @@ pub(super) fn unlikely(profile: &Profile, cell: &Cell, meshes: &Meshes) -> Vec<F
         let Form::Mesh { file, .. } = &shape.form else {
             continue;
         };
-        let Some(mesh) = meshes.get(file).filter(|mesh| mesh.unit_assumed) else {
+        let mesh = meshes.get(file);
+        let Some(mesh) = mesh.filter(|mesh| mesh.unit_assumed || mesh.shrunk) else {
             continue;
         };
         let long_m = mesh.longest_side_m();
         if SMALLER * long_m > largest_m {
             continue;
         }
+        let (by, hint) = if mesh.shrunk {
+            (
+                "with its `scale`",
+                "leave `scale` out: the file says how long its unit is, and `scale: 1000` is its \
+                 true size",
+            )
+        } else {
+            (
+                "if its unit is a millimetre",
+                "`scale: 1000` next to `mesh` says that the file is in metres, `scale: 1` that it \
+                 is in millimetres",
+            )
+        };
         let message = format!(
-            "the mesh of `{name}` is {} mm long if its unit is a millimetre, and {described}: at \
-             most {SMALLER} times as much is \
-             believed",
+            "the mesh of `{name}` is {} mm long {by}, and {described}: at most {SMALLER} times as \
+             much is believed",
             mm(long_m)
         );
-        let hint = "`scale: 1000` next to `mesh` says that the file is in metres, `scale: 1` that \
-            it is in millimetres";
         found.push(Finding::of_file("mesh-unit", Severity::Error, &mesh.file, message).hint(hint));
     }
     found

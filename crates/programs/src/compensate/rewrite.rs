@@ -360,6 +360,9 @@ impl<'a> Portion<'a> {
                 );
             } else {
                 styles[roles[index] as usize].write(old_text, new[index], digits);
+                if clings(job, target, number) && digits[from].is_ascii_digit() {
+                    digits.insert(from, b' ');
+                }
                 new[index] = number::parse(digits[from..].trim_ascii_start())
                     .expect("a written number is a number");
             }
@@ -482,6 +485,14 @@ fn styles(
 
 fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
     number.text(&job.ground.sources[target.file as usize].bytes)
+}
+
+/// Whether a number stands directly behind a name, from which its sign alone separates it
+/// (`Y-20` of KRL): one without a sign would be a part of the name.
+fn clings(job: &Job, target: &Target, number: &Number) -> bool {
+    let before = &job.ground.sources[target.file as usize].bytes[..number.start as usize];
+    let is_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    number.length > 0 && before.last().is_some_and(is_name)
 }
 
 pub(super) fn posture_of(arm: &Arm, q: &[f64; 6]) -> Posture {

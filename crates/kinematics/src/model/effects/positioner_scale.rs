@@ -29,6 +29,7 @@ impl Equation for PositionerScale {
         search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
+    const LARGEST: &'static [(&'static str, f64)] = &[("ratio", 2.0 / 360.0)];
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
         error.scale += p[0];

@@ -28,6 +28,7 @@ impl Equation for TrackScale {
         search: Search::PLAIN,
     };
     const READS_ANGLES: bool = false;
+    const LARGEST: &'static [(&'static str, f64)] = &[("ratio", 0.01)];
 
     fn carry<S: Scalar>(_: &Site, p: &[S; MOST_PARAMETERS], _: &AxisState<S>, error: &mut AxisError<S>) {
         error.scale += p[0];

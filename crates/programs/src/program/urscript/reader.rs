@@ -392,6 +392,9 @@ impl<'a> Reader<'a> {
     /// `name = …`, `name[…] = …`, or any other expression.
     fn plain(&mut self, name: Token, reach: Reach) -> Read<()> {
         let next = self.scanner.peek();
+        if next.kind == Kind::End && self.recognised {
+            return Err(self.unclosed(name.start, "a statement"));
+        }
         if next.is(b'=') {
             self.next()?;
             if self.scanner.bytes.get(self.scanner.at) == Some(&b'=') {

@@ -250,6 +250,21 @@ struct Corners<'p> {
 
 impl Corners<'_> {
     fn primitive(&self, primitive: &Element, out: &mut Vec<Triangle>) -> Result<(), XmlError> {
+        let before = out.len();
+        self.faces(primitive, out)?;
+        // it counts what it has: triangles, else polygons, fans or strips, of which each is one at
+        // least
+        let found = out.len() - before;
+        match primitive.attribute("count") {
+            Some(word) if whole(primitive, word)? > found => Err(primitive.fault(format!(
+                "it is cut off, or its polygons have no area: count is {word}, and there are \
+                 {found} triangles"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    fn faces(&self, primitive: &Element, out: &mut Vec<Triangle>) -> Result<(), XmlError> {
         match primitive.name.as_str() {
             "triangles" => {
                 for list in primitive.all("p") {
