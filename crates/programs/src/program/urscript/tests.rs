@@ -9,6 +9,7 @@ mod flow;
 mod posts;
 mod robust;
 mod samples;
+mod steps;
 mod structures;
 
 fn read_file(text: &[u8]) -> Result<Program, ReadError> {
