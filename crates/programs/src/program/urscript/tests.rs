@@ -248,8 +248,8 @@ fn what_the_program_computes_stays_and_is_reported() {
         ),
         (
             "movel(pose_trans(get_actual_tcp_pose(),p[0,0,.1,0,0,0]))",
-            "computed-target",
-            Severity::Warning,
+            "run-time-position",
+            Severity::Note,
         ),
         (
             "d=p[0,0,.1,0,0,0]\nmovel(pose_add(d,get_actual_tcp_pose()))",
@@ -263,8 +263,8 @@ fn what_the_program_computes_stays_and_is_reported() {
         ),
         (
             "x=get_target_tcp_pose()\nx=pose_add(x,p[0,0,.1,0,0,0])\nmovel(x)",
-            "computed-target",
-            Severity::Warning,
+            "run-time-position",
+            Severity::Note,
         ),
         (
             "speedl([0,0,1,0,0,0])",

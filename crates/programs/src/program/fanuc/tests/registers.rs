@@ -46,6 +46,9 @@ fn where_the_robot_was_is_a_note() {
     for line in [
         "PR[1]=LPOS ;\nL PR[1] 9mm/sec FINE ;",
         "PR[1]=JPOS ;\nPR[2]=PR[1] ;\nJ PR[2] 9% FINE ;",
+        // displaced from there
+        "PR[91]=LPOS ;\nPR[91,2]=PR[91,2]-100 ;\nL PR[91] 9mm/sec FINE ;",
+        "PR[91]=LPOS ;\nPR[91,2]=PR[91,2]-100 ;\nPR[91,3]=PR[91,3]+5 ;\nL PR[91] 9mm/sec FINE ;",
     ] {
         let program = read(&format!("J P[1] 1% FINE ;\n{line}"), &usual("1"));
         assert_eq!(ids(&program), ["run-time-position"], "{line}");
@@ -55,6 +58,18 @@ fn where_the_robot_was_is_a_note() {
     for (line, id) in [
         (
             "PR[1]=LPOS ;\nUTOOL_NUM=2 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=PR[1,2]-100 ;\nUTOOL_NUM=2 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=PR[1,2]-R[5] ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=100 ;\nL PR[1] 9mm/sec FINE ;",
             "computed-target",
         ),
         (
