@@ -26,6 +26,7 @@
 //! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station
 //! axes is not known.
 
+mod calls;
 mod cnd;
 mod drive;
 mod indexed;
@@ -35,11 +36,13 @@ mod job;
 mod judge;
 mod lines;
 mod moves;
+mod numbers;
 mod parts;
 mod rconf;
 mod reader;
 mod relative;
 mod remarks;
+mod shifts;
 mod variables;
 
 use super::kit::{line_behind, not_this_language};
