@@ -509,12 +509,12 @@ impl Known {
         position: VariableId,
         now: &Amounts,
     ) -> [Quantity; OF_POSITION] {
-        std::array::from_fn(|at| match now[at] {
-            Some(value) => Quantity::exactly(value),
-            None => {
-                let element = self.element(position, at);
-                self.value(element)
+        std::array::from_fn(|at| {
+            if let Some(value) = now[at] {
+                return Quantity::exactly(value);
             }
+            let element = self.element(position, at);
+            self.value(element)
         })
     }
 
