@@ -320,3 +320,41 @@ fn numbers_of_other_languages_count_too() {
         assert_eq!(errors(&counted), ["displacement-unknown"], "{by}");
     }
 }
+
+/// What a script lands off at the farthest of the steps that it makes from `w`.
+fn farthest_step(lines: &str) -> Compensation {
+    of_urscript("", lines)
+}
+
+#[test]
+fn steps_that_a_loop_of_urscript_counts_are_judged_at_the_farthest() {
+    let base = "  base = p[0.35,-0.2,0.45,0,3.1,0]\n";
+    let step = |k: u32| format!("  movel(pose_trans(base, p[{}.0e-2,0,0,0,0,0]))\n", 5 * k);
+    let explicit: String = (0..6).map(step).collect();
+    let explicit = farthest_step(&format!("{base}  movel(base)\n{explicit}"));
+    let most = misses(&explicit).into_iter().fold(0.0, f64::max);
+    assert!(most > 0.001, "{:?}", explicit.findings);
+    let counted = farthest_step(&format!(
+        "{base}  i = 0\n  while i < 5:\n    movel(pose_trans(base, p[i*0.05,0,0,0,0,0]))\n    i = i + 1\n  \
+         end\n"
+    ));
+    let said = unknown(&counted);
+    assert_eq!(said.len(), 1, "{:?}", counted.findings);
+    assert!(said[0] >= most - 0.0015, "{said:?}, {most}");
+    // the position itself is corrected
+    assert_eq!(
+        counted
+            .targets
+            .iter()
+            .filter(|of| of.fake.is_some())
+            .count(),
+        2
+    );
+    // a function that steps back from what it is given
+    let above = "  def above(at):\n    return pose_trans(at, p[0,0,-0.05,0,0,0])\n  end\n  a = \
+        p[0.35,-0.2,0.45,0,3.1,0]\n  b = p[0.35,-0.1,0.45,0,3.1,0]\n  movel(above(a))\n  movel(a)\n  \
+        movel(above(b))\n  movel(b)\n";
+    let above = farthest_step(above);
+    assert_eq!(errors(&above), [""; 0], "{:?}", above.findings);
+    assert_eq!(misses(&above).len(), 2, "{:?}", above.findings);
+}

@@ -1,5 +1,6 @@
 //! INFORM jobs: postures that RCONF tells, jobs of several robots, positions that are computed.
 
+use super::displaced::misses;
 use super::{PLAIN, done, errors, message};
 use poseshift::compensate::Compensation;
 use poseshift::geometry::units::DEG;
@@ -155,4 +156,27 @@ fn condition_files_that_differ_are_refused() {
     };
     assert_eq!(errors(&with(50)), [""; 0], "{:?}", with(50).findings);
     assert_eq!(errors(&with(60)), ["frame-name-ambiguous"]);
+}
+
+#[test]
+fn a_shift_whose_numbers_the_text_tells_is_judged_by_them() {
+    let rconf = format!("///RCONF 0,0,0,0,0,0{REST}\n");
+    let positions =
+        format!("{rconf}C00001={DOWN},5.0000\nP00002=0.000,0.000,40.000,0.0000,0.0000,0.0000\n");
+    let run = |lines: &str| done(&[PLAIN], &[("t.jbi", &job("T", "RB1", &positions, lines))]);
+    let go = "MOVL C00001 V=50.0\n";
+    let shifted = run(&format!("{go}SFTON P002 BF\n{go}SFTOF\n"));
+    let copied = run(&format!("{go}SET LP001 C00001\n"));
+    assert_eq!(errors(&shifted), [""; 0], "{:?}", shifted.findings);
+    let off = misses(&shifted);
+    assert_eq!((off.len(), misses(&copied).len()), (1, 0));
+    // with what the job writes into it, and with what nobody knows
+    let written = run(&format!(
+        "{go}SETE P002 (3) 80000\nSFTON P002 BF\n{go}SFTOF\n"
+    ));
+    assert!(misses(&written)[0] > off[0], "{:?}", written.findings);
+    let unknown = run(&format!(
+        "{go}SETE P002 (3) D000\nSFTON P002 BF\n{go}SFTOF\n"
+    ));
+    assert_eq!(errors(&unknown), ["displacement-active"]);
 }

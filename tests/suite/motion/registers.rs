@@ -275,3 +275,22 @@ fn what_is_not_followed_has_no_bound() {
         assert_eq!(errors(&done), ["displacement-unknown"], "{lines}");
     }
 }
+
+#[test]
+fn a_register_that_no_program_writes_is_what_posreg_va_shows() {
+    let text = program("L P[1] 100mm/sec FINE Offset,PR[7]");
+    let shown = "[*POSREG*]$POSREG  Storage: CMOS  Access: RW  : ARRAY[1,100] OF Position Reg\n    [1,7] \
+                 =   '' \n  Group: 1   Config: N U T, 0, 0, 0\n  X:     0.000   Y:     0.000   Z:   \
+                 150.000\n  W:     0.000   P:     0.000   R:     0.000\n";
+    let without = of("L P[1] 100mm/sec FINE Offset,PR[7]");
+    assert_eq!(unknown(&without).len(), 1, "{:?}", without.findings);
+    let with = read_named(&[("a.ls", &text), ("posreg.va", shown)]);
+    is_about(&misses(&with), up(150.0), "POSREG.VA");
+}
+
+#[test]
+fn where_the_robot_was_displaced_is_a_note() {
+    let found = of("PR[91]=LPOS\nPR[91,2]=PR[91,2]-100\nL PR[91] 100mm/sec FINE");
+    assert!(message(&found, "run-time-position").contains("displaced"));
+    assert_eq!(errors(&found), [""; 0]);
+}

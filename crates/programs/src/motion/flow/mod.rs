@@ -146,6 +146,8 @@ pub(super) struct Flow<'a> {
     made_records: HashMap<Content, ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
+    /// Those positions, and what they are displaced.
+    near: Vec<(ValueId, ValueId)>,
     /// The position of the robot itself that a move reads and goes to.
     here: Option<ValueId>,
     /// Slots of the variables of each routine's own.
@@ -228,6 +230,7 @@ impl<'a> Flow<'a> {
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
             reads: Vec::new(),
+            near: Vec::new(),
             here: None,
             locals: HashMap::new(),
             slots: Vec::new(),

@@ -3,8 +3,10 @@
 use super::{Flow, MOST_WRITES, Modes, State};
 use crate::motion::before::Stop;
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
+use crate::program::Displacement;
 use crate::program::script::{
-    Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId, VariableId, Written, short,
+    DisplacementId, Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId, VariableId,
+    Written, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
@@ -181,14 +183,8 @@ impl Flow<'_> {
                                 )
                             }));
                         }
-                        // except where the robot itself was, nothing is as it is
-                        Atom::Value(value)
-                            if matches!(
-                                self.value(value),
-                                Held::Actual | Held::ActualWith { .. }
-                            ) =>
-                        {
-                            displaced.push((Atom::Anything, of));
+                        Atom::Value(value) if self.is_of_robot(value) => {
+                            displaced.push((self.near_robot(value, by), of));
                         }
                         other => displaced.push((other, of)),
                     }
@@ -258,10 +254,52 @@ impl Flow<'_> {
         value
     }
 
+    /// Whether a value is where the robot was, displaced or not.
+    pub(super) fn is_of_robot(&self, value: ValueId) -> bool {
+        let held = self.value(value);
+        matches!(
+            held,
+            Held::Actual | Held::ActualWith { .. } | Held::NearActual
+        )
+    }
+
+    /// Whether the text says by what something displaces.
+    pub(in crate::motion) fn is_said(&self, by: DisplacementId) -> bool {
+        let displacement = self.displacement(by);
+        matches!(
+            displacement,
+            Displacement::None | Displacement::By(_) | Displacement::Within(_)
+        )
+    }
+
+    /// Where the robot was, displaced: that stays such a position where the text says by what.
+    pub(super) fn near_robot(&mut self, value: ValueId, by: DisplacementId) -> Atom {
+        if by == NOT_DISPLACED {
+            return Atom::Value(value);
+        }
+        if !self.is_said(by) {
+            return Atom::Anything;
+        }
+        if *self.value(value) == Held::NearActual {
+            return Atom::Value(value);
+        }
+        if let Some((_, near)) = self.near.iter().find(|(of, _)| *of == value) {
+            return Atom::Value(*near);
+        }
+        self.made.push(Held::NearActual);
+        let near = short(self.script.values.len() + self.made.len() - 1);
+        self.near.push((value, near));
+        let with = self.reads.iter().find(|(of, _)| *of == value);
+        if let Some((_, with)) = with.copied() {
+            self.reads.push((near, with));
+        }
+        Atom::Value(near)
+    }
+
     /// Whether a move to where the robot was has the tool and the work frame of that position.
     pub(in crate::motion) fn is_as_read(&self, value: ValueId, stop: Stop) -> bool {
         let Some((_, with)) = self.reads.iter().find(|(of, _)| *of == value) else {
-            return *self.value(value) == Held::Actual;
+            return matches!(self.value(value), Held::Actual | Held::NearActual);
         };
         let Some(reached) = self.reached[stop as usize] else {
             return false;

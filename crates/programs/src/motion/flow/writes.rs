@@ -129,21 +129,19 @@ impl Flow<'_> {
                     continue;
                 }
                 // a part of where the robot was is computed
-                Atom::Value(value)
-                    if somehow.is_some()
-                        && matches!(self.value(value), Held::Actual | Held::ActualWith { .. }) =>
-                {
-                    Atom::Anything
+                Atom::Value(value) if somehow.is_some() && self.is_of_robot(value) => {
+                    match write.how {
+                        How::PartBy(_, by) => self.near_robot(value, by),
+                        _ => Atom::Anything,
+                    }
                 }
                 Atom::Value(value) => match somehow {
                     Some(remark) => Atom::Unknown(remark),
                     None => match self.with_parts(value, first, parts.clone()) {
                         Some(record) => Atom::Value(record),
                         // one whose parts nobody knows
-                        None if matches!(
-                            self.value(value),
-                            Held::Frame(_) | Held::Actual | Held::ActualWith { .. }
-                        ) =>
+                        None if self.is_of_robot(value)
+                            || matches!(self.value(value), Held::Frame(_)) =>
                         {
                             Atom::Anything
                         }

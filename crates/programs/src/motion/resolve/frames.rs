@@ -50,6 +50,8 @@ impl Resolver<'_, '_> {
                 Held::Remark(remark) => Err(Refused::Said(remark)),
                 Held::Actual
                 | Held::ActualWith { .. }
+                | Held::NearActual
+                | Held::Shift(_)
                 | Held::Load(_)
                 | Held::Flag(_)
                 | Held::ExternalOffset(_)

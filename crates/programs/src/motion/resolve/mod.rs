@@ -6,10 +6,13 @@ mod targets;
 mod whole;
 
 use super::before::Stop;
-use super::flow::{Flow, Modes};
+use super::flow::{Flow, Modes, OF_MOVE};
 use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::finding::Severity;
-use crate::program::script::{Held, Instruction, Place, Remark, RemarkId, Script, ValueId, short};
+use crate::program::script::{
+    DisplacementId, Held, Instruction, NOT_DISPLACED, Place, Remark, RemarkId, Script, ValueId,
+    short,
+};
 use crate::program::{
     ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
     TargetId, ToolId,
@@ -171,6 +174,7 @@ impl Resolver<'_, '_> {
         let reached = self.flow.reached[stop as usize].expect("stops that are reached are listed");
         let guard = self.flow.modes[reached.modes as usize].guard;
         let (guards, external_state) = self.guards(guard, instruction);
+        let shifts = self.shifts(guard);
         let mut listed = Listed {
             at,
             stop,
@@ -180,19 +184,45 @@ impl Resolver<'_, '_> {
             external_state,
             near: Vec::new(),
             is_one_of: false,
+            is_shifted: false,
         };
-        match reached.target {
-            None => self.fixed(instruction.target, instruction.displacement, &mut listed),
-            Some(held) => {
-                let atoms = self.flow.holdings.of(held).iter();
-                if atoms.filter(|(atom, _)| *atom != Atom::Uncertain).count() == 0 {
-                    // nothing that runs before writes it
-                    self.computed(instruction.place);
+        if let Some(held) = reached.target {
+            let atoms = self.flow.holdings.of(held).iter();
+            if atoms.filter(|(atom, _)| *atom != Atom::Uncertain).count() == 0 {
+                // nothing that runs before writes it
+                self.computed(instruction.place);
+            }
+        }
+        for shift in shifts {
+            listed.is_shifted = shift != NOT_DISPLACED;
+            for by in self
+                .flow
+                .displaced_again(instruction.displacement, shift, OF_MOVE)
+            {
+                match reached.target {
+                    None => self.fixed(instruction.target, by, &mut listed),
+                    Some(held) => self.go_to_each(held, by, &mut listed),
                 }
-                self.go_to_each(held, instruction.displacement, &mut listed);
             }
         }
         Ok(())
+    }
+
+    /// What displaces all that moves go to: each that may be set.
+    fn shifts(&self, guard: Holding) -> Vec<DisplacementId> {
+        let mut shifts = Vec::new();
+        for (atom, _) in self.flow.holdings.of(guard) {
+            if let Atom::Value(value) = atom
+                && let Held::Shift(by) = self.flow.value(*value)
+                && !shifts.contains(by)
+            {
+                shifts.push(*by);
+            }
+        }
+        if shifts.is_empty() {
+            shifts.push(NOT_DISPLACED);
+        }
+        shifts
     }
 
     /// The tools, frames and modes that a move may have: mostly those of others, too.
@@ -306,6 +336,8 @@ impl Resolver<'_, '_> {
                     _ => continue,
                 },
                 Atom::Unknown(remark) => remark,
+                // more than are kept apart
+                Atom::Anything => self.report.remark(several_modes()),
                 _ => continue,
             };
             if self.report.remark_of(self.script, remark).severity == Severity::Error {
@@ -387,6 +419,17 @@ struct Listed<'a> {
     near: Vec<TargetId>,
     /// It may go to targets of the files, and to something else.
     is_one_of: bool,
+    /// Something displaces all that moves go to.
+    is_shifted: bool,
+}
+
+/// More that speaks against moves may be set than is kept apart.
+fn several_modes() -> Remark {
+    Remark::error(
+        "displacement-active",
+        "more shifts and modes may be on at this move than are kept apart",
+        "switch shifts off before they are set anew, or give fewer programs in one run",
+    )
 }
 
 /// External axes are shifted by one of several offsets.

@@ -94,6 +94,12 @@ impl Resolver<'_, '_> {
                         let is_as_read = self.flow.is_as_read(value, listed.stop);
                         self.at_robot(is_as_read, listed.instruction.place);
                     }
+                    Held::Actual | Held::ActualWith { .. } | Held::NearActual
+                        if self.flow.is_said(displacement)
+                            && self.flow.is_as_read(value, listed.stop) =>
+                    {
+                        self.near_robot(listed.instruction.place);
+                    }
                     Held::Remark(remark) => {
                         let remark = &script.remarks[*remark as usize];
                         self.report.say_once(remark, listed.instruction.place);
@@ -135,6 +141,16 @@ impl Resolver<'_, '_> {
             ("computed-target", Severity::Warning, message, hint)
         };
         self.report.say(id, severity, place, message.into(), hint);
+    }
+
+    /// A move to where the robot itself was, displaced.
+    fn near_robot(&mut self, place: Place) {
+        let message = "this move goes to where the robot itself was, displaced as the program says: \
+            it stays as it is, and lands as far off as the arm's error differs between the two";
+        let hint = "write the position with numbers where it must be exact";
+        let severity = Severity::Warning;
+        self.report
+            .say("run-time-position", severity, place, message.into(), hint);
     }
 
     pub(super) fn computed(&mut self, place: Place) {
@@ -184,7 +200,12 @@ impl Resolver<'_, '_> {
             self.uncertain.push((target, site, tool_alone));
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
-        let displacement = self.flow.displacement(displacement).clone();
+        // of another joint the correction is another one
+        let displacement = if is_joints && listed.is_shifted {
+            Displacement::Unbounded
+        } else {
+            self.flow.displacement(displacement).clone()
+        };
         if matches!(
             displacement,
             Displacement::Unknown | Displacement::Unbounded

@@ -278,7 +278,7 @@ impl Resolver<'_, '_> {
             let of = &self.script.variables[variable as usize];
             // a mode that is off is off when another routine starts
             let is_mode = matches!(of.declared, Expr::Value(value)
-                if matches!(self.flow.value(value), Held::Flag(_) | Held::ExternalOffset(_) | Held::AxesOff(_)));
+                if matches!(self.flow.value(value), Held::Flag(_) | Held::Shift(_) | Held::ExternalOffset(_) | Held::AxesOff(_)));
             let is_unknown = matches!(of.declared, Expr::Absent | Expr::Unknown(_));
             if of.shared || is_mode || is_unknown {
                 continue;

@@ -1,5 +1,7 @@
-//! Tools and work frames in files of the controller: `SYSFRAME.VA` and `FRAME.DG`.
+//! Tools and work frames in files of the controller: `SYSFRAME.VA` and `FRAME.DG`; with them what
+//! `POSREG.VA` shows of position registers.
 
+use super::posreg;
 use crate::geometry::{Pose, Separation};
 use crate::program::notation::pose_of_angles;
 use crate::program::number;
@@ -14,6 +16,8 @@ pub(super) struct Frames {
     pub tools: BTreeMap<u32, Pose>,
     /// `world_from_frame`
     pub frames: BTreeMap<u32, Pose>,
+    /// Position registers.
+    pub registers: BTreeMap<u32, posreg::Shown>,
     /// They are shown with one decimal only.
     pub rounded: bool,
 }
@@ -57,6 +61,8 @@ pub(super) type Numbered = BTreeMap<u32, Shown>;
 pub(super) struct All {
     pub tools: Numbered,
     pub frames: Numbered,
+    /// Position registers; `None` where two files show other numbers.
+    pub registers: BTreeMap<u32, Option<posreg::Shown>>,
 }
 
 impl All {
@@ -68,6 +74,12 @@ impl All {
     /// Takes in those of a file.
     fn add(&mut self, found: Frames, file: &str) {
         let rounded = found.rounded;
+        for (number, shown) in found.registers {
+            let known = self.registers.entry(number).or_insert(Some(shown));
+            if *known != Some(shown) {
+                *known = None;
+            }
+        }
         for (all, more) in [
             (&mut self.tools, found.tools),
             (&mut self.frames, found.frames),
@@ -141,7 +153,7 @@ pub(super) struct BadNumber {
 }
 
 /// Millimetres or degrees.
-const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 /// No tool or frame is rotated by more, degrees.
 const MOST_ANGLE: f64 = 720.0;
 
@@ -162,7 +174,8 @@ pub(super) fn kind(bytes: &[u8]) -> Option<Kind> {
             rest.starts_with(b" ") && starts(lines(rest).next(), b"Storage:")
         })
     };
-    if variable(b"]$MNUTOOL") || variable(b"]$MNUFRAME") {
+    let names = [&b"]$MNUTOOL"[..], b"]$MNUFRAME", b"]$POSREG"];
+    if names.into_iter().any(variable) {
         return Some(Kind::Variables);
     }
     // the list is short and starts with a few lines about the controller
@@ -182,13 +195,16 @@ fn starts(line: Option<(usize, &[u8])>, word: &[u8]) -> bool {
 /// The frames of a file of this kind.
 pub(super) fn read(bytes: &[u8], kind: Kind) -> Result<Frames, BadNumber> {
     match kind {
-        Kind::Variables => variables(bytes),
+        Kind::Variables => Ok(Frames {
+            registers: posreg::read(bytes)?,
+            ..variables(bytes)?
+        }),
         Kind::List => Ok(list(bytes)),
     }
 }
 
 /// Lines without their ends, with their first bytes.
-fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut at = 0;
     bytes
         .split(|&b| matches!(b, b'\n' | b'\r'))
@@ -249,7 +265,7 @@ fn variables(bytes: &[u8]) -> Result<Frames, BadNumber> {
 }
 
 /// 1 and 2 of `[1,2] =`.
-fn index(text: &[u8]) -> Option<(u32, u32)> {
+pub(super) fn index(text: &[u8]) -> Option<(u32, u32)> {
     let close = memchr::memchr(b']', text)?;
     let inside = std::str::from_utf8(&text[1..close]).ok()?;
     let (group, number) = inside.split_once(',')?;
@@ -257,7 +273,11 @@ fn index(text: &[u8]) -> Option<(u32, u32)> {
 }
 
 /// The values behind `X:`, `Y:`, … of a line.
-fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Result<(), BadNumber> {
+pub(super) fn coordinates(
+    text: &[u8],
+    start: usize,
+    values: &mut [Option<f64>; 6],
+) -> Result<(), BadNumber> {
     for colon in memchr::memchr_iter(b':', text) {
         let Some(key) = colon.checked_sub(1).map(|at| text[at]) else {
             continue;
@@ -266,23 +286,26 @@ fn coordinates(text: &[u8], start: usize, values: &mut [Option<f64>; 6]) -> Resu
         let Some(slot) = b"XYZWPR".iter().position(|&k| alone && k == key) else {
             continue;
         };
-        let rest = &text[colon + 1..];
-        let blanks = rest.iter().take_while(|b| b.is_ascii_whitespace()).count();
-        let rest = &rest[blanks..];
-        let length = rest
-            .iter()
-            .take_while(|b| !b.is_ascii_whitespace() && **b != b',')
-            .count();
-        // uninitialised: the frame is not known
-        if rest[..length].contains(&b'*') {
-            continue;
-        }
         let largest = if slot < 3 { LARGEST } else { MOST_ANGLE };
-        let value = number::parse(&rest[..length]).filter(|value| value.abs() <= largest);
-        let at = start + colon + 1 + blanks;
-        values[slot] = Some(value.ok_or(BadNumber { at, length })?);
+        let value = value(&text[colon + 1..], start + colon + 1, largest)?;
+        values[slot] = value.or(values[slot]);
     }
     Ok(())
+}
+
+/// The number that a text begins with; `None` where stars stand for it.
+pub(super) fn value(text: &[u8], start: usize, largest: f64) -> Result<Option<f64>, BadNumber> {
+    let blanks = text.iter().take_while(|b| b.is_ascii_whitespace()).count();
+    let rest = &text[blanks..];
+    let ends = |b: &&u8| b.is_ascii_whitespace() || **b == b',';
+    let length = rest.iter().take_while(|b| !ends(b)).count();
+    // uninitialised: it is not known
+    if rest[..length].contains(&b'*') {
+        return Ok(None);
+    }
+    let value = number::parse(&rest[..length]).filter(|value| value.abs() <= largest);
+    let at = start + blanks;
+    value.map(Some).ok_or(BadNumber { at, length })
 }
 
 /// `Tool Frame`, `Jog Frame`, `User Frame`, then a row of six numbers and a comment for each; rows

@@ -1,5 +1,5 @@
-//! FANUC TP: program listings (.LS), with the tools and user frames of SYSFRAME.VA or FRAME.DG
-//! where these are given too.
+//! FANUC TP: program listings (.LS), with the tools and user frames of SYSFRAME.VA or FRAME.DG and
+//! the position registers of POSREG.VA where these are given too.
 //!
 //! A point is `P[n]{ GP1: UF : f, UT : t, CONFIG : '…', X = …, … W = …, P = …, R = … };`, mm and
 //! degrees, `Rz(R)·Ry(P)·Rx(W)`; or J1 to J6 in degrees. It is the pose of tool t in user frame f;
@@ -54,6 +54,7 @@ mod moves;
 mod numbers;
 mod offsets;
 mod points;
+mod posreg;
 mod reader;
 mod registers;
 mod sections;
@@ -88,7 +89,8 @@ static ABOUT: About = About {
         "moves to position registers that are no copies of points, with a warning",
         "offsets of moves (Offset, Tool_Offset, VOFFSET): the moved point takes the correction \
          along; how far off it lands is said",
-        "SYSFRAME.VA and FRAME.DG, which tell tools and user frames",
+        "SYSFRAME.VA and FRAME.DG, which tell tools and user frames, and POSREG.VA, which tells \
+         position registers",
     ],
     refuses: &[
         "increments (INC), moves with RTCP, COORD or line tracking, extended axes away from zero \
@@ -96,7 +98,7 @@ static ABOUT: About = About {
         "points that were never taught, or of robots with other axes",
         "tools and user frames that the running program assigns or chooses",
     ],
-    has: "/PROG and /MN, or $MNUTOOL and $MNUFRAME,",
+    has: "/PROG and /MN, or $MNUTOOL and $MNUFRAME, or $POSREG,",
 };
 
 /// Printed with three decimals an angle up to this far beyond a half revolution is still 180.000.
@@ -148,7 +150,7 @@ impl Language for Fanuc {
         let lower = file.to_ascii_lowercase();
         match lower.rsplit_once('.') {
             Some((stem, "ls")) => RECORDS.contains(&stem),
-            // all but those with the tools and frames
+            // all but those with the tools and frames; registers are recognised where there are any
             Some((stem, "va" | "dg")) => !stem.starts_with("sysframe") && stem != "frame",
             _ => false,
         }

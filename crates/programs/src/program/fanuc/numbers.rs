@@ -5,6 +5,7 @@
 //! held before where the text may come to a move without a write.
 
 use super::content::{Content, Entered, Own};
+use super::posreg::Shown;
 use super::start::{Step, Steps};
 use super::words::whole;
 use crate::geometry::Pose;
@@ -100,6 +101,8 @@ pub(super) struct Known {
     pub points: HashMap<(RoutineId, u32), TargetId>,
     /// The numbers of those that nothing rewrites.
     pub values: HashMap<TargetId, [f64; 6]>,
+    /// What POSREG.VA shows of registers; `None` where two such files differ.
+    pub shown: BTreeMap<u32, Option<Shown>>,
 }
 
 impl Known {
@@ -452,6 +455,7 @@ impl Known {
     /// All programs are read. The loops of the script that do not count as they say.
     pub(super) fn finish(&mut self) -> Vec<usize> {
         let is_any = |number: u32| number == any_of(number);
+        self.write_shown();
         for (of, entered) in std::mem::take(&mut self.any) {
             let concerned = self.all.iter().filter(|number| any_of(**number) == of);
             for number in concerned.copied().chain([of]).collect::<Vec<_>>() {
@@ -480,6 +484,20 @@ impl Known {
         assigned.collect()
     }
 
+    /// Numbers of registers that no program writes are what a file of the controller shows.
+    fn write_shown(&mut self) {
+        let written_by_index: HashSet<u32> = self.any.iter().map(|(of, _)| *of).collect();
+        for (&register, shown) in &self.shown {
+            let values = (0..ELEMENTS).zip(shown.iter().flatten());
+            for (number, value) in values.map(|(at, value)| (of_position(register, at), value)) {
+                if !self.all.contains(&number) && !written_by_index.contains(&any_of(number)) {
+                    let entered = Entered::of(Content::Exactly(*value), self.path.routine);
+                    self.numbers.write(number, Rc::new(entered), None);
+                }
+            }
+        }
+    }
+
     /// What is written comes to; `own` where that number stands for itself.
     pub(super) fn value(&self, entered: &Entered, own: Option<Own>) -> Quantity {
         self.evaluate(entered, own, &mut |number| self.anywhere(number))
@@ -496,7 +514,9 @@ impl Known {
     /// Whether the text writes numbers of positions.
     pub(super) fn writes_positions(&self) -> bool {
         let is_position = |number: &u32| (OF_POSITIONS..OF_CALLS).contains(number);
-        self.all.iter().any(is_position) || self.numbers.is_written(of_position(MOST_NUMBER, 0))
+        self.all.iter().any(is_position)
+            || !self.shown.is_empty()
+            || self.numbers.is_written(of_position(MOST_NUMBER, 0))
     }
 
     /// The present program.

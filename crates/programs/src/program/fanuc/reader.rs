@@ -208,9 +208,11 @@ fn several_controllers(first: &str, more: &[&str]) -> Finding {
 fn of_controller(
     mut builder: Builder,
     sources: &[Source],
-    values: frames::All,
+    mut values: frames::All,
     listings: Vec<Listing>,
 ) -> Builder {
+    let mut known = Known::default();
+    known.shown = std::mem::take(&mut values.registers);
     let controller = Controller::new(&mut builder.script, values);
     let mut by_name: HashMap<Box<str>, Vec<(RoutineId, bool)>> = HashMap::new();
     for listing in &listings {
@@ -236,7 +238,7 @@ fn of_controller(
         copies: Vec::new(),
         from_registers: Vec::new(),
         to_any_register: Vec::new(),
-        known: Known::default(),
+        known,
         copied: Copied::default(),
         offsets: Vec::new(),
         conditions: Vec::new(),

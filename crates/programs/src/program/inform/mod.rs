@@ -10,9 +10,9 @@
 //!
 //! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not;
 //! PSTART runs concurrently. What a P variable holds, which frame MFRAME and which tool SETTOOL
-//! made, and whether a shift is on is followed through them. A move to a place where the robot
-//! itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running program
-//! computes stays, and is reported.
+//! made, and whether a shift is on, and by what, is followed through them. A move to a place where
+//! the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running
+//! program computes stays, and is reported.
 //!
 //! What is found and what to do about it stands in [`crate::finding::TABLE`].
 //!
@@ -26,6 +26,7 @@
 //! are coupled (turning B moves T) PULSE positions come out wrong. The unit of base and station
 //! axes is not known.
 
+mod calls;
 mod cnd;
 mod drive;
 mod indexed;
@@ -35,11 +36,13 @@ mod job;
 mod judge;
 mod lines;
 mod moves;
+mod numbers;
 mod parts;
 mod rconf;
 mod reader;
 mod relative;
 mod remarks;
+mod shifts;
 mod variables;
 
 use super::kit::{line_behind, not_this_language};
@@ -75,8 +78,8 @@ static ABOUT: About = About {
     ],
     refuses: &[
         "P variables of which instructions write some numbers",
-        "moves while a shift (SFTON) may be on, incremental (IMOV), search (SRCH) and coordinated \
-         (SMOV) moves",
+        "moves while a shift (SFTON) may be on that is not followed, incremental (IMOV), search \
+         (SRCH) and coordinated (SMOV) moves",
         "tools and frames that the running program sets (MFRAME, SETTOOL), tool coordinates",
         "positions of a second robot, with base or station axes that are not at zero, or without \
          six axes",

@@ -327,7 +327,11 @@ impl<'a> Reader<'a> {
         self.settle_indexed();
         self.place_variables();
         self.follow_copies();
+        for number in self.numbers.finish() {
+            self.builder.script.loops[number].most = None;
+        }
         self.finish_parts();
+        self.finish_shifts();
         self.judge_positions();
         self.say_starts();
         self.say_copied();

@@ -1,21 +1,26 @@
 //! What instructions add to copies of positions: `ADD LP001 P002`, `SETE LP001 (3) D005`.
 //!
-//! What only the running robot knows displaces a copy as a sensor does. A position of the files that
-//! nothing writes displaces it by its numbers; whatever else the text tells is not followed, and has
-//! no bound.
+//! What only the running robot knows displaces a copy as a sensor does. Another position displaces
+//! it by its numbers, which are what the files have and what jobs write into them (`numbers`);
+//! whatever else the text tells is not followed, and has no bound.
 
 use super::instruction::{Effect, Operand, is_actual, is_move, numbered};
 use super::job::{Coordinates, Positions};
 use super::lines::{Line, Lines, words};
+use super::numbers::{self, Amounts, OF_POSITION};
 use super::reader::Reader;
 use super::remarks::Cause;
-use crate::geometry::units::MM;
+use super::shifts::PER_MM;
+use crate::program::displacing::grown_by_any;
+use crate::program::quantity::Quantity;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, UNBOUNDED, VariableId, Written,
 };
-use crate::program::{Displacement, Shift, Source, TargetId, number};
+use crate::program::{Number, Source, TargetId, number};
 use foldhash::{HashSet, HashSetExt};
 
+/// Angles in variables count in ten-thousandths of a degree.
+const PER_DEGREE: f64 = 1e4;
 /// Instructions that write what the robot or the cell tells.
 const OF_ROBOT: &[&[u8]] = &[b"GETS", b"DIN", b"AIN", b"LOADV", b"VWAIT"];
 
@@ -24,6 +29,7 @@ const OF_ROBOT: &[&[u8]] = &[b"GETS", b"DIN", b"AIN", b"LOADV", b"VWAIT"];
 pub(super) struct Added {
     write: usize,
     added: VariableId,
+    now: Amounts,
     /// 1, or −1 where it is subtracted.
     sign: f64,
 }
@@ -57,7 +63,7 @@ pub(super) fn known_numbers<'a>(sources: &'a [Source], positions: &Positions) ->
 impl Reader<'_> {
     /// What an instruction makes of a part of a position: it is displaced where what it becomes
     /// may come from one.
-    pub(super) fn part_becomes(&mut self, line: Line, computed: RemarkId) -> How {
+    pub(super) fn part_becomes(&mut self, line: Line, written: Written, computed: RemarkId) -> How {
         let first = words(line.text).next().unwrap_or_default();
         let mut behind = words(line.text).skip(2);
         let third = behind.next();
@@ -69,6 +75,9 @@ impl Reader<'_> {
         let is_indexed = memchr::memchr(b'[', value).is_some();
         let is_of_program = is_number || is_indexed || self.known_numbers.contains(value);
         if first == b"SETE" {
+            if let Some(how) = self.element_becomes(written, part, value, computed) {
+                return how;
+            }
             return match !is_number && self.gets_parts {
                 true if is_of_program => How::PartBy(computed, UNBOUNDED),
                 is_own => How::part(is_own, is_angle, computed),
@@ -83,13 +92,96 @@ impl Reader<'_> {
         match Operand::of(value).map(|of| self.written_by(of, place)) {
             Some(Some(Written::One(added))) if sign != 0.0 => {
                 let write = self.builder.script.writes.len();
-                self.added.push(Added { write, added, sign });
+                let now = self.numbers.position_now(added);
+                self.added.push(Added {
+                    write,
+                    added,
+                    now,
+                    sign,
+                });
                 // until all jobs are read
                 How::PartNumber(computed)
             }
             Some(_) => How::PartBy(computed, UNBOUNDED),
             None if is_of_program => How::PartBy(computed, UNBOUNDED),
             None => How::part(true, is_angle, computed),
+        }
+    }
+
+    /// `GETE D000 P001 (3)`
+    pub(super) fn get_element(&mut self, line: Line) {
+        let all: Vec<&[u8]> = words(line.text).skip(1).take(3).collect();
+        let [to, of, part] = all[..] else {
+            return self.numbers.clear();
+        };
+        let place = self.place(line.start);
+        let of = Operand::of(of).and_then(|of| self.written_by(of, place));
+        let of = match of {
+            Some(Written::One(variable)) => numbers::place(part).map(|at| (variable, at)),
+            _ => None,
+        };
+        self.numbers.get(to, of);
+    }
+
+    /// What `SETE LP001 (3) D005` makes of a position, where the job has just written D005: it is
+    /// displaced where that is the same number of this position, or of another, and something more.
+    fn element_becomes(
+        &mut self,
+        written: Written,
+        part: Option<&[u8]>,
+        value: &[u8],
+        computed: RemarkId,
+    ) -> Option<How> {
+        let at = part.and_then(numbers::place);
+        let (Written::One(position), Some(at)) = (written, at) else {
+            let one = match written {
+                Written::One(variable) => Some(variable),
+                Written::AnyOf(_) => None,
+            };
+            self.numbers.replace(one, false);
+            return None;
+        };
+        let is_angle = at > 2;
+        let now = self.numbers.set(position, at, value)?;
+        let Some((of, place)) = now.of else {
+            return Some(How::part(false, is_angle, computed));
+        };
+        if place != at {
+            return None;
+        }
+        let unit = if is_angle { PER_DEGREE } else { PER_MM };
+        let by = grown_by_any(at, Quantity::exactly(now.value / unit))?;
+        if of == position {
+            return Some(self.builder.script.part_by(computed, by));
+        }
+        let by = self.builder.script.displacement(by);
+        (!is_angle).then_some(How::PartOf {
+            remark: computed,
+            of: Expr::Variable(of),
+            axis: at,
+            by,
+        })
+    }
+
+    /// The numbers that the files have for positions.
+    pub(super) fn declare_numbers(&mut self) {
+        let table = self.variables.positions as usize;
+        let entries = self.builder.script.tables[table].entries.values();
+        for variable in entries.copied().collect::<Vec<_>>() {
+            for target in self.targets_of(Expr::Variable(variable)) {
+                let range = self.positions.targets[target].numbers.clone();
+                let numbers = &self.positions.numbers[range.start as usize..range.end as usize];
+                let header = self.positions.header(target);
+                let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
+                if let Some(numbers) = numbers.first_chunk::<OF_POSITION>().filter(|_| is_pose) {
+                    let value = |at: usize| {
+                        let number: &Number = &numbers[at];
+                        number.value * if at > 2 { PER_DEGREE } else { PER_MM }
+                    };
+                    let values = std::array::from_fn(value);
+                    self.numbers.declare(variable, &values);
+                }
+            }
         }
     }
 
@@ -189,35 +281,16 @@ impl Reader<'_> {
         };
         let is_written =
             self.written_parts.contains(&variable) || self.written_any.iter().any(is_entry);
-        let is_written = is_written
-            || self
-                .copies
-                .values()
-                .any(|from| from.contains(&Expr::Variable(variable)));
-        let is_changed = self.written.contains(&variable) || self.all_written.iter().any(is_entry);
-        match script.variables[variable as usize].declared {
-            Expr::Target(target) if !is_written && !is_changed => {
-                let range = self.positions.targets[target].numbers.clone();
-                let numbers = &self.positions.numbers[range.start as usize..range.end as usize];
-                let header = self.positions.header(target);
-                let is_pose = header.coordinates() == Some(Coordinates::Rectangular);
-                match numbers.first_chunk::<6>() {
-                    // a position that moves go to is rewritten
-                    Some([x, y, z, angles @ ..])
-                        if is_pose
-                            && !self.named[target]
-                            && angles.iter().all(|angle| angle.value == 0.0) =>
-                    {
-                        let by = [x, y, z].map(|of| added.sign * MM * of.value);
-                        let by = Displacement::By(Box::new(Shift::along(by)));
-                        self.builder.script.displacement(by)
-                    }
-                    _ => UNBOUNDED,
-                }
-            }
-            Expr::Target(_) | Expr::Any { .. } => UNBOUNDED,
-            _ if is_written => UNBOUNDED,
-            _ => DISPLACED_SOMEHOW,
+        let is_declared = matches!(
+            script.variables[variable as usize].declared,
+            Expr::Target(_) | Expr::Any { .. }
+        );
+        if !is_declared && !is_written {
+            return DISPLACED_SOMEHOW;
+        }
+        match self.displacing(variable, &added.now, added.sign) {
+            Some(by) => self.builder.script.displacement(by),
+            None => UNBOUNDED,
         }
     }
 }

@@ -5,15 +5,17 @@ use super::indexed::Indexed;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
 use super::lines::{Line, Lines, words};
+use super::numbers::{Known, shared};
 use super::parts::{Added, Computed, known_numbers};
 use super::relative::{Frames, Given, are_of_several_robots, given, is_relative};
 use super::remarks::Cause;
+use super::shifts::Shifted;
 use super::variables::{Variables, always};
 use crate::program::kit::label_key;
 use crate::program::number::whole;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId,
-    ValueId, VariableId, Written, short,
+    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
+    VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -56,6 +58,8 @@ pub(super) fn script<'a>(
         written_any: HashSet::new(),
         added: Vec::new(),
         computed: Vec::new(),
+        shifted: Vec::new(),
+        numbers: Known::default(),
         gets_parts: sources
             .iter()
             .any(|source| memchr::memmem::find(&source.bytes, b"GETE").is_some()),
@@ -67,6 +71,9 @@ pub(super) fn script<'a>(
         let routine = reader.builder.declare(name, place, Start::Called);
         reader.names.entry(job.name).or_default().push(routine);
     }
+    [reader.numbers.calls_others, reader.numbers.is_concurrent] =
+        shared(sources, &reader.positions);
+    reader.declare_numbers();
     for job in 0..reader.positions.jobs.len() {
         reader.job(job);
     }
@@ -108,7 +115,7 @@ pub(super) struct Reader<'a> {
     pub variables: Variables,
     /// Targets that a move names.
     pub named: Vec<bool>,
-    names: HashMap<&'a [u8], Vec<RoutineId>>,
+    pub(super) names: HashMap<&'a [u8], Vec<RoutineId>>,
     /// Configuration data count.
     pub honoured: ValueId,
     /// What each variable may be a copy of.
@@ -144,6 +151,9 @@ pub(super) struct Reader<'a> {
     pub(super) added: Vec<Added>,
     /// Positions of which others are computed.
     pub(super) computed: Vec<Computed>,
+    /// Shifts that are switched on.
+    pub(super) shifted: Vec<Shifted>,
+    pub(super) numbers: Known,
 }
 
 /// The letters of variables with axes of a base or a station, and their number; none where only the
@@ -185,10 +195,15 @@ impl<'a> Reader<'a> {
             ..Here::default()
         };
         self.builder.open(short(job));
+        self.numbers.begin(short(job));
         for line in Lines::from(&source.bytes[..range.end], range.start) {
             match line.text {
                 [] | [b'\'' | b'/', ..] => {}
-                [b'*', name @ ..] => self.builder.label(label_key(first_word(name))),
+                [b'*', name @ ..] => {
+                    let key = label_key(first_word(name));
+                    self.numbers.label(key);
+                    self.builder.label(key);
+                }
                 _ => self.line(line),
             }
         }
@@ -212,18 +227,39 @@ impl<'a> Reader<'a> {
             return;
         }
         match first {
-            b"WHILE" | b"WHILEEXP" | b"FOR" => self.builder.begin_loop(true),
-            b"NEXT" | b"ENDWHILE" => self.builder.end_loop(false),
-            b"IFTHEN" | b"IFTHENEXP" => self.builder.begin_if(None),
+            b"FOR" => {
+                let next = self.builder.script.loops.len();
+                let most = self.numbers.begin_loop(&line.text[3..], next);
+                self.builder.begin_rounds(true, most);
+            }
+            b"WHILE" | b"WHILEEXP" => {
+                self.numbers.begin_while(&line.text[first.len()..]);
+                self.builder.begin_loop(true);
+            }
+            b"NEXT" | b"ENDWHILE" => {
+                self.numbers.close();
+                self.builder.end_loop(false);
+            }
+            b"IFTHEN" | b"IFTHENEXP" => {
+                self.numbers.open(Some(1), None);
+                self.builder.begin_if(None);
+            }
             b"SWITCH" => {
+                self.numbers.open(Some(1), None);
                 self.builder.begin_choice();
                 if rest.any(|word| word == b"CASE") {
                     self.builder.next_branch(false);
                 }
             }
-            b"ELSEIF" | b"ELSEIFEXP" | b"CASE" => self.builder.next_branch(false),
-            b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
-            b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
+            b"ELSEIF" | b"ELSEIFEXP" | b"CASE" | b"ELSE" | b"DEFAULT" => {
+                self.numbers.branch();
+                let is_last = matches!(first, b"ELSE" | b"DEFAULT");
+                self.builder.next_branch(is_last);
+            }
+            b"ENDIF" | b"ENDSWITCH" => {
+                self.numbers.close();
+                self.builder.end_choice();
+            }
             b"NOP" | b"COMM" => {}
             // the name of a local variable, below ///LVARS
             [b'L', .., b'0'..=b'9'] => {}
@@ -236,6 +272,7 @@ impl<'a> Reader<'a> {
         let conditional = words(line.text).skip(1).any(|word| word == b"IF");
         let second = words(line.text).nth(1).unwrap_or_default();
         if let (b"JUMP", [b'*', name @ ..]) = (first, second) {
+            self.numbers.jump(label_key(name));
             if conditional {
                 self.builder.may_go_to(label_key(name));
             } else {
@@ -244,6 +281,7 @@ impl<'a> Reader<'a> {
             return;
         }
         if conditional {
+            self.numbers.open(Some(1), None);
             self.builder.begin_if(None);
         }
         match first {
@@ -271,79 +309,15 @@ impl<'a> Reader<'a> {
             _ => self.writes(line, first, second),
         }
         if conditional {
+            self.numbers.close();
             self.builder.end_choice();
         }
     }
 
-    fn shift(&mut self, line: Line, is_on: bool) {
-        self.shifts |= is_on;
-        let value = if is_on {
-            let remark = self.builder.script.remark(Cause::Shifted.remark());
-            Held::Remark(remark)
-        } else {
-            Held::Flag(false)
-        };
-        let value = Expr::Value(self.builder.script.value(value));
-        let variable = self.variables.shift;
-        self.write(line, Written::One(variable), How::Whole(value));
-    }
-
-    fn write(&mut self, line: Line, variable: Written, how: How) {
+    pub(super) fn write(&mut self, line: Line, variable: Written, how: How) {
         let place = self.place(line.start);
         self.builder.write(place, variable, how);
     }
-
-    // ---- calls
-
-    /// The jobs of a name such as `JOB:A`.
-    fn callees(&self, name: &[u8]) -> Box<[RoutineId]> {
-        let known = name
-            .strip_prefix(b"JOB:")
-            .and_then(|name| self.names.get(name));
-        known.map_or_else(Box::default, |routines| routines.as_slice().into())
-    }
-
-    fn call(&mut self, line: Line<'a>, name: &'a [u8]) -> Call {
-        let callees = self.callees(name);
-        let place = self.place(line.start);
-        let first = short(self.builder.script.arguments.len());
-        let mut given = words(line.text).skip(2);
-        let mut number = 0;
-        while let Some(word) = given.next() {
-            let Some(text) = word.strip_prefix(b"ARGF") else {
-                continue;
-            };
-            number += 1;
-            let text = if text.is_empty() {
-                given.next().unwrap_or_default()
-            } else {
-                text
-            };
-            let operand = Operand::of(text);
-            let value = match operand {
-                Some(operand) => self.value(operand, place),
-                // whatever it is: what another call gave is there no more
-                None => self.unknown(Cause::Computed),
-            };
-            for &callee in &callees {
-                let builder = &mut self.builder;
-                let parameter = self.variables.parameter(builder, callee, number, place);
-                self.note_copy(Written::One(parameter), value);
-                let argument = Argument::new(Some(parameter), value, None);
-                self.builder.script.arguments.push(argument);
-            }
-            if callees.is_empty() && operand.is_some() {
-                self.builder
-                    .script
-                    .arguments
-                    .push(Argument::new(None, value, None));
-            }
-        }
-        let end = short(self.builder.script.arguments.len());
-        Call::of(place, callees, Source::text(name), first..end)
-    }
-
-    // ---- writes
 
     /// Something that nobody knows.
     pub(super) fn unknown(&mut self, cause: Cause) -> Expr {
@@ -397,6 +371,12 @@ impl<'a> Reader<'a> {
             [b'T', b'L', b'#', ..] if is_setting => self.frame(line, self.variables.tools, second),
             _ => {}
         }
+        if first == b"GETE" {
+            return self.get_element(line);
+        }
+        if self.numbers.instruction(line.text) {
+            return;
+        }
         let (place, effect) = (self.place(line.start), effect(first));
         let operand = Operand::of(second).filter(|_| effect != Effect::None);
         let Some((operand, written)) =
@@ -410,6 +390,13 @@ impl<'a> Reader<'a> {
         };
         let third = words(line.text).nth(2).unwrap_or_default();
         self.note_known(effect, third, written);
+        if first != b"SETE" {
+            let one = match written {
+                Written::One(variable) => Some(variable),
+                Written::AnyOf(_) => None,
+            };
+            self.numbers.replace(one, effect == Effect::System);
+        }
         let value = match effect {
             // with another tool it is another place
             Effect::Copy if !words(line.text).any(|word| word.starts_with(b"TL#")) => {
@@ -437,7 +424,7 @@ impl<'a> Reader<'a> {
         let computed = self.builder.script.remark(Cause::Computed.remark());
         match effect {
             Effect::Part => {
-                let how = self.part_becomes(line, computed);
+                let how = self.part_becomes(line, written, computed);
                 self.write(line, written, how);
             }
             Effect::Perhaps => {

@@ -6,7 +6,8 @@ use super::job::{Letter, Origin, Positions};
 use super::remarks::Cause;
 use crate::geometry::Pose;
 use crate::program::script::{
-    Builder, Expr, Held, NamedFrame, Place, Remark, RoutineId, TableId, Variable, VariableId, short,
+    Builder, Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark, RoutineId, TableId, Variable,
+    VariableId, short,
 };
 use crate::program::{BASE_UNIT, Load, TargetId};
 use foldhash::{HashMap, HashMapExt};
@@ -72,7 +73,7 @@ impl Variables {
         conditions: &Conditions,
     ) -> Self {
         let mut variables = Self {
-            shift: constant(builder, Held::Flag(false)),
+            shift: constant(builder, Held::Shift(NOT_DISPLACED)),
             positions: builder.script.table("P"),
             frames: builder.script.table("UF#"),
             tools: builder.script.table("TL#"),

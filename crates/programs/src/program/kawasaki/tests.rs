@@ -238,7 +238,10 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("POINT/X p1 = dx\nLMOVE p1", "target-assigned-at-run-time"),
         ("HERE p1\nLMOVE p1", "run-time-position"),
         ("HERE q\nTOOL grip\nLMOVE q", "computed-target"),
-        ("POINT q = HERE+TRANS(0,0,-200)\nLMOVE q", "computed-target"),
+        (
+            "POINT q = HERE+TRANS(0,0,-200)\nLMOVE q",
+            "run-time-position",
+        ),
         ("POINT q = HERE\nBASE grip\nLMOVE q", "computed-target"),
         ("HERE #q\nTOOL grip\nJMOVE #q", "run-time-position"),
         ("LMOVE q7", "target-not-in-files"),

@@ -327,11 +327,8 @@ fn positions_that_the_robot_reported_are_right_as_they_are() {
         assert_eq!(to(&program)[..2], ["p3", "?"], "{statement}");
     }
     for computed in [
-        "p3:=CRobT();\nMoveL Offs(p3,0,0,50),v5,z5,t;",
-        "MoveL Offs(CRobT(),0,0,50),v5,z5,t;",
-        "p3:=Offs(CRobT(),0,0,50);\nMoveL p3,v5,z5,t;",
+        "p3:=CRobT(\\Tool:=t);\np3.trans.z:=p3.trans.z+reg1;\nMoveL p3,v5,z5,t;",
         "p3:=CRobT(\\Tool:=t);\np3.trans.z:=700;\nMoveL p3,v5,z5,t;",
-        "p3:=CRobT(\\Tool:=t);\np3.trans.z:=p3.trans.z+100;\nMoveL p3,v5,z5,t;",
         "p3:=CRobT(\\Tool:=t);\np3.trans:=[1,2,3];\nMoveL p3,v5,z5,t;",
         "j1:=CJointT();\nj1.robax.rax_6:=j1.robax.rax_6+20;\nMoveAbsJ j1,v5,z5,t;",
     ] {

@@ -198,9 +198,6 @@ impl Translator<'_> {
                     Base::Function(function) => self.given_by(function, wanted),
                 };
                 let by = self.displacement(steps);
-                if by != NOT_DISPLACED && self.is_of_robot(base) {
-                    return self.computed();
-                }
                 self.builder.script.displaced(base, by)
             }
             Expression::Member { name, .. } => self.computed_name(name),
@@ -270,15 +267,6 @@ impl Translator<'_> {
             None => Expr::Absent,
         };
         self.builder.script.held(Held::ActualWith { tool, frame })
-    }
-
-    /// Whether a position is where the robot itself is.
-    fn is_of_robot(&self, position: Expr) -> bool {
-        let held = match position {
-            Expr::Value(value) => &self.builder.script.values[value as usize],
-            _ => return false,
-        };
-        matches!(held, Held::Actual | Held::ActualWith { .. })
     }
 
     /// Whether an argument of `CalcRobT` is joints that nothing writes, or that are written out.

@@ -262,6 +262,10 @@ pub enum Held {
         /// The work frame.
         frame: Expr,
     },
+    /// Where the robot was, displaced as the text says.
+    NearActual,
+    /// As long as this holds it displaces what moves go to; an index of [`Script::displacements`].
+    Shift(DisplacementId),
     /// What is added to external axes, in the units and the order of the language.
     ExternalOffset(Box<[f64; 6]>),
     /// As long as this holds these external axes, bit by bit as listed, stand elsewhere than

@@ -156,7 +156,15 @@ impl Goals<'_, '_, '_> {
                     return self.displaced(goal, by, otherwise);
                 }
                 if self.variables.is_actual(a, function) {
-                    return self.unknown();
+                    let Ok(in_tool) = self.variables.constant(b, function) else {
+                        return self.unknown();
+                    };
+                    let goal = self.goal_within(a, function, steps);
+                    let by = Shift {
+                        in_tool,
+                        ..Shift::along([0.0; 3])
+                    };
+                    return self.displaced(goal, Some(by), UNBOUNDED);
                 }
                 let goal = self.goal_within(b, function, steps);
                 let feature = self.feature(a, function);

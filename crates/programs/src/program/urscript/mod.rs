@@ -41,6 +41,7 @@ mod numbers;
 mod reader;
 mod rotation;
 mod sniff;
+mod steps;
 mod syntax;
 mod threads;
 mod tokens;

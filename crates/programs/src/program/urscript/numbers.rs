@@ -5,8 +5,9 @@ use super::variables::{VarId, Variables};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Rotation, norm};
 use crate::program::displacing::Displacing;
-use crate::program::numbers::{Blocks, Numbers, Operand, Site, evaluated, parts};
+use crate::program::numbers::{Blocks, Numbers, Operand, Site, bounds_in, evaluated, parts};
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
+use crate::program::script::short;
 use crate::program::{Displacement, number};
 
 /// Numbers in a pose.
@@ -21,6 +22,8 @@ pub(super) enum Written {
     Given { call: u32, position: usize },
     /// By the RETURN that begins at this byte of a function.
     Returned(u32, FunctionId),
+    /// Nothing: between these bytes is what a condition of a function compares a number with.
+    Limit(u32, u32, FunctionId),
 }
 
 /// What functions give has the number of the function, above this.
@@ -72,6 +75,9 @@ impl Variables<'_, '_> {
                     Event::If | Event::Never | Event::Switch => blocks.open(Some(1)),
                     Event::Branch { .. } => blocks.branch(),
                     Event::Loop => blocks.open(None),
+                    Event::Condition(start, end) => {
+                        self.bound(at, blocks.last(), (start, end), &mut numbers);
+                    }
                     Event::EndIf | Event::EndLoop { .. } => blocks.close(),
                     _ => {}
                 }
@@ -88,6 +94,29 @@ impl Variables<'_, '_> {
             }
         }
         self.numbers = numbers;
+    }
+
+    /// Notes what the condition of a loop between these bytes bounds: `while i < 5:`.
+    fn bound(
+        &self,
+        function: FunctionId,
+        block: (u32, u32),
+        (start, end): (u32, u32),
+        numbers: &mut Numbers<Written>,
+    ) {
+        let text = self.parsed.text;
+        let condition = &text[start as usize..end as usize];
+        let condition = condition.trim_ascii_end();
+        let condition = condition.strip_suffix(b":").unwrap_or(condition);
+        for (name, is_below, limit) in bounds_in(condition) {
+            let name = self.parsed.known_symbol(name);
+            let Some(variable) = name.and_then(|name| self.meaning(name, function)) else {
+                continue;
+            };
+            let start = short(limit.as_ptr() as usize - text.as_ptr() as usize);
+            let limit = Written::Limit(start, start + short(limit.len()), function);
+            numbers.bound(block, variable, is_below, limit);
+        }
     }
 
     /// What an assignment writes, or what a call gives in its brackets.
@@ -107,6 +136,9 @@ impl Variables<'_, '_> {
                 let end = text.iter().position(is_end).unwrap_or(text.len());
                 let start = text.iter().take_while(|b| b.is_ascii_alphabetic()).count();
                 Some((&text[start.min(end)..end], function))
+            }
+            Written::Limit(start, end, function) => {
+                Some((&self.parsed.text[start as usize..end as usize], function))
             }
             Written::Given { call, position } => {
                 let call = &self.parsed.calls[call as usize];
@@ -148,7 +180,12 @@ impl Variables<'_, '_> {
         }
     }
 
-    fn amounts_of(&self, id: LiteralId, function: FunctionId) -> Option<[Quantity; OF_POSE]> {
+    /// The six numbers of a pose that is written out.
+    pub(super) fn amounts_of(
+        &self,
+        id: LiteralId,
+        function: FunctionId,
+    ) -> Option<[Quantity; OF_POSE]> {
         let literal = self.parsed.literal(id);
         match literal.content {
             _ if !literal.pose => None,

@@ -175,9 +175,11 @@ impl<'a> Reader<'a> {
                 let endless = self.is_always_true();
                 self.open(BlockKind::Loop { endless }, first, "`while`")?;
                 self.event(Event::Loop);
+                let start = short(self.scanner.at);
                 self.header()?;
                 if !endless {
-                    self.event(Event::Condition);
+                    let end = short(self.scanner.at);
+                    self.event(Event::Condition(start, end));
                 }
                 Ok(())
             }

@@ -232,8 +232,8 @@ pub(super) enum Event {
     EndIf,
     /// `while`, before its condition.
     Loop,
-    /// The condition, which is not always true.
-    Condition,
+    /// The condition, which is not always true, between these bytes.
+    Condition(u32, u32),
     EndLoop {
         endless: bool,
     },

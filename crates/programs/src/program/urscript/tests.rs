@@ -9,6 +9,7 @@ mod flow;
 mod posts;
 mod robust;
 mod samples;
+mod steps;
 mod structures;
 
 fn read_file(text: &[u8]) -> Result<Program, ReadError> {
@@ -247,7 +248,7 @@ fn what_the_program_computes_stays_and_is_reported() {
         ),
         (
             "movel(pose_trans(get_actual_tcp_pose(),p[0,0,.1,0,0,0]))",
-            "computed-target",
+            "run-time-position",
             Severity::Warning,
         ),
         (
@@ -262,7 +263,7 @@ fn what_the_program_computes_stays_and_is_reported() {
         ),
         (
             "x=get_target_tcp_pose()\nx=pose_add(x,p[0,0,.1,0,0,0])\nmovel(x)",
-            "computed-target",
+            "run-time-position",
             Severity::Warning,
         ),
         (

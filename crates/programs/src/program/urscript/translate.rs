@@ -374,7 +374,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Event::ElseIf => builder.pass_branch(None),
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
-                Event::Condition => {
+                Event::Condition(..) => {
                     builder.begin_if(None);
                     builder.leave_loop();
                     builder.end_choice();

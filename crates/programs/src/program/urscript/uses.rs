@@ -2,7 +2,8 @@
 //!
 //! Poses of targets, features, offsets and tools look alike. What a literal is follows from where
 //! it goes: to a move it is a target. In `pose_trans(a, b)` a is a target and b its offset where
-//! other moves go to a; else a is a feature and b the target in it.
+//! other moves go to a, or where b is a step of several such a or one that counts (`steps`); else a
+//! is a feature and b the target in it.
 
 use super::syntax::{At, Event, Expr, ExprId, FunctionId, LiteralId, Symbol};
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
@@ -24,8 +25,19 @@ pub(super) struct Elements {
 }
 
 impl Variables<'_, '_> {
+    /// Whether a variable may hold the joints that a position has, or others.
+    pub(super) fn holds_joints(&self, variable: VarId) -> bool {
+        let all = self.parsed.assignments.iter().zip(&self.assigned);
+        let mut own = all.filter(|(of, assigned)| **assigned == variable && !of.part);
+        own.any(|(of, _)| {
+            let value = self.parsed.expression(of.value);
+            matches!(value, Expr::Kinematics { .. } | Expr::List(_))
+        })
+    }
+
     /// Finds the literals and variables that moves go to.
     pub(super) fn find_targets(&mut self) {
+        self.find_features();
         let parsed = self.parsed;
         let mut open = Vec::new();
         // what `pose_trans(a, b)` goes to depends on whether others go to a
@@ -92,6 +104,7 @@ impl Variables<'_, '_> {
                     let is_back = matches!(self.follow(b, function).0, Expr::Inverse(_));
                     let is_offset =
                         is_back || self.goes_to(a, function) || self.is_actual(a, function);
+                    let is_offset = is_offset || self.is_stepped_from(a, b, function);
                     open.push((if is_offset { a } else { b }, function));
                     None
                 }

@@ -109,6 +109,8 @@ pub(super) struct Variables<'n, 'a> {
     pub(super) numbers: crate::program::numbers::Numbers<super::numbers::Written>,
     /// Literals that moves go to: their numbers change, so nothing that holds them is constant.
     pub targets: Vec<bool>,
+    /// Literals of features that targets stand in.
+    pub(super) features: HashSet<LiteralId>,
 }
 
 impl<'n, 'a> Variables<'n, 'a> {
@@ -138,6 +140,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             mentioned_in_parts: HashMap::new(),
             numbers: crate::program::numbers::Numbers::default(),
             targets: vec![false; parsed.literals.len()],
+            features: HashSet::default(),
         };
         variables.declare_parameters();
         variables.assign();
@@ -148,16 +151,6 @@ impl<'n, 'a> Variables<'n, 'a> {
         variables.find_targets();
         variables.find_frames();
         variables
-    }
-
-    /// Whether a variable may hold the joints that a position has, or others.
-    pub(super) fn holds_joints(&self, variable: VarId) -> bool {
-        let all = self.parsed.assignments.iter().zip(&self.assigned);
-        let mut own = all.filter(|(of, assigned)| **assigned == variable && !of.part);
-        own.any(|(of, _)| {
-            let value = self.parsed.expression(of.value);
-            matches!(value, Expr::Kinematics { .. } | Expr::List(_))
-        })
     }
 
     // ---- names

@@ -245,3 +245,74 @@ fn what_the_robot_alone_knows_is_unknown_and_what_is_not_followed_has_no_bound()
     );
     assert_eq!(of(&same), up(0.1), "the frame of the point");
 }
+
+/// POSREG.VA with one register.
+fn posreg(number: u32, z: &str) -> String {
+    format!(
+        "[*POSREG*]$POSREG  Storage: CMOS  Access: RW  : ARRAY[1,100] OF Position Reg\r\n    \
+         [1,{number}] =   'up' \r\n  Group: 1   Config: N U T, 0, 0, 0\r\n  X:     0.000   Y:     \
+         0.000   Z:   {z}\r\n  W:     0.000   P:     0.000   R:     0.000\r\n"
+    )
+}
+
+#[test]
+fn a_register_that_no_program_writes_is_what_a_file_of_the_controller_shows() {
+    let with = |lines: &str, shown: &str| {
+        let program = listing(lines, &usual("1"));
+        last(&[("a.ls", &program), ("posreg.va", shown)])
+    };
+    let shown = posreg(7, "100.000");
+    for lines in [
+        GO.to_owned(),
+        format!("CALL X ;\nLBL[1] ;\n{GO}JMP LBL[1] ;"),
+        format!("PR[8]=PR[7] ;\n{}", GO.replace('7', "8")),
+        "OFFSET CONDITION PR[7] ;\nL P[1] 9mm/sec FINE Offset ;".into(),
+    ] {
+        assert_eq!(with(&lines, &shown), up(0.1), "{lines}");
+    }
+    // one of its numbers is written, or another register is meant
+    let by = with(&format!("CALL X ;\nPR[7,3]=300 ;\n{GO}"), &shown);
+    assert_eq!(by, up(0.3));
+    for lines in [
+        GO.replace('7', "9"),
+        format!("PR[7,3]=GI[1] ;\n{GO}"),
+        format!("SEARCH_IT PR[7] ;\n{GO}"),
+        format!("PR[R[1],3]=5 ;\n{GO}"),
+    ] {
+        let by = with(&lines, &shown);
+        assert!(
+            matches!(by, Displacement::Unknown | Displacement::AtLeast(_)),
+            "{lines}: {by:?}"
+        );
+    }
+    for lines in [
+        GO.replace("PR[7]", "PR[R[1]]"),
+        format!("PR[7]=LPOS ;\n{GO}"),
+    ] {
+        assert_eq!(with(&lines, &shown), Displacement::Unbounded, "{lines}");
+    }
+    // two files that differ, and two that are alike
+    let program = listing(GO, &usual("1"));
+    let both = |a: &str, b: &str| {
+        last(&[
+            ("a.ls", &program),
+            ("1/posreg.va", &posreg(7, a)),
+            ("2/posreg.va", &posreg(7, b)),
+        ])
+    };
+    assert_eq!(both("100.000", "200.000"), Displacement::Unknown);
+    assert_eq!(both("100.000", "100.000"), up(0.1));
+}
+
+#[test]
+fn counters_displace_through_numbers_of_registers_as_far_as_loops_count() {
+    let of = |lines: &str| {
+        let ends = between(&of(lines)).expect("counted");
+        [ends[0], ends[1]].map(|end| (end * 1e6).round() / 1e6)
+    };
+    let step = "PR[7,3]=R[1]*50 ;\n";
+    assert_eq!(
+        of(&format!("{ZERO}FOR R[1]=1 TO 5 ;\n{step}{GO}ENDFOR ;")),
+        [0.0, 0.25]
+    );
+}

@@ -42,19 +42,36 @@ fn moves_to_registers_stay_with_one_warning_a_place() {
 }
 
 #[test]
-fn where_the_robot_was_is_a_note() {
+fn where_the_robot_was_is_a_note_and_a_warning_where_it_is_displaced() {
     for line in [
         "PR[1]=LPOS ;\nL PR[1] 9mm/sec FINE ;",
         "PR[1]=JPOS ;\nPR[2]=PR[1] ;\nJ PR[2] 9% FINE ;",
+        // displaced from there
+        "PR[91]=LPOS ;\nPR[91,2]=PR[91,2]-100 ;\nL PR[91] 9mm/sec FINE ;",
+        "PR[91]=LPOS ;\nPR[91,2]=PR[91,2]-100 ;\nPR[91,3]=PR[91,3]+5 ;\nL PR[91] 9mm/sec FINE ;",
     ] {
         let program = read(&format!("J P[1] 1% FINE ;\n{line}"), &usual("1"));
         assert_eq!(ids(&program), ["run-time-position"], "{line}");
-        assert_eq!(program.findings[0].severity, Severity::Note);
+        let is_displaced = line.contains("-100");
+        let severity = program.findings[0].severity;
+        assert_eq!(severity == Severity::Warning, is_displaced, "{line}");
     }
     // a pose is that of its tool and frame
     for (line, id) in [
         (
             "PR[1]=LPOS ;\nUTOOL_NUM=2 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=PR[1,2]-100 ;\nUTOOL_NUM=2 ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=PR[1,2]-R[5] ;\nL PR[1] 9mm/sec FINE ;",
+            "computed-target",
+        ),
+        (
+            "PR[1]=LPOS ;\nPR[1,2]=100 ;\nL PR[1] 9mm/sec FINE ;",
             "computed-target",
         ),
         (

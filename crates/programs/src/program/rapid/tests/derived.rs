@@ -315,3 +315,18 @@ fn counters_of_loops_with_a_bound_come_no_farther() {
         );
     }
 }
+
+#[test]
+fn a_point_that_the_text_displaces_from_where_the_robot_was_stays_with_a_warning() {
+    for displaced in [
+        "p3:=CRobT();\nMoveL Offs(p3,0,0,50),v5,z5,t;",
+        "MoveL Offs(CRobT(),0,0,50),v5,z5,t;",
+        "p3:=Offs(CRobT(),0,0,50);\nMoveL p3,v5,z5,t;",
+        "p3:=CRobT(\\Tool:=t);\np3.trans.z:=p3.trans.z+100;\nMoveL p3,v5,z5,t;",
+    ] {
+        let program = path(displaced);
+        assert_eq!(ids(&program), ["run-time-position"], "{displaced}");
+        assert_eq!(program.findings[0].severity, Severity::Warning);
+        assert!(program.findings[0].message.contains("displaced"));
+    }
+}
