@@ -27,6 +27,7 @@
 //! axes is not known.
 
 mod cnd;
+mod deciding;
 mod drive;
 mod indexed;
 mod insert;
@@ -46,8 +47,8 @@ use super::kit::{line_behind, not_this_language};
 use super::notation;
 use super::script::{Script, short};
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, ReadError, Role,
-    Settings, Source, Step,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, ReadError,
+    Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -168,6 +169,10 @@ impl Language for Inform {
     }
 
     /// Comments behind NOP, in lines short enough for every controller.
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
+    }
+
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let end = source.line_end();
         let mut text = Vec::new();
