@@ -18,8 +18,9 @@
 //! the wrist's singularity), `shared` one set of numbers for all approaches (`differing` says why
 //! there is none), `limit` what a correction may be; `rewrite` puts the new numbers in the place of
 //! the old ones, `added` new targets between them, `displaced` says what a correction does to points
-//! that the program derives from a target, `led` what calls that may leave the robot elsewhere do to
-//! the side from which joints come; `written` puts it all into the files and reads them again.
+//! that the program derives from a target, `deciding` that it decides by numbers of one, `led` what
+//! calls that may leave the robot elsewhere do to the side from which joints come; `written` puts it
+//! all into the files and reads them again.
 //! `context` and `refused` say which files stay.
 //!
 //! # Source
@@ -46,6 +47,7 @@
 mod added;
 mod approach;
 mod context;
+mod deciding;
 mod differing;
 mod displaced;
 mod led;
@@ -418,10 +420,12 @@ fn with(
         edits,
         tally,
         fakes,
+        deciding: shifts,
         mut splits,
         mut meant,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
     displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
+    deciding::check(&job, &shifts, &mut findings);
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     let (compensated, summary) = tally.finish();

@@ -3,7 +3,7 @@
 use super::approach::{Approach, Solved};
 use super::outcome::Tally;
 use super::rewrite::{self, Portion, Split};
-use super::{Job, TargetReport, displaced};
+use super::{Job, TargetReport, deciding, displaced};
 use crate::finding::Finding;
 use crate::geometry::Pose;
 use crate::inverse::Outcome;
@@ -23,6 +23,8 @@ pub(super) struct Rewritten {
     pub tally: Tally,
     /// Fake targets that points are derived from.
     pub fakes: BTreeMap<usize, Pose>,
+    /// How far targets are shifted by whose numbers the program decides, metres.
+    pub deciding: BTreeMap<usize, f64>,
     /// Moves that are to get a target of their own.
     pub splits: Vec<Split>,
     /// Configuration data that change: index in the program's numbers, and the value.
@@ -70,6 +72,7 @@ pub(super) fn rewrite_all(
         edits: room_for_edits(job),
         tally: Tally::new(job),
         fakes: BTreeMap::new(),
+        deciding: deciding::targets(job),
         splits: Vec::new(),
         meant: Vec::new(),
     };
@@ -97,6 +100,9 @@ impl Rewritten {
                 self.tally.add(job, target, &report);
                 if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
                     self.fakes.insert(target, fake);
+                }
+                if let Some(shift_m) = self.deciding.get_mut(&target).filter(|_| report.changed) {
+                    *shift_m = report.shift.distance_m;
                 }
                 if let Some(place) = self.reports.get_mut(target) {
                     *place = report;

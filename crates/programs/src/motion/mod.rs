@@ -48,7 +48,7 @@ pub use course::ToolRotation;
 pub(crate) use posture::OUT_OF_REACH;
 pub use setting::{Given, GivenError, MeasuredFrameError, Missing, PlacementError};
 
-use crate::program::{Language, Program, ReadError, Settings, Source, check_bytes};
+use crate::program::{self, Language, Program, ReadError, Settings, Source, check_bytes};
 
 /// Reads program files that belong together, and follows them.
 ///
@@ -61,5 +61,10 @@ pub fn read(
 ) -> Result<Program, ReadError> {
     sources.iter().try_for_each(check_bytes)?;
     let script = language.script(sources, settings)?;
-    resolve::resolve(language, sources, settings, script)
+    let decides = program::may_decide(&script);
+    let mut program = resolve::resolve(language, sources, settings, script)?;
+    if decides {
+        program.decided = program::decided(language, sources, &program);
+    }
+    Ok(program)
 }

@@ -1,5 +1,6 @@
 //! What every language does.
 
+use super::deciding::Deciding;
 use super::insert::{Inserted, Insertions};
 use super::script::{self, Script};
 use super::{
@@ -249,6 +250,11 @@ pub trait Language: Sync {
     fn is_in_form(&self, bytes: &[u8], at: usize) -> bool {
         let _ = (bytes, at);
         false
+    }
+
+    /// How statements read numbers of targets, and decide.
+    fn deciding(&self) -> Option<&'static Deciding> {
+        None
     }
 
     /// The names of external axes in the order of their offsets, see

@@ -22,6 +22,7 @@
 //! ```
 
 pub mod csv;
+mod deciding;
 mod displacement;
 mod displacing;
 mod drive;
@@ -52,6 +53,8 @@ pub mod val3;
 mod words;
 mod xml;
 
+pub use deciding::{Decided, Deciding};
+pub(crate) use deciding::{decided, may_decide};
 pub use displacement::{Displacement, Shift, Stride};
 pub(crate) use displacing::SOMEHOW_M;
 pub use drive::Step;
@@ -443,6 +446,8 @@ pub struct Program {
     pub stands: Vec<Option<f64>>,
     /// Where they stand when the program starts, where that is said.
     pub stands_at_start: Vec<Option<f64>>,
+    /// Statements that read numbers of targets by which the program decides.
+    pub decided: Vec<Decided>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }

@@ -45,6 +45,7 @@
 mod config;
 mod content;
 mod controller;
+mod deciding;
 mod drive;
 mod frames;
 mod insert;
@@ -64,8 +65,8 @@ mod words;
 
 use super::notation;
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
-    Script, Settings, Source, Step,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, Posture,
+    ReadError, Role, Script, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use sections::Sections;
@@ -201,6 +202,10 @@ impl Language for Fanuc {
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
+    }
+
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

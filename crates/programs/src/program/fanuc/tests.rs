@@ -1,6 +1,7 @@
 //! What the language reads, by behaviour.
 
 mod compensated;
+mod deciding;
 mod flow;
 mod offsets;
 mod posts;

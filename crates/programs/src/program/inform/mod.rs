@@ -28,6 +28,7 @@
 
 mod calls;
 mod cnd;
+mod deciding;
 mod drive;
 mod indexed;
 mod insert;
@@ -49,8 +50,8 @@ use super::kit::{line_behind, not_this_language};
 use super::notation;
 use super::script::{Script, short};
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, ReadError, Role,
-    Settings, Source, Step,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, ReadError,
+    Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -171,6 +172,10 @@ impl Language for Inform {
     }
 
     /// Comments behind NOP, in lines short enough for every controller.
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
+    }
+
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let end = source.line_end();
         let mut text = Vec::new();

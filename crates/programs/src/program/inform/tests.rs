@@ -5,6 +5,7 @@ use crate::geometry::Rotation;
 use crate::program::marker::WIDEST_COMMENT;
 use crate::program::{Motion, Posture, Program, Shape, Value};
 
+mod deciding;
 mod followed;
 mod indexed;
 mod parts;

@@ -23,6 +23,7 @@
 
 mod arrays;
 mod calls;
+mod deciding;
 mod insert;
 mod keywords;
 mod moves;
@@ -39,8 +40,8 @@ use super::kit::{comments, line_behind, not_this_language};
 use super::notation;
 use super::script::Script;
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, ReadError, Role,
-    Settings, Source,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, ReadError,
+    Role, Settings, Source,
 };
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -140,6 +141,10 @@ impl Language for Kawasaki {
     }
 
     /// Comments in the first program, else in one of their own at the end.
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
+    }
+
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let (bytes, end) = (&source.bytes, source.line_end());
         let text = comments(source, marker, ";");

@@ -94,7 +94,7 @@ fn behind_label<'a, 'w>(line: Words<'a, 'w>) -> (Option<&'a [u8]>, Words<'a, 'w>
 }
 
 /// How words are written: names have dots.
-pub(super) static SPELLING: Spelling = Spelling {
+pub(super) const SPELLING: Spelling = Spelling {
     comment: b";",
     in_names: in_names(b"_.$"),
     has_escapes: false,

@@ -5,6 +5,7 @@ use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::program::{Displacement, Motion, Move, Program, Shape};
 
+mod deciding;
 mod inserted;
 mod numbers;
 mod others;

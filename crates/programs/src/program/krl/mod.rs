@@ -26,6 +26,7 @@ mod assignments;
 mod calls;
 mod components;
 mod data;
+mod deciding;
 mod drive;
 mod fdat;
 mod frames;
@@ -50,8 +51,8 @@ use super::kit::not_this_language;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
-    Settings, Source, Step,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, Posture,
+    ReadError, Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use reader::Reader;
@@ -170,6 +171,10 @@ impl Language for Krl {
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
+    }
+
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

@@ -1,5 +1,6 @@
 //! What the language reads, by behaviour.
 
+mod deciding;
 mod flow;
 mod frames;
 mod posts;

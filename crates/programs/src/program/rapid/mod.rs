@@ -20,6 +20,7 @@ mod builtins;
 mod calls;
 mod conditions;
 mod confdata;
+mod deciding;
 mod declarations;
 mod derived;
 mod drive;
@@ -50,8 +51,8 @@ use super::names::Symbols;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
-    Settings, Source, Step,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, Posture,
+    ReadError, Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
 use foldhash::{HashSet, HashSetExt};
@@ -160,6 +161,10 @@ impl Language for Rapid {
 
     fn forbids_repeating(&self, text: &[u8]) -> Option<&'static str> {
         (insert::MANNER.forbids)(text)
+    }
+
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
     }
 
     fn external_names(&self) -> [&'static str; 6] {

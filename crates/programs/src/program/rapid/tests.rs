@@ -2,6 +2,7 @@
 
 mod arrays;
 mod calls;
+mod deciding;
 mod derived;
 mod foreign;
 mod frames;

@@ -32,6 +32,7 @@
 mod calls;
 mod common;
 mod composed;
+mod deciding;
 mod drive;
 mod expressions;
 mod files;
@@ -55,7 +56,8 @@ use super::kit::not_this_language;
 use super::notation;
 use super::script::{Builder, Script};
 use super::{
-    About, Inserted, Insertions, Language, Layout, Marker, ReadError, Role, Settings, Source, Step,
+    About, Deciding, Inserted, Insertions, Language, Layout, Marker, ReadError, Role, Settings,
+    Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
@@ -156,6 +158,10 @@ impl Language for UrScript {
 
     fn drive(&self, steps: &[Step], _: &Settings) -> Option<String> {
         Some(drive::drive(steps))
+    }
+
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
     }
 
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

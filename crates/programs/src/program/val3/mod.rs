@@ -22,6 +22,7 @@
 mod arrays;
 mod code;
 mod data;
+mod deciding;
 mod drive;
 mod frames;
 mod insert;
@@ -37,8 +38,8 @@ use super::kit::not_this_language;
 use super::notation;
 use super::script::Script;
 use super::{
-    About, Configuration, Inserted, Insertions, Language, Layout, Marker, Posture, ReadError, Role,
-    Settings, Shape, Source,
+    About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, Posture,
+    ReadError, Role, Settings, Shape, Source,
 };
 use crate::geometry::Pose;
 use data::{JOINTS, POSE, SIDES};
@@ -182,6 +183,10 @@ impl Language for Val3 {
     }
 
     /// A comment inside the data, or behind `begin` of the first program.
+    fn deciding(&self) -> Option<&'static Deciding> {
+        Some(&deciding::MANNER)
+    }
+
     fn mark(&self, source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
         let (bytes, end) = (&source.bytes, source.line_end());
         if project::kind_of(bytes) == Some(FileKind::Programs)

@@ -8,6 +8,7 @@ use crate::program::{Displacement, Motion, Move, Program, Shift, Stride, Value};
 
 mod arrays;
 mod calls;
+mod deciding;
 mod inserted;
 mod numbers;
 mod projects;
