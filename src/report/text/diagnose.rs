@@ -86,7 +86,7 @@ fn changed(effect: &ChangedEffect) -> String {
         )
     });
     format!(
-        "{:<9} {}: {} ({} times that; the profile has it, and was fitted again).\n",
+        "{:<9} {}: {} ({} standard deviations; the profile was fitted again).\n",
         "changed",
         effect.effect.label,
         values.collect::<Vec<_>>().join(", "),

@@ -34,7 +34,8 @@ pub(super) fn check(job: &Job, shifts: &BTreeMap<usize, f64>, findings: &mut Vec
                     format!(" of {}", source.name)
                 };
                 format!(
-                    "the program reads numbers of `{name}` here and decides by them in line {line}{file}"
+                    "the program reads numbers of `{name}` here and decides by them in line \
+                     {line}{file}"
                 )
             }
         };

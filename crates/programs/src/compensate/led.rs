@@ -1,5 +1,5 @@
-//! Calls that may leave the robot elsewhere than the text says before a move: of routines that are
-//! not in the files, and searches that stop on their way.
+//! What may leave the robot elsewhere than the text says before a move: calls of routines that are
+//! not in the files, searches that stop on their way, interrupts that move the robot.
 
 use super::Job;
 use super::approach::Approach;
@@ -125,8 +125,8 @@ impl Led {
                 count => format!(", and at {} other moves", count - 1),
             };
             let message = format!(
-                "`{name}` {does}; if it does, joint {} with backlash may come from the other side to {} in line {line}, and the tool be \
-                 {:.3} mm off{others}",
+                "`{name}` {does}; if it does, joint {} with backlash may come from the other side to \
+                 {} in line {line}, and the tool be {:.3} mm off{others}",
                 joints.join(", "),
                 ground.name_of(approach.target as usize),
                 mm_from_m(off_m)

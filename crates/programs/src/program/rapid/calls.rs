@@ -8,7 +8,7 @@ use super::syntax::{
     Argument, Base, Callee, Datum, Expression, Index, Part, Path, Storage, Type, Verb, indices,
 };
 use super::translate::Translator;
-use crate::program::names::{Meaning, Symbol};
+use crate::program::names::Symbol;
 use crate::program::script::{self, Call, Expr, Held, How, Remark, VariableId, Written};
 
 /// How a routine that is not in the files is taken to move.
@@ -405,11 +405,7 @@ impl Translator<'_> {
         let resolved = self.resolved;
         let given = || {
             let (name, _) = resolved.place_of(&argument.expression)?;
-            match resolved.meaning(name, self.context) {
-                Meaning::One(datum) => Some(Entity::Declared(datum)),
-                Meaning::Nothing => Some(Entity::Undeclared(name)),
-                Meaning::Several(_) => None,
-            }
+            resolved.entity_of(name, self.context)
         };
         resolved.is_written_back(parameter)
             || resolved.is_by_reference(parameter)
@@ -426,11 +422,8 @@ impl Translator<'_> {
         let Some((name, index)) = self.resolved.place_of(&argument.expression) else {
             return true;
         };
-        match self.resolved.meaning(name, self.context) {
-            Meaning::One(datum) => self.is_one(Entity::Declared(datum), index),
-            Meaning::Nothing => self.is_one(Entity::Undeclared(name), index),
-            Meaning::Several(_) => false,
-        }
+        let entity = self.resolved.entity_of(name, self.context);
+        entity.is_some_and(|entity| self.is_one(entity, index))
     }
 
     /// What a routine writes through its parameters besides variables that it is given as a whole:

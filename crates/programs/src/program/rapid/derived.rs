@@ -180,7 +180,7 @@ impl Resolved<'_> {
     }
 
     /// The data that a name means; `None` where the files do not tell which.
-    fn entity_of(&self, name: Symbol, context: Context) -> Option<Entity> {
+    pub(super) fn entity_of(&self, name: Symbol, context: Context) -> Option<Entity> {
         match self.meaning(name, context) {
             Meaning::One(datum) => Some(Entity::Declared(datum)),
             Meaning::Nothing => Some(Entity::Undeclared(name)),
