@@ -1,6 +1,6 @@
 //! Program files on the command line: files, folders of them, and standard input.
 
-use super::files::{Files, Identity, Listing, is_own, is_stream};
+use super::files::{Files, Identity, Listing, is_own, is_stream, meant_by};
 use super::screen;
 use crate::nearest;
 use crate::printable::{name_of, printable};
@@ -19,8 +19,8 @@ const LOOKED_AT: usize = 1 << 16;
 /// What of folders is no matter.
 #[derive(Args)]
 pub(super) struct Ignored {
-    /// Leave files and folders out that are called so: `*.bak`, `old/**`; may be given again. The
-    /// summary lists them
+    /// Leave files and folders out that are called so: `*.bak`, `old/**`, or a path as the summary
+    /// shows it; may be given again. The summary lists them
     #[arg(long, value_name = "GLOB")]
     ignore: Vec<String>,
     /// Which of them have meant something.
@@ -145,8 +145,8 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// Whether `--ignore` means a path.
-    fn is_ignored(&self, below: &Path) -> bool {
-        let meant = self.ignored.matches(below);
+    fn is_ignored(&self, below: &Path, named: &Path) -> bool {
+        let meant = meant_by(&self.ignored, below, named);
         self.used.borrow_mut().extend(&meant);
         !meant.is_empty()
     }
@@ -154,7 +154,7 @@ impl Reading<'_> {
     /// A file that is named.
     fn file(&mut self, path: &Path) -> Result<(), Failure> {
         let below = path.file_name().map_or_else(|| path.into(), PathBuf::from);
-        if self.is_ignored(&below) {
+        if self.is_ignored(&below, path) {
             self.found.left_out.ignored.push(name_of(path));
             return Ok(());
         }
@@ -224,7 +224,7 @@ impl Reading<'_> {
             let is_own = is_own(&entry);
             let below = entry.path().strip_prefix(folder);
             let below = below.expect("a walk stays below its top").to_owned();
-            if is_own || self.is_ignored(&below) {
+            if is_own || self.is_ignored(&below, entry.path()) {
                 if is_folder {
                     walk.skip_current_dir();
                 }

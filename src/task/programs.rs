@@ -406,6 +406,17 @@ pub fn explain(error: &CompensateError, sources: &[Source]) -> Failure {
             ),
             None => Failure::with_hint(unknown.to_string(), unknown.hint()),
         },
+        CompensateError::Refused(finding) => match source_of(&finding.file) {
+            Some(source) => Failure::at(
+                source,
+                finding.line,
+                finding.column,
+                None,
+                &finding.message,
+                &finding.hint,
+            ),
+            None => Failure::with_hint(error.to_string(), &finding.hint),
+        },
         CompensateError::MeasuredFrame(error) => {
             Failure::with_hint(format!("--wobj: {error}"), error.hint())
         }

@@ -9,7 +9,7 @@ use super::identity::Identity;
 use crate::printable::name_of;
 use crate::task::Failure;
 use serde::{Deserialize, Serialize};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -25,6 +25,18 @@ const FORMAT: &str = "poseshift journal 1 ";
 const PATIENCE: Duration = Duration::from_secs(10);
 /// How often it is looked again.
 const TICK: Duration = Duration::from_millis(10);
+
+/// Whether a text is what a run is called by.
+fn is_id(text: &str) -> bool {
+    text.len() == 16 && text.bytes().all(|b| b.is_ascii_hexdigit())
+}
+
+/// Whether a name is that of a file or folder which a run makes before it has its place.
+pub(super) fn is_new_file(name: &OsStr) -> bool {
+    let name = name.to_str().and_then(|name| name.strip_prefix(PREFIX));
+    let of_run = name.and_then(|name| name.strip_suffix(".new")?.rsplit_once('-'));
+    of_run.is_some_and(|(id, number)| is_id(id) && number.parse::<usize>().is_ok())
+}
 
 /// Where the journal of a folder is.
 pub(super) fn of(folder: &Path) -> PathBuf {
@@ -201,7 +213,7 @@ impl Journal {
     /// Names that lead out of their folders are no work of poseshift.
     fn refuse_elsewhere(&self) -> Result<(), String> {
         use std::path::Component::{Normal, ParentDir};
-        let id = self.id.len() == 16 && self.id.bytes().all(|b| b.is_ascii_hexdigit());
+        let id = is_id(&self.id);
         let inside = |path: &Path| path.components().all(|part| matches!(part, Normal(_)));
         let is_sound = |entry: &Entry| {
             entry.target.file_name().is_some()

@@ -24,7 +24,7 @@ impl Listing {
         let is_meant = |entry: &DirEntry| {
             let below = entry.path().strip_prefix(&self.folder);
             let below = below.expect("a walk stays below its top");
-            !is_own(entry) && !self.ignored.is_match(below)
+            !is_own(entry) && meant_by(&self.ignored, below, entry.path()).is_empty()
         };
         let walk = WalkDir::new(&self.folder).min_depth(1);
         for entry in walk.into_iter().filter_entry(is_meant) {
@@ -46,4 +46,12 @@ impl Listing {
 /// What a run that is at work has next to its places is none of the folder's.
 pub(in crate::cli) fn is_own(entry: &DirEntry) -> bool {
     entry.file_name().to_string_lossy().starts_with(PREFIX)
+}
+
+/// Which patterns mean a file or folder: by its path below the folder that is read, or as it was
+/// named and is shown.
+pub(in crate::cli) fn meant_by(patterns: &GlobSet, below: &Path, named: &Path) -> Vec<usize> {
+    let mut meant = patterns.matches(below);
+    meant.extend(patterns.matches(named.strip_prefix(".").unwrap_or(named)));
+    meant
 }

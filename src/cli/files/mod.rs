@@ -13,7 +13,7 @@ mod transaction;
 mod work;
 
 pub(super) use identity::Identity;
-pub(super) use listing::{Listing, is_own};
+pub(super) use listing::{Listing, is_own, meant_by};
 pub(super) use place::{is_standard_output, is_stream};
 
 use super::screen;

@@ -2,11 +2,11 @@
 
 use super::disk::Disk;
 use super::journal::{self, Entry, Held, Journal, Stage, foreign};
-use super::work::{Stop, Work, is_of_run};
+use super::work::{Stop, Work, exists, is_of_run};
 use crate::printable::name_of;
 use crate::task::Failure;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Names that a message lists.
 const NAMED: usize = 5;
@@ -31,8 +31,10 @@ pub(super) fn recover(disk: &Disk, folder: &Path) -> Result<Option<String>, Fail
 
 /// `is_main`: the journal of another folder says that the main one is here.
 fn settle(disk: &Disk, folder: &Path, is_main: bool) -> Result<Option<String>, Failure> {
+    // in this order: a run that begins meanwhile has a journal before it has new files
+    let made = new_files(folder);
     let Some(held) = Held::existing(folder)? else {
-        return Ok(None);
+        return Ok(remove_abandoned(disk, folder, &made));
     };
     let path = held.path.clone();
     let bytes = fs::read(&path).map_err(|error| Failure::file(&path, "read", &error))?;
@@ -100,6 +102,28 @@ fn settle(disk: &Disk, folder: &Path, is_main: bool) -> Result<Option<String>, F
         },
     };
     done.map(Some).map_err(fault)
+}
+
+/// What runs have made in a folder that is not in its place yet.
+fn new_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_new = |path: &PathBuf| path.file_name().is_some_and(journal::is_new_file);
+    entries.map(|entry| entry.path()).filter(is_new).collect()
+}
+
+/// Removes new files that no journal speaks of any more: somebody has removed it.
+fn remove_abandoned(disk: &Disk, folder: &Path, made: &[PathBuf]) -> Option<String> {
+    let gone = made
+        .iter()
+        .filter(|path| exists(path) && disk.remove(path).is_ok());
+    let names: Vec<String> = gone.map(|path| name_of(path)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "removed what a run that was stopped had left in {}, without a journal of it: {}",
+            name_of(folder),
+            listed(&names)
+        )
+    })
 }
 
 /// Some names, and how many more there are.

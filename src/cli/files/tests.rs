@@ -333,6 +333,29 @@ fn a_journal_from_elsewhere_reaches_no_file_outside_its_folder() {
 }
 
 #[test]
+fn new_files_without_a_journal_are_removed_and_named() {
+    let folder = world();
+    let before = content(folder.path());
+    let place = folder.path().canonicalize().expect("scratch").join("a");
+    let id = "0123456789abcdef";
+    fs::write(place.join(format!(".poseshift-{id}-0.new")), "half").expect("scratch");
+    fs::create_dir_all(place.join(format!(".poseshift-{id}-1.new/x"))).expect("scratch");
+    // whatever else begins so is somebody's own, and what was replaced is never removed
+    for name in [".poseshift-notes.new", &format!(".poseshift-{id}-0.old")] {
+        fs::write(place.join(name), "kept").expect("scratch");
+    }
+    let said = recover(&Disk::default(), &place).expect("nothing in the way");
+    let said = said.expect("it is named");
+    assert!(said.contains(&format!(".poseshift-{id}-0.new")), "{said}");
+    for name in [".poseshift-notes.new", &format!(".poseshift-{id}-0.old")] {
+        fs::remove_file(place.join(name)).expect("it is there");
+    }
+    assert_eq!(content(folder.path()), before);
+    let again = recover(&Disk::default(), &place).expect("nothing to do");
+    assert_eq!(again, None);
+}
+
+#[test]
 fn two_runs_into_one_folder_follow_one_another() {
     let folder = world();
     let path = folder.path();

@@ -148,6 +148,25 @@ fn gltf(buffer: &str) -> (String, Vec<u8>) {
     (text, bytes)
 }
 
+/// The wall as points that are all zero but for eight items that stand apart.
+fn sparse() -> (String, Vec<u8>) {
+    let (text, mut bytes) = gltf(r#""uri":"sparse.bin","#);
+    bytes.extend(0..8);
+    let text = text.replace(
+        r#""bufferView":0,"componentType":5126,"count":8,"type":"VEC3""#,
+        r#""componentType":5126,"count":8,"type":"VEC3","sparse":{"count":8,
+        "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":0}}"#,
+    );
+    let text = text.replace(
+        r#""byteOffset":96,"byteLength":36}]"#,
+        r#""byteOffset":96,"byteLength":36},{"buffer":0,"byteOffset":132,"byteLength":8}]"#,
+    );
+    (
+        text.replace(r#""byteLength":132}"#, r#""byteLength":140}"#),
+        bytes,
+    )
+}
+
 fn glb() -> Vec<u8> {
     let (mut json, bytes) = gltf("");
     while json.len() % 4 != 0 {
@@ -199,6 +218,8 @@ fn a_wall_is_the_same_wall_in_every_format() {
     assert!(expected.iter().flatten().count() > 3);
     let (named, bytes) = gltf(r#""uri":"the%20wall.bin","#);
     std::fs::write(folder.path().join("the wall.bin"), bytes).expect("scratch");
+    let (sparse, bytes) = sparse();
+    std::fs::write(folder.path().join("sparse.bin"), bytes).expect("scratch");
     for (file, bytes) in [
         ("ascii.stl", stl_ascii()),
         ("binary.stl", stl_binary()),
@@ -207,6 +228,7 @@ fn a_wall_is_the_same_wall_in_every_format() {
         ("metre.dae", dae(1.0, "Y_UP", y_up).into_bytes()),
         ("inch.dae", dae(0.0254, "X_UP", x_up).into_bytes()),
         ("wall.gltf", named.into_bytes()),
+        ("sparse.gltf", sparse.into_bytes()),
         ("wall.glb", glb()),
     ] {
         std::fs::write(folder.path().join(file), bytes).expect("scratch");

@@ -313,6 +313,8 @@ fn what_is_left_out_stands_in_the_summary() {
         &["old", "* copy.mod"][..],
         &["old/", "*copy*"],
         &["old/**", "{Deburr copy,x}.mod"],
+        // as the summary shows them
+        &["in/old/", "in/Deburr copy.mod"],
     ] {
         let mut command = vec!["check", "in"];
         for glob in globs {

@@ -436,7 +436,19 @@ fn files_larger_than_any_that_is_meant_are_refused_at_once() {
         "--measurements",
         &at("huge.csv"),
     ];
-    refused(folder.path(), &rows, 2, "at most 1073741824 are read");
+    let of_others = "at most 1073741824 are read";
+    refused(folder.path(), &rows, 2, of_others);
+    let of_mesh = |name: &str| {
+        large(name, (1 << 30) + 1);
+        let text = format!("poseshift: cell/1\nbodies:\n  - {{name: wall, mesh: {name}}}\n");
+        std::fs::write(folder.path().join("cell.yaml"), text).expect("scratch");
+        let cell = at("cell.yaml");
+        let check = ["check", &program, "--profile", &truth, "--cell", &cell];
+        refused(folder.path(), &check, 2, of_others);
+    };
+    for name in ["wall.stl", "wall.obj", "wall.dae", "wall.gltf", "wall.glb"] {
+        of_mesh(name);
+    }
 }
 
 fn refused(folder: &Path, arguments: &[&str], status: i32, said: &str) -> String {

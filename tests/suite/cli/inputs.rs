@@ -163,22 +163,79 @@ fn what_profiles_cells_and_folders_name_is_an_input_too() {
     );
 }
 
+/// A frame, a baseline, and a cell with a part in glTF, next to the rest of a [`world`].
+fn world_of_all_inputs() -> tempfile::TempDir {
+    let folder = world();
+    let path = folder.path();
+    let write = |name: &str, text: &str| {
+        std::fs::write(path.join(name), text).expect("scratch");
+    };
+    let cam = repository("programs/rapid/cam/in/cam.mod");
+    for name in ["in.mod", "originals/in.mod"] {
+        std::fs::copy(&cam, path.join(name)).expect("scratch");
+    }
+    let at = "at: {x_mm: 9000, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}";
+    write(
+        "cell.yaml",
+        &format!("{CELL}  - {{name: part, mesh: part.gltf, {at}}}\n"),
+    );
+    let corners = [[0.0_f32; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]];
+    let bytes: Vec<u8> = corners
+        .iter()
+        .flatten()
+        .flat_map(|m| m.to_le_bytes())
+        .collect();
+    std::fs::write(path.join("part.bin"), bytes).expect("scratch");
+    write(
+        "part.gltf",
+        r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"uri":"part.bin","byteLength":36}]}"#,
+    );
+    write(
+        "offset.yaml",
+        "poseshift: frame/1\npose: {x_mm: 0.5, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}\n",
+    );
+    folder
+}
+
 #[test]
 fn an_input_that_changes_before_the_end_is_an_error() {
-    for (input, how) in [
-        ("in.mod", "changed"),
-        ("p.yaml", "removed"),
-        ("in.mod", "replaced"),
+    const COMPENSATE: &str = "compensate in.mod --profile p.yaml -o out.mod --json";
+    const CHECK: &str =
+        "check in.mod --profile p.yaml --cell cell.yaml --json --report out.html --force";
+    let with = &format!("{COMPENSATE} --with originals/Deburr.mod");
+    let offset = &format!("{COMPENSATE} --work-offset offset.yaml");
+    let nominal = &format!("{CHECK} --nominal originals/in.mod");
+    let baseline = &format!("{CHECK} --baseline base.json");
+    for (input, how, command) in [
+        ("in.mod", "changed", COMPENSATE),
+        ("p.yaml", "removed", COMPENSATE),
+        ("in.mod", "replaced", COMPENSATE),
+        ("originals/Deburr.mod", "changed", with),
+        ("offset.yaml", "changed", offset),
+        ("in.mod", "changed", CHECK),
+        ("p.yaml", "changed", CHECK),
+        ("cell.yaml", "changed", CHECK),
+        ("mesh.stl", "changed", CHECK),
+        ("part.gltf", "removed", CHECK),
+        ("part.bin", "changed", CHECK),
+        ("originals/in.mod", "changed", nominal),
+        ("base.json", "changed", baseline),
     ] {
-        let folder = world();
+        let folder = world_of_all_inputs();
         let path = folder.path();
-        let cam = repository("programs/rapid/cam/in/cam.mod");
-        std::fs::copy(cam, path.join("in.mod")).expect("scratch");
+        if input == "base.json" {
+            let made = format!("{baseline} --update-baseline");
+            let made = run(path, &made.split(' ').collect::<Vec<_>>());
+            assert!(path.join(input).exists(), "{}", reported(&made));
+            std::fs::remove_file(path.join("out.html")).expect("a page");
+        }
         // it waits for whoever reads its report, with all files ready
         let mut child = Command::new(env!("CARGO_BIN_EXE_poseshift"))
             .current_dir(path)
-            .args(["compensate", "in.mod", "--profile", "p.yaml"])
-            .args(["-o", "out.mod", "--json"])
+            .args(command.split(' '))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -191,7 +248,7 @@ fn an_input_that_changes_before_the_end_is_an_error() {
             "changed" => {
                 let mut text = std::fs::read(&file).expect("the input");
                 let at = text.len() / 2;
-                text[at] = b' ';
+                text[at] = if text[at] == b' ' { b'0' } else { b' ' };
                 std::fs::write(&file, text).expect("scratch");
             }
             "removed" => std::fs::remove_file(&file).expect("scratch"),
@@ -203,18 +260,20 @@ fn an_input_that_changes_before_the_end_is_an_error() {
         out.read_to_end(&mut Vec::new()).expect("a report");
         let output = child.wait_with_output().expect("it ended");
         let reported = reported(&output);
-        assert_eq!(output.status.code(), Some(2), "{how}: {reported}");
+        assert_eq!(output.status.code(), Some(2), "{input} {how}: {reported}");
         assert!(
             reported.contains(&format!("{input} was ")),
-            "{how}: {reported}"
+            "{input} {how}: {reported}"
         );
-        assert!(!path.join("out.mod").exists(), "{how}");
+        for output in ["out.mod", "out.html"] {
+            assert!(!path.join(output).exists(), "{input} {how}");
+        }
         let left = std::fs::read_dir(path).expect("scratch");
         let left = left.filter(|entry| {
             let name = entry.as_ref().expect("an entry").file_name();
             name.to_string_lossy().starts_with(".poseshift")
         });
-        assert_eq!(left.count(), 0, "{how}");
+        assert_eq!(left.count(), 0, "{input} {how}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Numbers that no robot has, and options that nothing needs, in every language that has them.
 
 use super::limits::{changed, compensated, run_in};
-use crate::support::{repository, scratch, text};
+use crate::support::{files_below, repository, scratch, text};
 
 const DEBURR: &str = "programs/rapid/olp/in/Deburr.mod";
 const THESIS: &str = "robots/abb_irb120_thesis.yaml";
@@ -229,4 +229,112 @@ fn a_part_that_was_moved_stands_in_the_marker_and_check_says_so() {
         let is_said = said.contains("warning[part-moved]") && said.contains("by 5mm,0.5deg");
         assert_eq!(is_said, is_moved, "{said}");
     }
+}
+
+/// Compensates, or checks, a sample with one change; its status and all that is said.
+fn slipped(command: &str, language: &str, [file, old, new]: [&str; 3]) -> (i32, String) {
+    let (at, case) = (scratch(), format!("programs/{language}/olp/in"));
+    for name in files_below(&repository(&case)) {
+        let to = at.path().join("in").join(&name);
+        std::fs::create_dir_all(to.parent().expect("a folder")).expect("scratch");
+        std::fs::copy(repository(&case).join(&name), to).expect("scratch");
+    }
+    let to = at.path().join("in").join(file);
+    let new_text = changed(&format!("{case}/{file}"), old, new);
+    std::fs::write(to, new_text).expect("scratch");
+    let profile = match language {
+        "rapid" => repository(THESIS),
+        _ => repository(&format!("programs/{language}/profile.yaml")),
+    };
+    let mut words = vec![command, "in", "--profile"];
+    words.push(profile.to_str().expect("a plain name"));
+    words.extend(match command {
+        "check" => &[][..],
+        _ => &["-o", "out"],
+    });
+    if language == "fanuc" {
+        words.extend(["--frame", "4=1400,350,-200,0,0,-15"]);
+    }
+    run_in(at.path(), &words)
+}
+
+#[test]
+fn numbers_in_another_unit_are_questioned_in_every_language() {
+    let said_of = |language: &str, slip: [&str; 3], id: &str, statuses: [i32; 2], word: &str| {
+        for (command, status) in ["compensate", "check"].into_iter().zip(statuses) {
+            let (ended, said) = slipped(command, language, slip);
+            assert!(
+                ended == status && said.contains(id) && said.contains(word),
+                "{command} {language} {slip:?}: {ended}, {said}"
+            );
+        }
+    };
+    let too_large = "error[angle-too-large]: an angle of ";
+    let (seal, job) = ("seal.ls", "DEBURR.JBI");
+    let (station, edges) = ("Station_20.src", "Deburr/Deburr.dtx");
+    let trim = "TRIM.pg";
+    for (language, slip, angle) in [
+        ("fanuc", [seal, "W = 180.000", "W = 3780.000"], "3780"),
+        (
+            "inform",
+            [job, "180.00,-6.00,25.00", "18180.00,-6.00,25.00"],
+            "18180",
+        ),
+        (
+            "krl",
+            [
+                station,
+                "A 180.000000, B 0.000000, C 180.000000, S",
+                "A 3617, B 0, C 180, S",
+            ],
+            "3617",
+        ),
+        (
+            "val3",
+            [edges, "rz=\"174.0305\"", "rz=\"3617.4\""],
+            "3617.4",
+        ),
+        (
+            "kawasaki",
+            [
+                trim,
+                "1.0550,153.5429,-156.7195",
+                "1.0550,153.5429,-1567.195",
+            ],
+            "-1567.195",
+        ),
+    ] {
+        said_of(language, slip, too_large, [1, 1], angle);
+    }
+    // the tool, and the tool on which it stands together are none that is doubted
+    let on_tool = [
+        edges,
+        "x=\"12.5\" z=\"118.75\" ry=\"30\"",
+        "x=\"0.0125\" z=\"0.11875\" ry=\"30\"",
+    ];
+    said_of(
+        "val3",
+        on_tool,
+        "[tool-unit]",
+        [1, 0],
+        "0.11875 mm from the tool that it stands on",
+    );
+    let centre = ["Deburr.mod", "[1.4,[0,0,60]", "[1.4,[0,0,0.06]"];
+    said_of("rapid", centre, "warning[load-unit]", [0, 0], "0.06 mm");
+    // and a tool or frame that is refused is why nothing can be checked
+    let (base, tool) = ([station, "A -25", "A -2500"], [station, "B 45", "B 4500"]);
+    said_of(
+        "krl",
+        base,
+        "`BASE_DATA[5]` has an angle of -2500 deg",
+        [1, 2],
+        "720 deg",
+    );
+    said_of(
+        "krl",
+        tool,
+        "`TOOL_DATA[7]` has an angle of 4500 deg",
+        [1, 2],
+        "720 deg",
+    );
 }

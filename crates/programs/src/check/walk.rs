@@ -180,6 +180,9 @@ impl Walk {
             let target = program.target_of(motion);
             target.is_some_and(|target| !program.numbers_of(target).is_empty())
         };
+        if let Some(refused) = refused_place(&program, sources, &findings, has_numbers) {
+            return Err(CompensateError::Refused(Box::new(refused.clone())));
+        }
         let ground = Ground::new::<CompensateError>(
             language,
             &settings,
@@ -419,4 +422,31 @@ fn stop_pose(ground: &Ground, arrival: &Arrival) -> Option<Pose> {
     let is_pose = ground.program.targets[target].layout.shape == Shape::Pose;
     (!is_pose || ground.setting.frames[frame].is_some())
         .then(|| ground.meant(&value, motion.tool, frame))
+}
+
+/// The error of a move whose tool or work frame the reader refuses: it has no name that an option
+/// could give it by.
+fn refused_place<'a>(
+    program: &Program,
+    sources: &[Source],
+    findings: &'a [Finding],
+    needs: impl Fn(&Move) -> bool,
+) -> Option<&'a Finding> {
+    let is_refused = |motion: &&Move| {
+        let (tool, frame) = (&program.tools[motion.tool], &program.frames[motion.frame]);
+        let no_tool = tool.flange_from_tool.is_none() && tool.name.is_empty();
+        let no_frame = frame.world_from_frame.is_none() && frame.name.is_empty();
+        let target = program.target_of(motion);
+        target.is_some_and(|target| target.blocked) && (no_tool || no_frame) && needs(motion)
+    };
+    program.moves.iter().filter(is_refused).find_map(|motion| {
+        let target = program.target_of(motion)?;
+        let source = &sources[target.file as usize];
+        let (line, _) = source.line_column(target.offset as usize);
+        findings.iter().find(|finding| {
+            finding.severity == Severity::Error
+                && finding.line == line
+                && finding.file == source.name
+        })
+    })
 }

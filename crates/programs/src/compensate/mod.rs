@@ -177,6 +177,9 @@ pub enum CompensateError {
     /// A tool or frame is unknown.
     #[error(transparent)]
     Placement(#[from] PlacementError),
+    /// A tool or work frame is refused, without which the moves cannot be walked.
+    #[error("{}:{}:{}: {}", .0.file, .0.line, .0.column, .0.message)]
+    Refused(Box<Finding>),
     /// A measured work frame cannot be meant.
     #[error(transparent)]
     MeasuredFrame(#[from] MeasuredFrameError),

@@ -65,7 +65,7 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
                 line: ground.line_of(motion),
                 what,
                 value,
-                limit,
+                limit: (limit * 1e3).round() / 1e3,
                 unit,
             })
         };
@@ -141,6 +141,7 @@ pub(crate) fn bounds(ground: &Ground) -> Result<(), OutOfBounds> {
 /// Checks the units of the tools that moves have, each at the first move that has it.
 pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Finding>) {
     let mut seen = vec![false; ground.program.tools.len()];
+    let sags = sags(ground.profile);
     for motion in &ground.program.moves {
         if std::mem::replace(&mut seen[motion.tool], true) {
             continue;
@@ -154,14 +155,17 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
         } else {
             format!("tool `{name}`")
         };
-        let of_text = ground.program.tools[motion.tool].flange_from_tool.is_some();
-        let in_metres = of_text && ground.language.is_in_metres();
-        if is_tiny(&tool.flange_from_tool.translation) {
-            let off = tool.flange_from_tool.translation;
-            let largest = off.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
+        let in_text = &ground.program.tools[motion.tool];
+        let in_metres = in_text.flange_from_tool.is_some() && ground.language.is_in_metres();
+        let on_flange = Some((tool.flange_from_tool.translation, "the flange"));
+        let on_tool = in_text
+            .on_tool
+            .map(|off| (off, "the tool that it stands on"));
+        let tiny = on_flange.filter(|(off, _)| is_tiny(off));
+        if let Some((off, from)) = tiny.or(on_tool.filter(|(off, _)| is_tiny(off))) {
             let message = format!(
-                "{named} is {} mm from the flange at most in each coordinate; below 1 mm {}",
-                (mm_from_m(largest) * 1e6).round() / 1e6,
+                "{named} is {} mm from {from} at most in each coordinate; below 1 mm {}",
+                largest_mm(&off),
                 if in_metres {
                     "mostly no tool is meant: the language is in metres"
                 } else {
@@ -181,6 +185,26 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
                 message,
                 "write it in the unit of the language (mm; metres in URScript), or 0 for the \
                  flange itself",
+            ));
+        }
+        if in_text.load.is_some()
+            && sags
+            && let Some((mass_kg, cog_m)) = tool.load
+            && mass_kg > 0.0
+            && is_tiny(&cog_m)
+        {
+            findings.push(ground.at_move(
+                "load-unit",
+                Severity::Warning,
+                motion,
+                format!(
+                    "the centre of gravity of {named} is {} mm from the flange at most in each \
+                     coordinate; below 1 mm metres are taken for millimetres, or the load was never \
+                     measured",
+                    largest_mm(&cog_m)
+                ),
+                "write it in the unit of the language (mm; metres in URScript), as the controller's \
+                 identification of loads gives it",
             ));
         }
         let (payload, load) = (ground.profile.payload_kg, tool.load);
@@ -254,16 +278,25 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
     }
 }
 
+/// Whether masses move the arm.
+fn sags(profile: &Profile) -> bool {
+    let bends = |effect: &Effect| !effect.is_zero() && effect.definition().needs_masses();
+    profile.real_effects().iter().any(bends)
+}
+
+/// The largest coordinate of a point, to a millionth.
+fn largest_mm(point_m: &Vector) -> f64 {
+    (mm_from_m(farthest(point_m)) * 1e6).round() / 1e6
+}
+
 /// A tool counts as weightless, and the profile has masses of tools of other names.
 fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     let profile = ground.profile;
     let heavy = |(_, tool): &(&String, &ToolOfProfile)| tool.load.is_some_and(|(kg, _)| kg > 0.0);
     let heavy = profile.tools.iter().filter(heavy);
     let heavy: Vec<&str> = heavy.map(|(name, _)| name.as_str()).collect();
-    let bends = |effect: &Effect| !effect.is_zero() && effect.definition().needs_masses();
-    let sags = profile.real_effects().iter().any(bends);
     // who names it in the profile and gives no mass means none
-    if heavy.is_empty() || !sags || profile.tool(name).is_some() {
+    if heavy.is_empty() || !sags(profile) || profile.tool(name).is_some() {
         return None;
     }
     let named = if name.is_empty() {

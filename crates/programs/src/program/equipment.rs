@@ -11,6 +11,8 @@ pub struct Tool {
     pub flange_from_tool: Option<Pose>,
     /// Its load where the files give one.
     pub load: Option<Load>,
+    /// Where it stands on another tool, metres; `None` where it stands on the flange.
+    pub on_tool: Option<Vector>,
 }
 
 /// The mass a flange carries.

@@ -1,7 +1,7 @@
 //! What readers of all languages share.
 
 use super::script::{Remark, short};
-use super::{About, Marker, ReadError, Source};
+use super::{About, MOST_ANGLE_DEG, Marker, ReadError, Source};
 use std::ops::Range;
 
 /// No text has a zero byte, and places are kept in 32 bits.
@@ -199,18 +199,9 @@ pub(super) fn joints_not_in_files(id: &'static str, name: &str, hint: &'static s
 }
 
 /// A tool or work frame with an angle that none has.
-pub(super) fn angle_too_large(
-    id: &'static str,
-    name: &str,
-    angle: f64,
-    limit: f64,
-    hint: &'static str,
-) -> Remark {
-    Remark::error_about(
-        id,
-        format!("`{name}` has an angle of {angle} deg; the limit is {limit} deg"),
-        hint,
-    )
+pub(super) fn angle_too_large(name: &str, angle: f64, hint: &'static str) -> Remark {
+    let text = format!("`{name}` has an angle of {angle} deg; the limit is {MOST_ANGLE_DEG} deg");
+    Remark::error_about("angle-too-large", text, hint)
 }
 
 /// A load that the text does not say.

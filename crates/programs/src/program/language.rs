@@ -10,6 +10,9 @@ use super::{
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 
+/// No target, tool or work frame has a larger angle, degrees: two whole rotations.
+pub(crate) const MOST_ANGLE_DEG: f64 = 720.0;
+
 /// What a language is called and does; the text of `poseshift languages`.
 #[derive(Debug)]
 pub struct About {
@@ -82,11 +85,10 @@ pub trait Language: Sync {
         }
     }
 
-    /// The largest number that a target's orientation can have: beyond it none is meant (1e5
-    /// degrees are 278 rotations).
+    /// The largest number that a target's orientation can have: beyond it none is meant.
     fn most_orientation(&self, layout: Layout) -> f64 {
         let _ = layout;
-        1e5
+        MOST_ANGLE_DEG
     }
 
     /// Whether a file of this name is a record of the controller that ends as programs do: a log in a

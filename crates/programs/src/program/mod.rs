@@ -64,6 +64,7 @@ pub use error::ReadError;
 pub use external::{External, ExternalNames, ExternalState, ExternalUse};
 pub use insert::{Between, Inserted, Insertion, Insertions, Replacements};
 pub(crate) use kit::check_bytes;
+pub(crate) use language::MOST_ANGLE_DEG;
 pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256, sha256_of};
 pub use script::{Instruction, Place, Script};

@@ -4,11 +4,8 @@ use super::{Refused, Resolver};
 use crate::motion::holding::Atom;
 use crate::program::script::{Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark, ValueId};
 use crate::program::{
-    Frame, FrameId, Load, ReadError, Role, TargetId, Tool, ToolId, Value as Meaning,
+    Frame, FrameId, Load, MOST_ANGLE_DEG, ReadError, Role, TargetId, Tool, ToolId, Value as Meaning,
 };
-
-/// No tool or frame is rotated by more, in the unit of the language: two revolutions in degrees.
-const MOST_ANGLE: f64 = 720.0;
 
 impl Resolver<'_, '_> {
     /// The pose, name and load of what a move has as a tool or frame.
@@ -17,12 +14,7 @@ impl Resolver<'_, '_> {
         atom: Atom,
         is_tool: bool,
     ) -> Result<Result<NamedFrame, Refused>, ReadError> {
-        let nameless = NamedFrame {
-            on: Box::default(),
-            name: Box::default(),
-            pose: None,
-            load: None,
-        };
+        let nameless = NamedFrame::still("", None);
         Ok(match atom {
             Atom::Value(ValueId::MAX) => Ok(nameless),
             Atom::Value(value) => match self.flow.value(value).clone() {
@@ -82,11 +74,11 @@ impl Resolver<'_, '_> {
             .zip(self.language.roles(found.layout))
             .filter(|(_, role)| **role == Role::Orientation)
             .map(|(number, _)| number.value);
-        if let Some(angle) = angles.find(|angle| angle.abs() > MOST_ANGLE) {
+        if let Some(angle) = angles.find(|angle| angle.abs() > MOST_ANGLE_DEG) {
             let remark = Remark::error_about(
                 "angle-too-large",
                 format!(
-                    "tool or frame `{name}` has an angle of {angle}; the limit is {MOST_ANGLE}"
+                    "tool or frame `{name}` has an angle of {angle}; the limit is {MOST_ANGLE_DEG}"
                 ),
                 "is it in the unit of the language? write angles of a few rotations at most",
             );
@@ -95,12 +87,7 @@ impl Resolver<'_, '_> {
         let meaning = crate::program::meaning(self.language, program, self.settings, target);
         self.as_frames.entry(target).or_insert(place);
         match meaning.map(|decoded| decoded.value) {
-            Some(Meaning::Pose(pose)) => Ok(NamedFrame {
-                on: Box::default(),
-                name,
-                pose: Some(pose),
-                load: None,
-            }),
+            Some(Meaning::Pose(pose)) => Ok(NamedFrame::still(name, Some(pose))),
             _ => Err(Refused::NoFrame),
         }
     }
@@ -125,6 +112,7 @@ impl Resolver<'_, '_> {
                 name: frame.name.into(),
                 flange_from_tool: frame.pose,
                 load,
+                on_tool: frame.on_tool,
             });
             tools.len() - 1
         });

@@ -259,6 +259,7 @@ impl Resolver<'_, '_> {
             name: String::new(),
             flange_from_tool: None,
             load: None,
+            on_tool: None,
         });
         let made = tools.len() - 1;
         self.tools.insert(key, Ok(made));

@@ -4,7 +4,7 @@
 use super::posreg;
 use crate::geometry::{Pose, Separation};
 use crate::program::notation::pose_of_angles;
-use crate::program::number;
+use crate::program::{MOST_ANGLE_DEG, number};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -154,9 +154,6 @@ pub(super) struct BadNumber {
 
 /// Millimetres or degrees.
 pub(super) const LARGEST: f64 = 1e6;
-/// No tool or frame is rotated by more, degrees.
-const MOST_ANGLE: f64 = 720.0;
-
 /// The kinds of files that show frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -286,7 +283,7 @@ pub(super) fn coordinates(
         let Some(slot) = b"XYZWPR".iter().position(|&k| alone && k == key) else {
             continue;
         };
-        let largest = if slot < 3 { LARGEST } else { MOST_ANGLE };
+        let largest = if slot < 3 { LARGEST } else { MOST_ANGLE_DEG };
         let value = value(&text[colon + 1..], start + colon + 1, largest)?;
         values[slot] = value.or(values[slot]);
     }

@@ -10,11 +10,8 @@ use crate::geometry::Pose;
 use crate::geometry::units::m_from_mm;
 use crate::program::kit::Fault;
 use crate::program::notation::pose_of_angles;
-use crate::program::{Load, Number, ReadError, Source, number};
+use crate::program::{Load, MOST_ANGLE_DEG, Number, ReadError, Source, number};
 use foldhash::HashMap;
-
-/// No tool or frame is rotated by more, degrees.
-const MOST_ANGLE: f64 = 720.0;
 
 /// What condition files tell, by number; `None` where files differ.
 #[derive(Debug, Default)]
@@ -60,7 +57,7 @@ pub(super) fn read(source: &Source, conditions: &mut Conditions) -> Result<(), R
                 let expected = "x, y, z (and Rx, Ry, Rz)";
                 return Err(unexpected(source, line.start, line.text, expected));
             }
-            let endless = |n: &Number| n.value.abs() > MOST_ANGLE;
+            let endless = |n: &Number| n.value.abs() > MOST_ANGLE_DEG;
             if let Some(angle) = found.iter().skip(3).find(|n| count == 6 && endless(n)) {
                 let start = angle.start as usize;
                 let fault = Fault::bad_value(

@@ -249,9 +249,7 @@ fn constant(builder: &mut Builder, value: Held) -> VariableId {
 fn riding(builder: &mut Builder) -> Expr {
     let value = builder.script.value(Held::Frame(NamedFrame {
         on: [BASE_UNIT.into()].into(),
-        name: "ROBOT".into(),
-        pose: Some(Pose::identity()),
-        load: None,
+        ..NamedFrame::still("ROBOT", Some(Pose::identity()))
     }));
     Expr::Value(value)
 }
@@ -259,10 +257,8 @@ fn riding(builder: &mut Builder) -> Expr {
 /// A tool or work frame.
 fn frame(builder: &mut Builder, name: String, known: Option<(Pose, Option<Load>)>) -> Expr {
     let value = builder.script.value(Held::Frame(NamedFrame {
-        on: Box::default(),
-        name: name.into(),
-        pose: known.map(|(pose, _)| pose),
         load: known.and_then(|(_, load)| load),
+        ..NamedFrame::still(name, known.map(|(pose, _)| pose))
     }));
     Expr::Value(value)
 }

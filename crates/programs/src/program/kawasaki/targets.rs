@@ -13,12 +13,9 @@ use crate::program::script::{
 };
 use crate::program::transformations::{Steps, along};
 use crate::program::words::{Kind, Word, Words, six};
-use crate::program::{Layout, Number, Shape, Source, Target, TargetId};
+use crate::program::{Layout, MOST_ANGLE_DEG, Number, Shape, Source, Target, TargetId};
 use foldhash::HashMap;
 use std::ops::Range;
-
-/// Tools and bases have no larger angle, degrees: two whole rotations.
-const MOST_ANGLE: f64 = 720.0;
 
 /// A name as the text uses it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -139,7 +136,7 @@ fn endless_angle(part: Words) -> Option<f64> {
         let angles = angles.filter_map(|angle| Some(angle.number()?.value));
         angles.collect::<Vec<_>>()
     });
-    angles.find(|angle| angle.abs() > MOST_ANGLE)
+    angles.find(|angle| angle.abs() > MOST_ANGLE_DEG)
 }
 
 impl<'a> Reader<'a> {
@@ -418,13 +415,7 @@ impl<'a> Reader<'a> {
         if let Some(angle) = endless_angle(part) {
             let hint = "O, A and T are in degrees: write them between -360 and 360";
             let name = Source::text(part.whole());
-            return self.unknown(angle_too_large(
-                "angle-too-large",
-                &name,
-                angle,
-                MOST_ANGLE,
-                hint,
-            ));
+            return self.unknown(angle_too_large(&name, angle, hint));
         }
         match Name::of(part) {
             Some((name, words)) if words == part.len() && name.key.is_some() => {

@@ -16,7 +16,7 @@ use crate::program::script::{
     Expr, Held, NamedFrame, Part, PartValue, Place, Remark, Script, TableId, ValueId, Variable,
     VariableId, short,
 };
-use crate::program::{Load, Number, Shape, TargetId};
+use crate::program::{Load, MOST_ANGLE_DEG, Number, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt};
 
 /// A table of the controller.
@@ -340,9 +340,6 @@ pub(super) fn write_pose(pose: &Pose, numbers: &mut [f64]) {
     numbers[3..6].reverse();
 }
 
-/// No tool or base is rotated by more, degrees.
-const MOST_ANGLE: f64 = 720.0;
-
 /// See [`crate::program::Language::frame_of`]: X Y Z A B C, and of a tool of the table its load.
 pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark> {
     let mut numbers = [0.0; 10];
@@ -366,25 +363,21 @@ pub(super) fn frame_of(name: &str, parts: &[Part]) -> Result<NamedFrame, Remark>
             ..FRAME_ASSIGNED
         });
     }
-    if let Some(angle) = numbers[3..6].iter().find(|angle| angle.abs() > MOST_ANGLE) {
+    if let Some(angle) = numbers[3..6]
+        .iter()
+        .find(|angle| angle.abs() > MOST_ANGLE_DEG)
+    {
         let hint = "A, B and C are in degrees: write them between -360 and 360";
-        return Err(kit::angle_too_large(
-            "angle-too-large",
-            name,
-            *angle,
-            MOST_ANGLE,
-            hint,
-        ));
+        return Err(kit::angle_too_large(name, *angle, hint));
     }
     let [frame @ .., mass_kg, x, y, z] = numbers;
+    let pose = (missing == 0).then(|| pose_of(frame));
     Ok(NamedFrame {
-        on: Box::default(),
-        name: name.into(),
-        pose: (missing == 0).then(|| pose_of(frame)),
         load: (parts.len() == 10).then_some(Load {
             mass_kg,
             cog_m: [x, y, z],
         }),
+        ..NamedFrame::still(name, pose)
     })
 }
 

@@ -186,9 +186,8 @@ pub(super) fn frame_of(
     };
     Ok(pose.map(|pose| NamedFrame {
         on: unit.into_iter().collect(),
-        name: name.into(),
-        pose,
         load: is_tool.then(|| parts.load(TOOL_LOAD)).flatten(),
+        ..NamedFrame::still(name, pose)
     }))
 }
 

@@ -90,6 +90,7 @@ fn a_move_names_its_target_tool_and_work_object() {
         name,
         flange_from_tool: Some(pose),
         load: Some(load),
+        ..
     } = &program.tools[only.tool]
     else {
         panic!("a known tool");

@@ -20,7 +20,7 @@ pub use statement::{
 
 use super::{Displacement, External, Load, Number, Source, Stride, Target, TargetId};
 use crate::finding::{Finding, Severity};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -285,6 +285,8 @@ pub struct NamedFrame {
     pub on: Box<[Box<str>]>,
     /// Of a tool: its load, where the files give one.
     pub load: Option<Load>,
+    /// Of a tool on another tool: where it stands on that one, metres.
+    pub on_tool: Option<Vector>,
 }
 
 impl NamedFrame {
@@ -296,6 +298,7 @@ impl NamedFrame {
             pose,
             on: Box::default(),
             load: None,
+            on_tool: None,
         }
     }
 }

@@ -9,11 +9,11 @@ use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
 use crate::program::kit;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, Remark, UNBOUNDED, VariableId,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NamedFrame, Remark, UNBOUNDED, VariableId,
 };
 use crate::program::transformations::Steps;
 use crate::program::words::Words;
-use crate::program::{Displacement, Shape, Shift, Source};
+use crate::program::{Displacement, MOST_ANGLE_DEG, Shape, Shift, Source};
 
 /// A `compose` of the code.
 #[derive(Debug)]
@@ -25,8 +25,6 @@ pub(super) struct Composed<'a> {
     by: Steps,
 }
 
-/// No tool or frame is rotated by more, degrees.
-const MOST_ANGLE: f64 = 720.0;
 /// Frames on frames.
 const LONGEST_CHAIN: u32 = 32;
 
@@ -139,10 +137,17 @@ impl<'a> Reader<'a> {
 
     /// A tool as it is declared: on the flange, or on other tools.
     pub(super) fn tool_value(&mut self, datum: u32, at: usize, name: &str) -> Expr {
-        match self.placed(datum, at, name, 0) {
-            Ok(pose) => self.frame_value(name, pose),
-            Err(remark) => self.unknown(remark),
-        }
+        let pose = match self.placed(datum, at, name, 0) {
+            Ok(pose) => pose,
+            Err(remark) => return self.unknown(remark),
+        };
+        let element = &self.world.data[datum as usize].elements[at];
+        let is_on_tool = !matches!(element.father.name, b"flange" | b"");
+        let made = NamedFrame {
+            on_tool: is_on_tool.then(|| pose_of(&element.numbers).translation),
+            ..NamedFrame::still(name, pose)
+        };
+        Expr::Value(self.builder.script.value(Held::Frame(made)))
     }
 
     /// Where a frame is in the world, or a tool on the flange: the product of its fathers and
@@ -300,17 +305,14 @@ fn asked_name(alias: &[u8], name: &[u8], index: &[u8]) -> String {
 /// The pose of a tool or frame on its father.
 fn own_pose(element: &Element, name: &str) -> Result<Pose, Remark> {
     let angles = element.numbers[3..].iter().map(|number| number.value);
-    match angles.into_iter().find(|angle| angle.abs() > MOST_ANGLE) {
+    match angles
+        .into_iter()
+        .find(|angle| angle.abs() > MOST_ANGLE_DEG)
+    {
         None => Ok(pose_of(&element.numbers)),
         Some(angle) => {
             let hint = "rx, ry and rz are in degrees: write them between -360 and 360";
-            Err(kit::angle_too_large(
-                "angle-too-large",
-                name,
-                angle,
-                MOST_ANGLE,
-                hint,
-            ))
+            Err(kit::angle_too_large(name, angle, hint))
         }
     }
 }
