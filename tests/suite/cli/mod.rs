@@ -15,6 +15,7 @@ mod jobs_and_tables_of_poses;
 mod judged_on_reading;
 mod limits;
 mod marked;
+mod memory;
 mod mistakes;
 mod out_of_bounds;
 mod outputs;
