@@ -49,7 +49,7 @@ impl Said {
             }
         };
         let mut mapping = Mapping::default();
-        mapping.in_order = self.in_order;
+        mapping.driven = self.in_order.then(|| profile.mechanism.clone());
         if let Some(columns) = &self.columns {
             mapping.add_text(columns).map_err(of("--columns"))?;
         }

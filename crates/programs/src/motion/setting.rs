@@ -497,16 +497,17 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
     gap.distance_m < SAME && gap.angle_rad < SAME
 }
 
-/// The tool as the files have it, else as the command line or the profile does; the load likewise.
+/// The tool as the files have it, else as the command line or the profile does. Its load is that of
+/// the files; where they give none that of the profile's tool of its name.
 fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
     let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
     let of_profile = profile.tool(&tool.name);
+    let load_by_name = of_profile.as_ref().and_then(|tool| tool.load);
     let found = if let Some(flange_from_tool) = tool.flange_from_tool {
-        let load = of_profile.and_then(|tool| tool.load);
         Some(Mounted {
             name: tool.name.clone(),
             flange_from_tool,
-            load,
+            load: None,
         })
     } else {
         let named = given.tools.get(&Some(tool.name.clone())).cloned();
@@ -515,7 +516,7 @@ fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
             .or_else(|| given.tools.get(&None).cloned())
     };
     found.map(|found| Mounted {
-        load: load.or(found.load),
+        load: load.or(found.load).or(load_by_name),
         ..found
     })
 }

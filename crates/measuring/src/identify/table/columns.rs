@@ -10,6 +10,7 @@ use super::{fault, note};
 use crate::identify::fault::MeasurementError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::{JOINT_COLUMNS, POSITION_COLUMNS};
+use crate::model::Mechanism;
 use crate::nearest;
 
 /// A column of a file.
@@ -42,8 +43,8 @@ pub struct Mapping {
     units: Units,
     /// How angles turn, and whether every file must have such.
     pub euler: Option<(Euler, bool)>,
-    /// Whether rows are in the order in which the robot drove to them.
-    pub in_order: bool,
+    /// The arm, where rows are in the order in which it drove to them.
+    pub driven: Option<Mechanism>,
 }
 
 #[derive(Clone, Debug, PartialEq)]

@@ -25,6 +25,7 @@ use super::fault::{MeasurementError, MeasurementFault};
 use super::input_checks::Remark;
 use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
 use crate::geometry::units::DEG;
+use crate::model::Mechanism;
 
 /// A joint that moves by less has not moved: a controller's readings differ in their last digits.
 /// Radians.
@@ -47,7 +48,7 @@ pub struct Table {
     /// How angles turn, where a mapping says it.
     pub euler: Option<Euler>,
     /// Whether directions follow from the order of the rows.
-    pub in_order: bool,
+    pub is_driven: bool,
     /// What a person should know of how the files were read.
     pub remarks: Vec<Remark>,
 }
@@ -124,7 +125,7 @@ impl Table {
             points: Vec::new(),
             rows: Vec::new(),
             euler: None,
-            in_order: mapping.in_order,
+            is_driven: mapping.driven.is_some(),
             remarks,
         };
         table.rows = if table.grids.len() > 1 {
@@ -144,8 +145,8 @@ impl Table {
             .filter(|(own, required)| *required || own.columns().iter().all(has));
         table.euler = euler.map(|(own, _)| own);
         table.spread_points()?;
-        if table.in_order {
-            table.derive_directions()?;
+        if let Some(driven) = &mapping.driven {
+            table.derive_directions(driven)?;
         }
         table.remarks.extend(table.not_read());
         Ok(table)
@@ -257,7 +258,7 @@ impl Table {
     pub fn names(&self) -> Vec<String> {
         let own = self.columns.iter().map(|column| column.name.clone());
         let mut names: Vec<String> = own.collect();
-        if self.in_order {
+        if self.is_driven {
             names.extend(DIRECTION_COLUMNS.map(str::to_owned));
         }
         if !self.points.is_empty() {
@@ -335,8 +336,9 @@ impl Table {
         Ok(())
     }
 
-    /// The direction in which each joint last moved, from one row of the joints to the next.
-    fn derive_directions(&mut self) -> Result<(), MeasurementError> {
+    /// The direction in which each joint last moved, from one row of the joints to the next: that of
+    /// the angle which turns the joint.
+    fn derive_directions(&mut self, arm: &Mechanism) -> Result<(), MeasurementError> {
         if DIRECTION_COLUMNS
             .iter()
             .any(|column| self.index(column).is_some())
@@ -373,6 +375,7 @@ impl Table {
                     self.error(&row, *column, fault)
                 })? * DEG;
             }
+            let q = arm.commanded(&q);
             let from = before.get_or_insert(q);
             for joint in 0..6 {
                 let moved = q[joint] - from[joint];
