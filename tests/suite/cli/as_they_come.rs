@@ -1,8 +1,11 @@
 //! Tables as trackers, their software and controllers write them.
 
+use crate::support::text;
 use poseshift::geometry::Rotation;
 use poseshift::identify::measurements::{Measurements, Observed};
 use poseshift::identify::table::{Euler, Grid, Mapping, Table, Units};
+use poseshift::model::Coupling;
+use poseshift::model::profile::Profile;
 
 const JOINTS: &str = "id,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n1,10,20,30,40,50,60\n2,11,19,30,40,50,60\n3,12,20,30,40,50,60\n";
 
@@ -218,7 +221,10 @@ fn several_reflectors_stand_in_columns_or_rows() {
 #[test]
 fn directions_follow_from_the_order_in_which_the_robot_drove() {
     let mut order = Mapping::default();
-    order.in_order = true;
+    let mut arm = Profile::from_yaml(&text("robots/abb_irb120_thesis.yaml"))
+        .expect("a profile")
+        .mechanism;
+    order.driven = Some(arm.clone());
     // the pose between was driven to, though it was not measured
     let (read, _) = joined(b"id,x_mm,y_mm,z_mm\n1,1,2,3\n3,4,5,6\n", &order);
     let directions: Vec<[f64; 6]> = read
@@ -236,6 +242,24 @@ fn directions_follow_from_the_order_in_which_the_robot_drove() {
     assert_eq!(
         read.rows[2].conditions.direction,
         [1.0, -1.0, 0.0, 0.0, 0.0, 0.0]
+    );
+    // where joint 3 counts together with joint 2, the angle that turns it is their sum
+    arm.couple(Coupling {
+        joint: 2,
+        on: 1,
+        ratio: 1.0,
+    });
+    order.driven = Some(arm);
+    let coupled = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n0,0,0,0,0,0,1,2,3\n0,20,-10,0,0,0,1,2,3\n";
+    let table = Table::of(
+        Grid::read("M", coupled.as_bytes()).expect("a table"),
+        &order,
+    )
+    .expect("columns");
+    let read = Measurements::from_table(&table).expect("rows");
+    assert_eq!(
+        read.rows[1].conditions.direction,
+        [0.0, 1.0, 1.0, 0.0, 0.0, 0.0]
     );
 }
 

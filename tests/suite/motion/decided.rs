@@ -5,6 +5,7 @@ use super::{BACKLASH, P, PLAIN, done, errors, given, message, profile, rapid, tr
 use poseshift::compensate::{AtSingularity, Compensation, Options, compensate};
 use poseshift::finding::Severity;
 use poseshift::geometry::{Pose, Separation};
+use poseshift::model::profile::Mounted;
 use poseshift::program::{self, Marker, Source};
 
 fn sources(files: &[(&str, &str)]) -> Vec<Source> {
@@ -96,6 +97,50 @@ fn a_shared_target_is_split_into_one_for_each_move() {
 }
 
 #[test]
+fn a_point_that_is_split_off_has_the_frame_that_is_selected_at_the_move() {
+    let at = "CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = \
+              180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n";
+    let of = |select: &str, of_copy: &str| {
+        format!(
+            "/PROG T\n/MN\n   1:  UFRAME_NUM=0 ;\n   2:  UTOOL_NUM=1 ;\n   3:  PR[5]=P[2] ;\n   \
+             4:J P[1] 10% FINE ;\n   5:  {select}_NUM=2 ;\n   6:L PR[5] 100mm/sec FINE ;\n   7:  \
+             {select}_NUM={of_copy} ;\n   8:L P[2] 100mm/sec FINE ;\n/POS\nP[1]{{\n   GP1:\n    UF : 0, UT : 1,\n    J1 = 0.000 deg, J2 = -20.000 deg, J3 = 0.000 deg,\n    J4 = 0.000 deg, J5 = 60.000 deg, J6 = 0.000 deg\n}};\nP[2]{{\n   GP1:\n    UF : 0, UT : 1, {at}/END\n"
+        )
+    };
+    for (select, of_copy, first) in [
+        ("UTOOL", "1", "UF : 0, UT : 2,"),
+        ("UFRAME", "0", "UF : 2, UT : 1,"),
+    ] {
+        let mut options = Options {
+            split_targets: true,
+            ..given()
+        };
+        let mut tool = |name: &str, z_m: f64| {
+            let tool = Mounted {
+                name: name.to_owned(),
+                flange_from_tool: Pose::from_translation(0.0, 0.01, z_m),
+                load: None,
+            };
+            options.given.tools.insert(Some(name.to_owned()), tool);
+        };
+        tool("1", 0.1);
+        if select == "UTOOL" {
+            tool("2", 0.15);
+        } else {
+            let pose = Pose::from_translation(0.0, 0.01, 0.02);
+            options.given.frames.insert(Some("2".to_owned()), pose);
+        }
+        let text = of(select, of_copy);
+        let files = [("t.ls", text.as_str())];
+        let done = try_with(options, &[PLAIN], &files).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{select} {:?}", done.findings);
+        let after = written(done, &files).swap_remove(0);
+        let point = after.split("P[3]{").nth(1).expect("a point of its own");
+        assert!(point.contains(first), "{select}: {after}");
+    }
+}
+
+#[test]
 fn corners_that_are_cut_are_noted_where_directions_count() {
     let (_, text) = from_both_sides().swap_remove(0);
     let cut = text.replace("MoveJ p,v100,fine", "MoveJ p,v100,z10");
@@ -164,7 +209,7 @@ fn at_the_singularity_of_the_wrist_the_user_chooses_a_way_out() {
 
     let effects = ["{effect: link_geometry, link: 5, alpha_deg: 0.05}"];
     let profile = profile(&effects);
-    let tool = poseshift::model::profile::Mounted::flange();
+    let tool = Mounted::flange();
     let controller = profile.controller_model(&tool);
     let mut refused = 0;
     for (q4, q5) in [

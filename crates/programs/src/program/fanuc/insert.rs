@@ -6,7 +6,9 @@
 use super::points::Points;
 use super::sections::{Sections, line_end};
 use crate::program::insert::{Added, Line, Repeated, line_start, sole_use, with_numbers};
-use crate::program::{Inserted, Insertion, Insertions, Motion, Program, Replacements, Target};
+use crate::program::{
+    Inserted, Insertion, Insertions, Motion, Move, Program, Replacements, Target,
+};
 use std::ops::Range;
 
 /// Most points of a program.
@@ -42,6 +44,8 @@ fn points(program: &Program, index: usize) -> Option<Vec<Range<usize>>> {
 struct Copied<'a> {
     repeated: Repeated<'a>,
     target: &'a Target,
+    /// The move.
+    motion: &'a Move,
     /// The text of its target below `/POS` behind the name.
     body: Range<usize>,
 }
@@ -73,6 +77,32 @@ fn in_field(old: &[u8], new: &[u8]) -> Vec<u8> {
     let mut text = vec![b' '; blanks];
     text.extend_from_slice(digits);
     text
+}
+
+/// The text of a point with the number of another tool or user frame, whose field is called so;
+/// `None` where the point has such a field and the other one no number. Fields with `F` are for any.
+fn with_frame(text: &[u8], field: &[u8], name: &str) -> Option<Vec<u8>> {
+    let found = memchr::memmem::find_iter(text, field).find_map(|at| {
+        let rest = &text[at + field.len()..];
+        let colon = rest.len() - rest.trim_ascii_start().len();
+        let behind = rest[colon..].strip_prefix(b":")?;
+        let start = text.len() - behind.trim_ascii_start().len();
+        let digits = text[start..].iter().take_while(|b| b.is_ascii_digit());
+        let end = start + digits.count();
+        (end > start).then_some(start..end)
+    });
+    let Some(own) = found else {
+        return Some(text.to_vec());
+    };
+    let number: u32 = name.parse().ok()?;
+    Some(
+        [
+            &text[..own.start],
+            number.to_string().as_bytes(),
+            &text[own.end..],
+        ]
+        .concat(),
+    )
 }
 
 impl<'a> Copied<'a> {
@@ -119,6 +149,7 @@ impl<'a> Copied<'a> {
                 longest: usize::MAX,
             },
             target,
+            motion,
             body,
         })
     }
@@ -138,6 +169,9 @@ impl<'a> Copied<'a> {
             let fields = fields.map(|(old, new)| in_field(old.text(&source.bytes), new));
             let fields: Vec<Vec<u8>> = fields.collect();
             let body = with_numbers(&source.bytes, &self.body, own, &fields)?;
+            // a copy in a register goes with what is selected at the move
+            let body = with_frame(&body, b"UF", &program.frames[self.motion.frame].name)?;
+            let body = with_frame(&body, b"UT", &program.tools[self.motion.tool].name)?;
             let number = first + points.count;
             if number > MOST_POINTS {
                 return None;
