@@ -338,3 +338,19 @@ fn numbers_in_another_unit_are_questioned_in_every_language() {
         "720 deg",
     );
 }
+
+#[test]
+fn a_tool_given_by_name_keeps_the_mass_that_the_profile_has_for_that_name() {
+    let profile = text("programs/fanuc/profile.yaml");
+    let program = text("programs/fanuc/olp/in/seal.ls");
+    let of = |tool: &[&str]| {
+        let frame = ["--frame", "4=1400,350,-200,0,0,-15"];
+        let (status, said, written) =
+            compensated("seal.ls", &program, &profile, &[&frame[..], tool].concat());
+        assert_eq!(status, 0, "{said}");
+        written.expect("a program")
+    };
+    let of_profile = of(&[]);
+    assert_eq!(of(&["--tool", "1=85,0,420,0,30,0"]), of_profile);
+    assert_ne!(of(&["--tool", "1=85,0,420.1,0,30,0"]), of_profile);
+}
