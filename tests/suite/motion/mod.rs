@@ -19,6 +19,7 @@ mod registers;
 mod rotations;
 mod rows;
 mod straight;
+mod taken_up;
 mod wrist;
 
 use crate::support::repository;

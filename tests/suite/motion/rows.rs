@@ -553,11 +553,14 @@ fn numbers_for_a_known_side_serve_an_unknown_one_with_a_warning() {
 }
 
 #[test]
-fn a_point_displaced_twice_by_what_the_program_knows_has_the_first_side_with_a_warning() {
+fn a_point_displaced_twice_by_what_the_program_knows_is_judged_from_both_sides() {
     let text = from_a_height("h", "").replace("MoveL at,", "MoveL Offs(at,0,0,-h),");
     let done = done(&[BACKLASH], &[("t.mod", &text)]);
-    let reported = message(&done, "direction-uncertain");
-    for word in ["line 4", "joint 2", "as in line 4"] {
-        assert!(reported.contains(word), "{word}: {reported}");
-    }
+    assert!(done.findings.iter().all(|f| f.id != "direction-uncertain"));
+    let found = done
+        .findings
+        .iter()
+        .filter(|f| f.id == "displacement-unknown");
+    let both = found.filter(|f| f.message.contains("whichever side joint 2"));
+    assert_eq!(both.count(), 2, "{:?}", done.findings);
 }

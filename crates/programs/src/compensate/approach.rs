@@ -9,7 +9,6 @@ use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shape, TargetId, Value};
-use std::collections::BTreeSet;
 
 /// Joints that differ by less are the same, radians.
 pub(super) const SAME_RAD: f64 = 1e-7;
@@ -191,7 +190,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     }
     led.report(job, findings);
     sort(&mut approaches);
-    add_derived(job, arrivals, derived, &mut approaches, findings);
+    add_derived(job, derived, &mut approaches);
     add_unused(job, &used, &mut approaches, findings);
     sort(&mut approaches);
     if !job.options.split_targets {
@@ -297,15 +296,8 @@ fn has_same_posture(job: &Job, a: &Approach, b: &Approach) -> bool {
 
 /// Targets that moves only go near: as if the robot went there itself, in the posture that it has
 /// nearby.
-fn add_derived(
-    job: &Job,
-    arrivals: &Arrivals,
-    derived: Vec<Approach>,
-    approaches: &mut Vec<Approach>,
-    findings: &mut Vec<Finding>,
-) {
+fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
     let direct = approaches.len();
-    let mut reported = BTreeSet::new();
     for mut approach in derived {
         let known = approaches[..direct]
             .binary_search_by_key(&approach.target, |other| other.target)
@@ -313,15 +305,8 @@ fn add_derived(
         if known {
             continue;
         }
-        let first = approaches[direct..]
-            .iter()
-            .find(|other| other.target == approach.target);
-        if let Some(first) = first {
-            let is_guessed =
-                begins_unknown(job, arrivals, &approach) && !solve::has_unknown_side(job, first);
-            if is_guessed && reported.insert(approach.target) {
-                findings.push(solve::unknown_side(job, arrivals, &approach, Some(first)));
-            }
+        let mut others = approaches[direct..].iter();
+        if others.any(|other| other.target == approach.target) {
             continue;
         }
         let wanted = approach.meant(job);

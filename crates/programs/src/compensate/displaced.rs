@@ -3,11 +3,12 @@
 //! frame and where external axes stand at the move to them.
 
 use super::approach::{Approach, stays};
-use super::{Job, LIMIT_DERIVED_M, strides};
+use super::{Job, LEAST_SIDE_M, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{Pose, Separation, norm};
+use crate::geometry::{Pose, add, norm, sub};
 use crate::inverse::Branch;
+use crate::model::Conditions;
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, SOMEHOW_M, Shape, Shift, TargetId};
@@ -16,10 +17,6 @@ use std::f64::consts::TAU;
 
 /// So far from a target is looked how long its correction is right, metres.
 const DISTANCES_M: [f64; 10] = [1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
-
-/// What a side adds is reported beyond this, as one set of numbers serves approaches that differ by
-/// no more.
-const LEAST_M: f64 = 2e-6;
 
 fn is_displaced(motion: &Move) -> bool {
     motion.displacement != Displacement::None
@@ -31,12 +28,20 @@ pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
     displaced.filter_map(|motion| motion.target).collect()
 }
 
-/// The known arrivals at moves to points that are derived from a target, by move.
-pub(super) fn arrivals(job: &Job, arrivals: &Arrivals) -> BTreeMap<usize, Vec<Arrival>> {
+/// The known arrivals at moves to points that are derived from a target, by move; `sides` says from
+/// which side joints come to one on the path between fake targets, 0 where that is not certain.
+pub(super) fn arrivals(
+    job: &Job,
+    arrivals: &Arrivals,
+    sides: &dyn Fn(usize) -> [i8; 6],
+) -> BTreeMap<usize, Vec<Arrival>> {
     let moves = job.ground.program.moves.iter().enumerate();
     let displaced = moves.filter(|(_, motion)| is_displaced(motion));
     let known = |at: usize| {
-        let here = arrivals.at(at).map(|index| arrivals.all[index]);
+        let here = arrivals.at(at).map(|index| Arrival {
+            direction: sides(index),
+            ..arrivals.all[index]
+        });
         here.filter(|arrival| arrival.known).collect()
     };
     displaced.map(|(at, _)| (at, known(at))).collect()
@@ -61,7 +66,6 @@ pub(super) fn check(
     let mut judged = Judged::default();
     let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
     let mut of_joints = BTreeSet::new();
-    let mut of_sides: BTreeMap<_, (&Move, Side)> = BTreeMap::new();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
@@ -85,7 +89,6 @@ pub(super) fn check(
         let base = Base {
             job,
             reach_m: reach_m(job, approach),
-            direction: approach.direction,
             uses: uses(job, arrivals, at, approach),
             name: ground.name_of(target),
             fake: *fake,
@@ -94,11 +97,6 @@ pub(super) fn check(
         let Some(verdict) = base.judge(&motion.displacement, &mut judged) else {
             continue;
         };
-        if let Some(side) = base.side(motion, arrivals.is_empty()) {
-            let before = of_sides.entry((motion.file, motion.offset, target));
-            let before = before.or_insert((motion, side));
-            before.1 = before.1.max(side);
-        }
         let statement = (motion.file, motion.offset, verdict.id, target);
         let (_, verdicts) = of_statements
             .entry(statement)
@@ -106,9 +104,6 @@ pub(super) fn check(
         if !verdicts.contains(&verdict) {
             verdicts.push(verdict);
         }
-    }
-    for ((.., target), (motion, side)) in of_sides {
-        findings.push(unknown_side(job, motion, target, &side));
     }
     let hint = "give the point a target of its own if it must be exact; --max-derived-error \
         raises the limit";
@@ -144,40 +139,6 @@ fn uncorrected(job: &Job, motion: &Move, target: TargetId) -> Finding {
     ground.at_move("displaced-target", Severity::Warning, motion, message, hint)
 }
 
-/// Joints with backlash of which nothing says from which side they come to a derived point.
-#[derive(Clone, Copy)]
-struct Side {
-    joints: [bool; 6],
-    /// How far the tool may be off for it, metres.
-    off_m: f64,
-}
-
-impl Side {
-    /// That of two by which the tool may be farther off.
-    fn max(self, other: Self) -> Self {
-        if other.off_m > self.off_m {
-            other
-        } else {
-            self
-        }
-    }
-}
-
-fn unknown_side(job: &Job, motion: &Move, target: TargetId, side: &Side) -> Finding {
-    let joints = (0..6).filter(|i| side.joints[*i]);
-    let joints: Vec<String> = joints.map(|i| (i + 1).to_string()).collect();
-    let message = format!(
-        "nothing says from which side joint {} with backlash comes to a point derived from {}: \
-         for that alone the tool may be {:.3} mm off",
-        joints.join(", "),
-        job.ground.name_of(target),
-        mm_from_m(side.off_m)
-    );
-    let hint = "go there by a target of its own, or come from a point with numbers of its own";
-    let (id, severity) = ("direction-uncertain", Severity::Warning);
-    job.ground.at_move(id, severity, motion, message, hint)
-}
-
 /// What is found of a displacement.
 #[derive(PartialEq)]
 struct Verdict {
@@ -191,9 +152,7 @@ struct Verdict {
 /// A target and what takes its correction along.
 struct Base<'a> {
     job: &'a Job<'a>,
-    /// From which side joints come to it.
-    direction: [i8; 6],
-    /// How the robot comes to what is derived from it.
+    /// How the robot comes to what is derived from it; a direction is 0 where nothing says it.
     uses: Vec<Approach>,
     name: String,
     /// Its fake target.
@@ -242,52 +201,6 @@ impl Base<'_> {
         })
     }
 
-    /// What the side adds from which joints with backlash come to the point where the text does not
-    /// say it: `is_unknown` where it does not say how the robot comes there at all.
-    fn side(&self, motion: &Move, is_unknown: bool) -> Option<Side> {
-        let is_known = match motion.displacement {
-            Displacement::By(_) => !is_unknown,
-            Displacement::Unknown | Displacement::Within(_) | Displacement::AtLeast(_) => false,
-            Displacement::None | Displacement::Unbounded | Displacement::Overwritten => {
-                return None;
-            }
-        };
-        let sides = self.uses.iter().map(|of| {
-            let equipped = self.job.ground.arm_with(of.tool as usize);
-            let real = &equipped.inverse.real;
-            let at = |joint: usize, side: f64| {
-                let mut conditions = of.conditions(self.job);
-                conditions.direction[joint] = side;
-                real.forward(&of.nominal_q, &conditions)
-            };
-            let assumed = if is_known {
-                of.direction
-            } else {
-                self.direction
-            };
-            let mut side = Side {
-                joints: [false; 6],
-                off_m: 0.0,
-            };
-            for joint in 0..6 {
-                if !equipped.has_backlash[joint] || is_known && assumed[joint] != 0 {
-                    continue;
-                }
-                side.joints[joint] = true;
-                let apart_m = at(joint, -1.0).separation(&at(joint, 1.0)).distance_m;
-                // in the middle of both it is half as far to either
-                side.off_m += if assumed[joint] == 0 {
-                    0.5 * apart_m
-                } else {
-                    apart_m
-                };
-            }
-            side
-        });
-        let most = sides.reduce(Side::max)?;
-        (most.off_m > LEAST_M).then_some(most)
-    }
-
     /// The verdict of a largest miss, whose message begins so; `None` where nothing bounds it.
     fn bounded_by(&self, most_m: Option<f64>, begin: &dyn Fn(&str) -> String) -> Verdict {
         match most_m {
@@ -303,8 +216,9 @@ impl Base<'_> {
             severity: self.severity_of(off_m),
             off_m,
             message: format!(
-                "{what} that is up to {:.3} mm off ({})",
+                "{what} that is up to {:.3} mm off{} ({})",
                 mm_from_m(off_m),
+                self.sides(),
                 self.limit()
             ),
         }
@@ -345,18 +259,19 @@ impl Base<'_> {
         // of numbers that are all written over nothing is left, of others some
         let lost = self.uses.iter().flat_map(|of| {
             let given = [of.numbers_in_frame(self.job), self.fake];
-            given.map(|given| landing(self.job, of, &given, &Shift::none()))
+            given.map(|given| landing_m(self.job, of, &given, &Shift::none()))
         });
-        let off_m = lost.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max);
+        let off_m = lost.flatten().fold(0.0, f64::max);
         Verdict {
             id: "target-overwritten",
             severity: self.severity_of(off_m),
             off_m,
             message: format!(
                 "the running program writes numbers over some of a copy of {}: these lose a \
-                 correction of {:.3} mm ({})",
+                 correction of {:.3} mm{} ({})",
                 self.name,
                 mm_from_m(off_m),
+                self.sides(),
                 self.limit()
             ),
         }
@@ -364,8 +279,7 @@ impl Base<'_> {
 
     fn by(&self, shift: &Shift) -> Verdict {
         let landings = self.uses.iter();
-        let landings =
-            landings.map(|of| Some(landing(self.job, of, &self.fake, shift)?.distance_m));
+        let landings = landings.map(|of| landing_m(self.job, of, &self.fake, shift));
         let farthest = landings.reduce(|a, b| Some(a?.max(b?))).flatten();
         let name = &self.name;
         Verdict {
@@ -379,26 +293,41 @@ impl Base<'_> {
             message: match farthest {
                 None => format!("a point derived from {name} is out of reach"),
                 Some(off_m) => format!(
-                    "a point derived from {name} takes its correction along and lands {:.3} mm off \
-                     its own wanted pose",
-                    mm_from_m(off_m)
+                    "a point derived from {name} takes its correction along and lands {}{:.3} mm \
+                     off its own wanted pose{}",
+                    if self.sides().is_empty() {
+                        ""
+                    } else {
+                        "up to "
+                    },
+                    mm_from_m(off_m),
+                    self.sides()
                 ),
             },
         }
     }
 
-    /// The largest miss at these places from the target; from which side joints come there nobody
-    /// knows, and that is a finding of its own.
+    /// The largest miss at these places from the target.
     fn most_m(&self, shifts: &mut dyn Iterator<Item = Shift>) -> f64 {
-        let direction = self.direction;
-        let uses = self.uses.iter();
-        let uses: Vec<Approach> = uses.map(|of| Approach { direction, ..*of }).collect();
-        let gaps = shifts.flat_map(|shift| {
-            let gaps = uses.iter();
-            let gaps = gaps.map(move |of| landing(self.job, of, &self.fake, &shift));
-            gaps.collect::<Vec<_>>()
-        });
-        gaps.flatten().map(|gap| gap.distance_m).fold(0.0, f64::max)
+        let of = |shift: &Shift, of: &Approach| landing_m(self.job, of, &self.fake, shift);
+        let each = |shift: Shift| self.uses.iter().filter_map(move |at| of(&shift, at));
+        shifts.flat_map(each).fold(0.0, f64::max)
+    }
+
+    /// The joints of which nothing says from which side they come, in words.
+    fn sides(&self) -> String {
+        let is_open = |joint: &usize| {
+            self.uses
+                .iter()
+                .any(|of| side_m(self.job, of, *joint) > LEAST_SIDE_M)
+        };
+        let joints = (0..6).filter(is_open).map(|joint| (joint + 1).to_string());
+        let joints: Vec<String> = joints.collect();
+        if joints.is_empty() {
+            return String::new();
+        }
+        let joints = joints.join(", ");
+        format!(", from whichever side joint {joints} with backlash comes")
     }
 
     /// How far from the target its correction is worth the limit.
@@ -441,7 +370,6 @@ struct Use {
     tool: u32,
     frame: u32,
     branch: Branch,
-    direction: [i8; 6],
     middle: bool,
     rotations: [f64; 6],
 }
@@ -453,7 +381,6 @@ impl Use {
             tool: approach.tool,
             frame: approach.frame,
             branch: approach.branch,
-            direction: approach.direction,
             middle: approach.middle.is_some(),
             rotations: approach.nominal_q.map(|q| (q / TAU).round()),
         }
@@ -494,22 +421,24 @@ fn reach_m(job: &Job, approach: &Approach) -> f64 {
 }
 
 /// How the robot comes to a point that is derived from the target of an approach: with the posture
-/// of that where the walk does not know its own.
+/// of that where the walk does not know its own, and from any side where it does not know the point.
 fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<Approach> {
     let motion = &job.ground.program.moves[at];
     let there = Approach {
         motion: short(at),
         tool: short(motion.tool),
         frame: short(job.ground.frame_of(motion)),
+        direction: [0; 6],
         ..*approach
     };
     if arrivals.is_empty() {
         return vec![there];
     }
+    let is_known = matches!(motion.displacement, Displacement::By(_));
     let of = |arrival: &Arrival| Approach {
         nominal_q: arrival.q,
         branch: arrival.branch,
-        direction: arrival.direction,
+        direction: if is_known { arrival.direction } else { [0; 6] },
         middle: arrival.middle,
         ..there
     };
@@ -517,13 +446,8 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
 }
 
 /// How far from its wanted pose a displaced use of a target lands whose numbers in the work frame
-/// are given; `None` where the controller does not reach it.
-fn landing(
-    job: &Job,
-    approach: &Approach,
-    given_in_frame: &Pose,
-    shift: &Shift,
-) -> Option<Separation> {
+/// are given, from whichever sides joints may come; `None` where the controller does not reach it.
+fn landing_m(job: &Job, approach: &Approach, given_in_frame: &Pose, shift: &Shift) -> Option<f64> {
     let ground = &job.ground;
     let placed = ground.placed(approach.frame as usize);
     let at = |numbers: &Pose| approach.taken(shift.apply(numbers));
@@ -531,9 +455,46 @@ fn landing(
     let given = placed.nominal * at(given_in_frame);
     let equipped = ground.arm_with(approach.tool as usize);
     let (q, reached) = equipped.controller_joints(&given, approach.branch, &approach.nominal_q);
-    let real = &equipped.inverse.real;
-    reached.then(|| {
-        real.forward(&q, &approach.conditions(job))
-            .separation(&wanted)
-    })
+    if !reached {
+        return None;
+    }
+    let conditions = approach.conditions(job);
+    let real = |conditions: &Conditions| equipped.inverse.real.forward(&q, conditions).translation;
+    let middle = real(&conditions);
+    // a backlash is so narrow that those of several joints add up
+    let mut gaps = vec![sub(middle, wanted.translation)];
+    for joint in (0..6).filter(|joint| is_open(job, approach, *joint)) {
+        let to = |side: f64| {
+            let mut conditions = conditions;
+            conditions.direction[joint] = side;
+            sub(real(&conditions), middle)
+        };
+        let sides = [to(-1.0), to(1.0)];
+        gaps = gaps
+            .iter()
+            .flat_map(|gap| sides.map(|side| add(*gap, side)))
+            .collect();
+    }
+    Some(gaps.into_iter().map(norm).fold(0.0, f64::max))
+}
+
+/// Whether nothing says from which side a joint with backlash comes.
+fn is_open(job: &Job, approach: &Approach, joint: usize) -> bool {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    equipped.has_backlash[joint] && approach.direction[joint] == 0
+}
+
+/// How far apart the tool is where a joint comes from one side and from the other, metres; 0 where
+/// its side is known.
+fn side_m(job: &Job, approach: &Approach, joint: usize) -> f64 {
+    if !is_open(job, approach, joint) {
+        return 0.0;
+    }
+    let from = |side: f64| {
+        let mut conditions = approach.conditions(job);
+        conditions.direction[joint] = side;
+        let real = &job.ground.arm_with(approach.tool as usize).inverse.real;
+        real.forward(&approach.nominal_q, &conditions)
+    };
+    from(-1.0).separation(&from(1.0)).distance_m
 }

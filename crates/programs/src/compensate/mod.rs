@@ -18,8 +18,8 @@
 //! the wrist's singularity), `shared` one set of numbers for all approaches (`differing` says why
 //! there is none), `limit` what a correction may be; `rewrite` puts the new numbers in the place of
 //! the old ones, `added` new targets between them, `displaced` says what a correction does to points
-//! that the program derives from a target, `deciding` that it decides by numbers of one, `led` what
-//! calls that may leave the robot elsewhere do to the side from which joints come; `written` puts it
+//! that the program derives from a target, `deciding` that it decides by numbers of one, `ends`
+//! how much of its backlash a joint has taken up, `led` what calls that may leave the robot elsewhere do to the side from which joints come; `written` puts it
 //! all into the files and reads them again.
 //! `context` and `refused` say which files stay.
 //!
@@ -50,6 +50,7 @@ mod context;
 mod deciding;
 mod differing;
 mod displaced;
+mod ends;
 mod led;
 mod limit;
 mod outcome;
@@ -88,6 +89,9 @@ use std::collections::BTreeMap;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
+/// What a side of a joint with backlash makes is reported beyond this, as one set of numbers serves
+/// approaches that differ by no more, metres.
+const LEAST_SIDE_M: f64 = 2e-6;
 /// Angles of a positioner that differ by less are the same.
 const SAME_ANGLE_RAD: f64 = 1e-9;
 
@@ -405,7 +409,7 @@ fn with(
     if options.work_offset.is_none() && is_same {
         return Err(CompensateError::NothingToCorrect);
     }
-    let mut outcomes = solve::solve(
+    let (mut outcomes, ends) = solve::solve(
         &job,
         &arrivals,
         &walk_options,
@@ -416,7 +420,15 @@ fn with(
         findings.extend(remarks::corners(&job, &approaches));
     }
     singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
-    let derived = displaced::arrivals(&job, &arrivals);
+    let derived = if let Some(ends) = ends {
+        let taken_up = ends.take_up(&job, &arrivals, &walk_options);
+        taken_up.report(&job, &ends, &arrivals, &mut findings);
+        displaced::arrivals(&job, &arrivals, &|at| {
+            taken_up.sides(&job, &ends, &arrivals, at)
+        })
+    } else {
+        displaced::arrivals(&job, &arrivals, &|_| [0; 6])
+    };
     drop(arrivals);
     let Rewritten {
         reports: mut targets,

@@ -3,13 +3,13 @@
 
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
+use super::ends::Ends;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
-use crate::motion::{follow, ride};
 use crate::program::script::{Turn, short};
 use crate::program::{Displacement, Motion, Shape, Shift, Value};
 use rayon::prelude::*;
@@ -31,27 +31,48 @@ pub(super) fn is_directed(job: &Job) -> bool {
         .any(|e| !e.is_zero() && e.definition().needs.contains(&Need::Directions))
 }
 
-/// The outcome of each approach, and the direction of arrival on the path between fake targets.
+/// The outcome of each approach, and how the robot comes to each arrival on the path between fake
+/// targets.
 pub(super) fn solve(
     job: &Job,
     arrivals: &Arrivals,
     walk_options: &WalkOptions,
     approaches: &mut [Approach],
     findings: &mut Vec<Finding>,
-) -> Vec<Outcome> {
+) -> (Vec<Outcome>, Option<Ends>) {
     let all: Vec<u32> = (0..short(approaches.len())).collect();
     let mut outcomes: Vec<Option<Outcome>> = vec![None; approaches.len()];
     solve_some(job, approaches, &all, &mut outcomes);
+    let mut last = None;
     if walk_options.directed {
         for round in 0.. {
-            let changed = changed_directions(job, arrivals, walk_options, approaches, &outcomes);
+            let mut ends = Ends::of(job, arrivals, walk_options, approaches, &outcomes);
+            let changed = ends.changed(approaches);
+            let before: Option<Ends> = last.take();
             if changed.is_empty() {
+                last = Some(ends);
                 break;
             }
             if round == MOST_ROUNDS {
-                for (at, direction) in changed {
-                    findings.push(unsettled(job, &approaches[at as usize], direction));
+                // what goes to and fro is known of no side
+                for (direction, before) in ends
+                    .directions
+                    .iter_mut()
+                    .zip(before.iter().flat_map(|ends| &ends.directions))
+                {
+                    for (side, before) in direction.iter_mut().zip(before) {
+                        if *side != *before {
+                            *side = 0;
+                        }
+                    }
                 }
+                for (at, direction) in changed {
+                    let approach = &approaches[at as usize];
+                    if !is_derived(job, approach) {
+                        findings.push(unsettled(job, approach, direction));
+                    }
+                }
+                last = Some(ends);
                 break;
             }
             let again: Vec<u32> = changed.iter().map(|(at, _)| *at).collect();
@@ -59,16 +80,21 @@ pub(super) fn solve(
                 approaches[at as usize].direction = direction;
             }
             solve_some(job, approaches, &again, &mut outcomes);
+            last = Some(ends);
         }
-    }
-    if walk_options.directed {
         tell_unknown(job, arrivals, approaches, findings);
     }
     other_rotations(job, arrivals, approaches, &outcomes, findings);
     let outcomes = outcomes.into_iter();
-    outcomes
-        .map(|outcome| outcome.expect("every approach is solved"))
-        .collect()
+    let outcomes = outcomes.map(|outcome| outcome.expect("every approach is solved"));
+    (outcomes.collect(), last)
+}
+
+/// Whether the robot goes near the target only: what is said of the points there has the sides from
+/// which joints come in its figure.
+fn is_derived(job: &Job, approach: &Approach) -> bool {
+    let motion = job.ground.program.moves.get(approach.motion as usize);
+    motion.is_some_and(|motion| motion.displacement != Displacement::None)
 }
 
 /// Says where a joint with backlash comes to a target from a side that nobody knows.
@@ -80,7 +106,7 @@ fn tell_unknown(
 ) {
     let unknown = approaches
         .iter()
-        .filter(|approach| has_unknown_side(job, approach));
+        .filter(|approach| has_unknown_side(job, approach) && !is_derived(job, approach));
     findings.extend(unknown.map(|approach| unknown_side(job, arrivals, approach, None)));
 }
 
@@ -204,85 +230,6 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
     }
 }
 
-/// Approaches whose joints arrive from another side on the path between fake targets than they were
-/// solved for.
-fn changed_directions(
-    job: &Job,
-    arrivals: &Arrivals,
-    walk_options: &WalkOptions,
-    approaches: &[Approach],
-    outcomes: &[Option<Outcome>],
-) -> Vec<(u32, [i8; 6])> {
-    let ground = &job.ground;
-    let fakes = fake_joints(job, arrivals, approaches, outcomes);
-    // directions carry on from arrival to arrival: predecessors come first in the list
-    let mut directions: Vec<[i8; 6]> = vec![[0; 6]; arrivals.all.len()];
-    for (at, arrival) in arrivals.all.iter().enumerate() {
-        let is_directed = arrival.known && !arrivals.starts_unknown(job.ground.program, arrival);
-        let Some(before) = arrivals.start_of(arrival).filter(|_| is_directed) else {
-            directions[at] = arrival.direction;
-            continue;
-        };
-        let motion = &ground.program.moves[arrival.motion as usize];
-        if ground.program.turned(motion).is_some() {
-            let from = arrival.from as usize;
-            directions[at] = follow::turned(&fakes[from], &fakes[at], directions[from]);
-            continue;
-        }
-        let Some(equipped) = ground.equipped(motion.tool) else {
-            continue;
-        };
-        let carried = directions[arrival.from as usize];
-        let end = fakes[at];
-        let mut from = before.motion;
-        let (start, via) = if motion.motion == Motion::ArcEnd {
-            let through = &ground.program.moves[before.motion as usize];
-            let via = (through.motion == Motion::ArcVia).then(|| {
-                let q = &fakes[arrival.from as usize];
-                equipped.controller.forward(q, &Conditions::default())
-            });
-            match (&via, arrivals.start_of(before)) {
-                (Some(_), Some(first)) => {
-                    from = first.motion;
-                    (fakes[before.from as usize], via)
-                }
-                _ => (fakes[arrival.from as usize], None),
-            }
-        } else {
-            (fakes[arrival.from as usize], None)
-        };
-        let wanted = equipped.controller.forward(&end, &Conditions::default());
-        let ride = ground.ride(Some(from), motion);
-        let via = via.map(|pose| {
-            let point = ground.ride(None, &ground.program.moves[before.motion as usize]);
-            ride::through(&pose, point.as_deref(), ride.as_deref())
-        });
-        let course = follow::course(
-            motion,
-            equipped,
-            &start,
-            via.as_ref(),
-            &wanted,
-            &end,
-            ride,
-            walk_options,
-        );
-        directions[at] = follow::direction_of(
-            motion,
-            equipped,
-            &course,
-            [&start, &end],
-            arrival.branch,
-            carried,
-        );
-    }
-    let differs = |(at, approach): (usize, &Approach)| {
-        let direction = *directions.get(approach.arrival as usize)?;
-        (direction != approach.direction).then_some((short(at), direction))
-    };
-    approaches.iter().enumerate().filter_map(differs).collect()
-}
-
 /// Reports joint moves on which the correction takes a joint farther than half a rotation from where
 /// it stands, so that a controller that takes the nearest rotation goes the other way round.
 fn other_rotations(
@@ -345,7 +292,7 @@ fn other_rotations(
 }
 
 /// The controller's joints at each arrival of the compensated program.
-fn fake_joints(
+pub(super) fn fake_joints(
     job: &Job,
     arrivals: &Arrivals,
     approaches: &[Approach],

@@ -16,6 +16,8 @@ pub(crate) struct Equipped {
     pub inverse: Inverse,
     /// Joints of the real arm that stand elsewhere when they come from the other side.
     pub has_backlash: [bool; 6],
+    /// The width of each joint's backlash, radians, where it is the same in all postures.
+    steady_rad: Option<[f64; 6]>,
 }
 
 impl Equipped {
@@ -39,19 +41,42 @@ impl Equipped {
             conditions,
         });
         let mut has_backlash = [false; 6];
+        let mut is_steady = true;
         for effect in profile.real_effects() {
             let needs = effect.definition().needs;
             if !effect.is_zero() && needs.contains(&Need::Directions) {
                 has_backlash[effect.site.index] = true;
+                is_steady &= !needs.contains(&Need::Masses);
             }
         }
-        Ok(Self {
+        let mut equipped = Self {
             arm,
             controller,
             calibrated_controller,
             inverse,
             has_backlash,
-        })
+            steady_rad: None,
+        };
+        if is_steady {
+            equipped.steady_rad = Some(equipped.backlash_rad(&[0.0; 6], &conditions));
+        }
+        Ok(equipped)
+    }
+
+    /// How much farther each joint stands when it comes from the other side, radians.
+    pub(crate) fn backlash_rad(&self, q: &[f64; 6], conditions: &Conditions) -> [f64; 6] {
+        if let Some(steady_rad) = self.steady_rad {
+            return steady_rad;
+        }
+        let from = |side: f64| {
+            let conditions = Conditions {
+                direction: [side; 6],
+                ..*conditions
+            };
+            self.inverse.real.deflection(q, &conditions).joints
+        };
+        let (below, above) = (from(-1.0), from(1.0));
+        std::array::from_fn(|i| (above[i] - below[i]).abs())
     }
 
     /// The joints that the controller computes for `world_from_tool` near others, and whether they

@@ -165,12 +165,31 @@ pub(crate) fn direction_of(
     [start, end]: [&[f64; 6]; 2],
     branch: Branch,
     before: [i8; 6],
-) -> [i8; 6] {
-    let mut direction = arrival_direction(equipped, course, start, end, branch, before);
-    if motion.free_orientation && motion.motion != Motion::Joint {
-        direction[3..].copy_from_slice(&turned(start, end, before)[3..]);
+) -> Coming {
+    let mut coming = arrival_direction(equipped, course, start, end, branch, before);
+    if leads_wrist(motion) {
+        coming.direction[3..].copy_from_slice(&turned(start, end, before)[3..]);
+        coming.half[3..].copy_from_slice(&halfway(start, end)[3..]);
     }
-    direction
+    coming
+}
+
+/// Whether the joints of the wrist go at constant rates while the tool goes on a path.
+pub(crate) fn leads_wrist(motion: &Move) -> bool {
+    motion.free_orientation && motion.motion != Motion::Joint
+}
+
+/// How the joints come to the end of a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coming {
+    /// As [`super::walk::Arrival::direction`].
+    pub direction: [i8; 6],
+    /// The joints halfway.
+    pub half: [f64; 6],
+}
+
+fn halfway(start: &[f64; 6], end: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|i| 0.5 * (start[i] + end[i]))
 }
 
 /// The sign of each joint's rate at the end of a path; a joint that stands keeps its direction.
@@ -181,33 +200,50 @@ fn arrival_direction(
     end: &[f64; 6],
     branch: Branch,
     before: [i8; 6],
-) -> [i8; 6] {
+) -> Coming {
     let Course::Tool(path) = course else {
-        return turned(start, end, before);
+        return Coming {
+            direction: turned(start, end, before),
+            half: halfway(start, end),
+        };
     };
     // a tenth of a millimetre before the end, or of a milliradian where the tool only rotates
     let length = path.length_m() + path.angle_rad();
     if length <= 1e-9 {
-        return before;
+        return Coming {
+            direction: before,
+            half: *start,
+        };
     }
     let back = (1e-4 / length).clamp(1e-6, 0.1);
-    let leg = Leg {
+    let leg = leg(equipped, course, start, branch);
+    let last = leg.joints(1.0, end);
+    let shortly_before = leg.joints(1.0 - back, &last);
+    let per = back * length;
+    let rates: [f64; 6] = std::array::from_fn(|i| (last[i] - shortly_before[i]) / per);
+    // a joint that stands at the end keeps what it did on the way
+    let half = leg.joints(0.5, end);
+    let first = turned(start, &half, before);
+    let on_way = turned(&half, end, first);
+    Coming {
+        direction: std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i])),
+        half,
+    }
+}
+
+/// A path of the controller's joints.
+pub(crate) fn leg<'a>(
+    equipped: &'a Equipped,
+    course: &Course,
+    start: &[f64; 6],
+    branch: Branch,
+) -> Leg<'a> {
+    Leg {
         equipped,
         course: course.clone(),
         start: *start,
         branch,
         conditions: Conditions::default(),
         ride: None,
-    };
-    let last = leg.joints(1.0, end);
-    let shortly_before = leg.joints(1.0 - back, &last);
-    let per = back * length;
-    let rates: [f64; 6] = std::array::from_fn(|i| (last[i] - shortly_before[i]) / per);
-    // a joint that stands at the end keeps what it did on the way
-    let on_way = {
-        let half = leg.joints(0.5, end);
-        let first = turned(start, &half, before);
-        turned(&half, end, first)
-    };
-    std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i]))
+    }
 }

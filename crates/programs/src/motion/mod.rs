@@ -24,6 +24,7 @@
 //! ```
 
 pub(crate) mod arms;
+pub(crate) mod backlash;
 mod before;
 pub(crate) mod course;
 pub mod external;

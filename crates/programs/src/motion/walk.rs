@@ -132,6 +132,33 @@ impl Arrivals {
         known.next().map(|arrival| arrival.q)
     }
 
+    /// The arrival at the same move, alike in all, that the moves behind are gone on from.
+    pub(crate) fn leader_of(&self, at: usize) -> usize {
+        let arrival = &self.all[at];
+        let alike = self.at(arrival.motion as usize);
+        alike
+            .filter(|other| is_alike(&self.all[*other], arrival))
+            .fold(at, usize::min)
+    }
+
+    /// Other arrivals at the move before one that go on to it as that does: they are not listed
+    /// there.
+    pub(crate) fn left_out(&self, at: usize) -> Vec<usize> {
+        let arrival = &self.all[at];
+        let Some(from) = self.all.get(arrival.from as usize) else {
+            return Vec::new();
+        };
+        let goes_on = |other: usize| {
+            let mut here = self.at(arrival.motion as usize);
+            here.any(|at| self.all[at].from as usize == other)
+        };
+        let others = self.at(from.motion as usize);
+        let others = others.filter(|other| *other != arrival.from as usize);
+        others
+            .filter(|other| self.leader_of(*other) == *other && !goes_on(*other))
+            .collect()
+    }
+
     fn add(&mut self, arrival: Arrival) {
         let here = crate::program::script::short(self.all.len());
         let first = &mut self.first[arrival.motion as usize];
@@ -452,6 +479,7 @@ impl Walker<'_, '_> {
                     posture.branch,
                     direction,
                 )
+                .direction
             }
             None => [0; 6],
         };

@@ -58,6 +58,8 @@ pub(super) fn resolve(
         report: Report::new(sources, &mut program),
         tools: HashMap::new(),
         frames: HashMap::new(),
+        unknown_tool: None,
+        unknown_frame: None,
         own_frames: HashMap::new(),
         used: Vec::new(),
         as_written: Vec::new(),
@@ -107,6 +109,9 @@ struct Resolver<'a, 'p> {
     report: Report<'a, 'p>,
     tools: HashMap<(Atom, Option<ValueId>), Result<ToolId, Refused>>,
     frames: HashMap<Atom, Result<FrameId, Refused>>,
+    /// Those of moves whose own nobody knows: another matter than a refused one.
+    unknown_tool: Option<ToolId>,
+    unknown_frame: Option<FrameId>,
     /// Those that targets have of their own.
     own_frames: HashMap<TargetId, Result<FrameId, Refused>>,
     /// Targets that moves go to.

@@ -250,9 +250,8 @@ impl Resolver<'_, '_> {
 
     /// The tool of a joint target whose tool nobody knows.
     pub(super) fn unknown_tool(&mut self) -> ToolId {
-        let key = (Atom::Anything, None);
-        if let Some(Ok(known)) = self.tools.get(&key) {
-            return *known;
+        if let Some(known) = self.unknown_tool {
+            return known;
         }
         let tools = &mut self.report.program.tools;
         tools.push(Tool {
@@ -262,14 +261,13 @@ impl Resolver<'_, '_> {
             on_tool: None,
         });
         let made = tools.len() - 1;
-        self.tools.insert(key, Ok(made));
+        self.unknown_tool = Some(made);
         made
     }
 
     pub(super) fn unknown_frame(&mut self) -> FrameId {
-        let key = Atom::Anything;
-        if let Some(Ok(known)) = self.frames.get(&key) {
-            return *known;
+        if let Some(known) = self.unknown_frame {
+            return known;
         }
         let frames = &mut self.report.program.frames;
         frames.push(Frame {
@@ -279,7 +277,7 @@ impl Resolver<'_, '_> {
             stand: None,
         });
         let made = frames.len() - 1;
-        self.frames.insert(key, Ok(made));
+        self.unknown_frame = Some(made);
         made
     }
 

@@ -166,6 +166,9 @@ fn tools_and_work_objects_are_written_by_others() {
     }
     let program = path("SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;");
     assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
+    // a second move with another tool is no other matter
+    let two = "SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;\nMoveL p2,v5,z5,tool0\\WObj:=w;";
+    assert_eq!(blocked(&path(two)), ["p1", "p2"]);
     let program = path("w:=w2;\nMoveL p1,v5,z5,t\\WObj:=w;");
     assert_eq!(
         (program.frames[0].name.as_str(), ids(&program)),

@@ -1,0 +1,396 @@
+//! How joints with backlash come to the end of each path between fake targets: from which side, and
+//! whether they have wholly taken it up.
+
+use super::approach::{Approach, stays};
+use super::solve::fake_joints;
+use super::{Job, LEAST_SIDE_M};
+use crate::finding::{Finding, Severity};
+use crate::geometry::units::{DEG, mm_from_m};
+use crate::inverse::Outcome;
+use crate::model::Conditions;
+use crate::motion::arms::Equipped;
+use crate::motion::backlash::{self, Stretch, Within};
+use crate::motion::course::Course;
+use crate::motion::walk::{Arrival, Arrivals, NOWHERE, WalkOptions};
+use crate::motion::{follow, ride};
+use crate::program::script::short;
+use crate::program::{Displacement, Motion, Move, Program, TargetId};
+use std::collections::BTreeMap;
+
+/// So much of its backlash a joint need not have taken up.
+const LEAST_LEFT: f64 = 0.01;
+/// Times that where joints stand is handed on around loops.
+const MOST_ROUNDS: usize = 8;
+
+/// How the robot comes to each arrival on the path between fake targets.
+pub(super) struct Ends {
+    /// The controller's joints.
+    fakes: Vec<[f64; 6]>,
+    /// As [`Arrival::direction`]; 0 where it depends on the correction itself.
+    pub directions: Vec<[i8; 6]>,
+    /// The joints halfway.
+    halves: Vec<[f64; 6]>,
+}
+
+/// The path to an arrival between fake targets.
+struct Path<'a> {
+    equipped: &'a Equipped,
+    course: Course,
+    start: [f64; 6],
+}
+
+impl Ends {
+    pub(super) fn of(
+        job: &Job,
+        arrivals: &Arrivals,
+        walk_options: &WalkOptions,
+        approaches: &[Approach],
+        outcomes: &[Option<Outcome>],
+    ) -> Self {
+        let program = job.ground.program;
+        let fakes = fake_joints(job, arrivals, approaches, outcomes);
+        let count = arrivals.all.len();
+        let mut ends = Self {
+            fakes,
+            directions: vec![[0; 6]; count],
+            halves: vec![[0.0; 6]; count],
+        };
+        // directions carry on from arrival to arrival: predecessors come first in the list
+        for (at, arrival) in arrivals.all.iter().enumerate() {
+            if !is_directed_at(job, arrivals, arrival) {
+                ends.directions[at] = arrival.direction;
+                continue;
+            }
+            let motion = &program.moves[arrival.motion as usize];
+            let from = arrival.from as usize;
+            let (fakes, carried) = (&ends.fakes, ends.directions[from]);
+            if program.turned(motion).is_some() {
+                ends.directions[at] = follow::turned(&fakes[from], &fakes[at], carried);
+                ends.halves[at] = fakes[from];
+                continue;
+            }
+            let Some(path) = ends.path(job, arrivals, walk_options, at) else {
+                continue;
+            };
+            let coming = follow::direction_of(
+                motion,
+                path.equipped,
+                &path.course,
+                [&path.start, &fakes[at]],
+                arrival.branch,
+                carried,
+            );
+            ends.directions[at] = coming.direction;
+            ends.halves[at] = coming.half;
+        }
+        ends
+    }
+
+    /// Approaches whose joints arrive from another side than they were solved for.
+    pub(super) fn changed(&self, approaches: &[Approach]) -> Vec<(u32, [i8; 6])> {
+        let differs = |(at, approach): (usize, &Approach)| {
+            let direction = *self.directions.get(approach.arrival as usize)?;
+            (direction != approach.direction).then_some((short(at), direction))
+        };
+        approaches.iter().enumerate().filter_map(differs).collect()
+    }
+
+    /// The path to an arrival that begins where the joints are known.
+    fn path<'a>(
+        &self,
+        job: &'a Job,
+        arrivals: &Arrivals,
+        walk_options: &WalkOptions,
+        at: usize,
+    ) -> Option<Path<'a>> {
+        let ground = &job.ground;
+        let arrival = &arrivals.all[at];
+        let motion = &ground.program.moves[arrival.motion as usize];
+        let equipped = ground.equipped(motion.tool)?;
+        let before = &arrivals.all[arrival.from as usize];
+        let end = &self.fakes[at];
+        let from = starts_at(job, arrivals, arrival);
+        let start = self.fakes[from as usize];
+        let via = (from != arrival.from).then(|| {
+            let q = &self.fakes[arrival.from as usize];
+            equipped.controller.forward(q, &Conditions::default())
+        });
+        let wanted = equipped.controller.forward(end, &Conditions::default());
+        let ride = ground.ride(Some(arrivals.all[from as usize].motion), motion);
+        let via = via.map(|pose| {
+            let point = ground.ride(None, &ground.program.moves[before.motion as usize]);
+            ride::through(&pose, point.as_deref(), ride.as_deref())
+        });
+        let course = follow::course(
+            motion,
+            equipped,
+            &start,
+            via.as_ref(),
+            &wanted,
+            end,
+            ride,
+            walk_options,
+        );
+        Some(Path {
+            equipped,
+            course,
+            start,
+        })
+    }
+}
+
+/// Whether the sides from which joints come to an arrival are those of its path.
+fn is_directed_at(job: &Job, arrivals: &Arrivals, arrival: &Arrival) -> bool {
+    arrival.known
+        && arrivals.start_of(arrival).is_some()
+        && !arrivals.starts_unknown(job.ground.program, arrival)
+}
+
+/// The arrival where the path to one begins, whose start is known: an arc begins before the point on
+/// its path.
+fn starts_at(job: &Job, arrivals: &Arrivals, arrival: &Arrival) -> u32 {
+    let moves = &job.ground.program.moves;
+    let before = &arrivals.all[arrival.from as usize];
+    let is_arc = moves[arrival.motion as usize].motion == Motion::ArcEnd
+        && moves[before.motion as usize].motion == Motion::ArcVia
+        && arrivals.start_of(before).is_some();
+    if is_arc { before.from } else { arrival.from }
+}
+
+/// How much of its backlash each joint has taken up at each arrival.
+pub(super) struct TakenUp(Vec<[Within; 6]>);
+
+impl Ends {
+    /// How much of its backlash each joint has taken up at each arrival.
+    pub(super) fn take_up(
+        &self,
+        job: &Job,
+        arrivals: &Arrivals,
+        walk_options: &WalkOptions,
+    ) -> TakenUp {
+        let count = arrivals.all.len();
+        let stretches = (0..count).map(|at| self.stretches(job, arrivals, walk_options, at));
+        let stretches: Vec<_> = stretches.collect();
+        let joins: Vec<_> = (0..count)
+            .map(|at| (arrivals.leader_of(at), arrivals.left_out(at)))
+            .collect();
+        let mut within = vec![[Within::ANYWHERE; 6]; count];
+        // the moves behind go on from one of those that are alike
+        let mut joined: BTreeMap<usize, [Within; 6]> = BTreeMap::new();
+        for round in 0..MOST_ROUNDS {
+            let before = joined.clone();
+            for (at, arrival) in arrivals.all.iter().enumerate() {
+                let (leader, left_out) = &joins[at];
+                let mut here = [Within::ANYWHERE; 6];
+                if let Some(stretches) = &stretches[at] {
+                    if arrival.from != NOWHERE {
+                        here = within[starts_at(job, arrivals, arrival) as usize];
+                        // those behind have not been looked at in the first round
+                        let seen = |other: &&usize| round > 0 || **other < at;
+                        for other in left_out.iter().filter(seen) {
+                            here = either(&here, &within[*other]);
+                        }
+                    }
+                    here = std::array::from_fn(|i| here[i].behind(&stretches[i]));
+                }
+                if *leader == at {
+                    within[at] = joined.get(&at).map_or(here, |all| either(all, &here));
+                } else {
+                    within[at] = here;
+                    let all = joined.entry(*leader).or_insert(here);
+                    *all = either(all, &here);
+                }
+            }
+            let is_seen = round > 0 || joins.iter().all(|(_, left_out)| left_out.is_empty());
+            if is_seen && joined == before {
+                break;
+            }
+        }
+        TakenUp(within)
+    }
+
+    /// What the path to an arrival does to the backlash of each joint; `None` where nobody knows.
+    fn stretches(
+        &self,
+        job: &Job,
+        arrivals: &Arrivals,
+        walk_options: &WalkOptions,
+        at: usize,
+    ) -> Option<[Stretch; 6]> {
+        let program = job.ground.program;
+        let arrival = &arrivals.all[at];
+        let motion = &program.moves[arrival.motion as usize];
+        let equipped = job.ground.equipped(motion.tool)?;
+        let end = &self.fakes[at];
+        let widths = widths(job, motion, end);
+        if let Some(start) = walk_options
+            .start_joints
+            .filter(|_| arrival.from == NOWHERE)
+        {
+            let through = |i: usize| Stretch::through(&[start[i], end[i]], widths[i]);
+            return arrival.known.then(|| std::array::from_fn(through));
+        }
+        if !is_directed_at(job, arrivals, arrival) || is_led(program, arrival) {
+            return None;
+        }
+        let start = &self.fakes[starts_at(job, arrivals, arrival) as usize];
+        let half = &self.halves[at];
+        let mut parts = Vec::new();
+        Some(std::array::from_fn(|i| {
+            if !equipped.has_backlash[i] {
+                return Stretch::NONE;
+            }
+            let known = [start[i], half[i], end[i]];
+            if let Some(stretch) = Stretch::roughly(known, self.directions[at][i], widths[i]) {
+                return stretch;
+            }
+            if parts.is_empty() {
+                let path = self.path(job, arrivals, walk_options, at);
+                parts = path.map_or_else(Vec::new, |path| {
+                    let leg = follow::leg(path.equipped, &path.course, &path.start, arrival.branch);
+                    backlash::parts(&leg, end)
+                });
+            }
+            let is_led = i >= 3 && follow::leads_wrist(motion);
+            if is_led || parts.is_empty() {
+                return Stretch::through(&known, widths[i]);
+            }
+            let angles: Vec<f64> = parts.iter().map(|q| q[i]).collect();
+            Stretch::through(&angles, widths[i])
+        }))
+    }
+}
+
+fn either(a: &[Within; 6], b: &[Within; 6]) -> [Within; 6] {
+    std::array::from_fn(|i| a[i].or(b[i]))
+}
+
+/// Whether a call may have led the robot elsewhere before a move: a finding of its own.
+fn is_led(program: &Program, arrival: &Arrival) -> bool {
+    program
+        .led
+        .binary_search_by_key(&arrival.motion, |led| led.0)
+        .is_ok()
+}
+
+/// How wide the backlash of each joint is at the end of a move, radians.
+fn widths(job: &Job, motion: &Move, q: &[f64; 6]) -> [f64; 6] {
+    let ground = &job.ground;
+    let equipped = ground.arm_with(motion.tool);
+    let gravity_m_s2 = ground.placed(ground.frame_of(motion)).gravity_m_s2;
+    let conditions = Conditions {
+        gravity_m_s2,
+        ..equipped.inverse.conditions
+    };
+    equipped.backlash_rad(q, &conditions)
+}
+
+impl TakenUp {
+    /// Joints that may have taken up less than their backlash on the way to an arrival.
+    fn open(&self, job: &Job, ends: &Ends, arrivals: &Arrivals, at: usize) -> [bool; 6] {
+        let motion = &job.ground.program.moves[arrivals.all[at].motion as usize];
+        let has_backlash = job.ground.equipped(motion.tool).map(|of| of.has_backlash);
+        std::array::from_fn(|i| {
+            let direction = ends.directions[at][i];
+            let left = self.0[at][i].left(direction);
+            has_backlash.is_some_and(|has| has[i]) && direction != 0 && left > LEAST_LEFT
+        })
+    }
+
+    /// The directions in which joints arrive, 0 where one has not wholly taken up its backlash.
+    pub(super) fn sides(&self, job: &Job, ends: &Ends, arrivals: &Arrivals, at: usize) -> [i8; 6] {
+        let open = self.open(job, ends, arrivals, at);
+        std::array::from_fn(|i| if open[i] { 0 } else { ends.directions[at][i] })
+    }
+
+    /// One finding a target to which a joint with backlash comes after less than its width.
+    pub(super) fn report(
+        &self,
+        job: &Job,
+        ends: &Ends,
+        arrivals: &Arrivals,
+        findings: &mut Vec<Finding>,
+    ) {
+        let program = job.ground.program;
+        let mut worst: BTreeMap<TargetId, (f64, usize)> = BTreeMap::new();
+        for (at, arrival) in arrivals.all.iter().enumerate() {
+            let motion = &program.moves[arrival.motion as usize];
+            let is_plain =
+                motion.displacement == Displacement::None && motion.motion != Motion::ArcVia;
+            let Some(target) = motion
+                .target
+                .filter(|target| is_plain && !stays(job, *target))
+            else {
+                continue;
+            };
+            let open = self.open(job, ends, arrivals, at);
+            if !arrival.known || !open.contains(&true) || is_led(program, arrival) {
+                continue;
+            }
+            let off_m = other_side_m(job, arrival, ends.directions[at], &open);
+            let before = worst.entry(target).or_insert((0.0, at));
+            if off_m > before.0 {
+                *before = (off_m, at);
+            }
+        }
+        for (target, (off_m, at)) in worst {
+            if off_m > LEAST_SIDE_M {
+                let open = self.open(job, ends, arrivals, at);
+                findings.push(self.finding(job, ends, arrivals, (target, at), &open, off_m));
+            }
+        }
+    }
+
+    fn finding(
+        &self,
+        job: &Job,
+        ends: &Ends,
+        arrivals: &Arrivals,
+        (target, at): (TargetId, usize),
+        open: &[bool; 6],
+        off_m: f64,
+    ) -> Finding {
+        let ground = &job.ground;
+        let motion = &ground.program.moves[arrivals.all[at].motion as usize];
+        let widths = widths(job, motion, &ends.fakes[at]);
+        let joints = (0..6).filter(|i| open[*i]).map(|i| {
+            let left = self.0[at][i].left(ends.directions[at][i]);
+            let width = widths[i] / DEG;
+            format!(
+                "joint {} by {:.3} of {width:.3} deg",
+                i + 1,
+                (1.0 - left) * width
+            )
+        });
+        let joints: Vec<String> = joints.collect();
+        let message = format!(
+            "since it turned back, or the program began, less than its backlash is certainly taken \
+             up on the move to {} in line {} ({}): it is taken to come wholly from its new side; from \
+             the other the tool would be {:.3} mm off",
+            ground.name_of(target),
+            ground.line_of(motion),
+            joints.join(", "),
+            mm_from_m(off_m)
+        );
+        let hint = "come to the target on a longer move in that direction";
+        let (id, severity) = ("direction-uncertain", Severity::Warning);
+        ground.at_target(id, severity, target, message, hint)
+    }
+}
+
+/// How far off the tool is where some joints come from the other side, metres.
+fn other_side_m(job: &Job, arrival: &Arrival, direction: [i8; 6], open: &[bool; 6]) -> f64 {
+    let ground = &job.ground;
+    let motion = &ground.program.moves[arrival.motion as usize];
+    let equipped = ground.arm_with(motion.tool);
+    let from = |side: f64| {
+        let of = |i: usize| f64::from(direction[i]) * if open[i] { side } else { 1.0 };
+        let conditions = Conditions {
+            direction: std::array::from_fn(of),
+            gravity_m_s2: ground.placed(ground.frame_of(motion)).gravity_m_s2,
+            ..equipped.inverse.conditions
+        };
+        equipped.inverse.real.forward(&arrival.q, &conditions)
+    };
+    from(1.0).separation(&from(-1.0)).distance_m
+}

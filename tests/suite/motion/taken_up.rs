@@ -1,0 +1,67 @@
+//! A joint that turns back comes from its new side once it has gone by the width of its backlash.
+
+use super::displaced::miss_mm;
+use super::{BACKLASH, P, done, errors, message, rapid};
+use poseshift::compensate::Compensation;
+
+/// Joint 2 runs ahead: between the two sides is what the correction takes away from the way back.
+const AHEAD: &str = "{effect: backlash, joint: 2, width_deg: 0.1}";
+
+/// Straight moves past the base, on which joint 2 falls and from the middle on rises.
+fn past(ends: &[f64]) -> String {
+    let target = |(at, y): (usize, &f64)| format!("CONST robtarget p{at} := [[400,{y},200],{P};\n");
+    let data: String = ends.iter().enumerate().map(target).collect();
+    let moves = (1..ends.len()).map(|at| format!("MoveL p{at},v100,fine,tool0;\n"));
+    let start = "MoveAbsJ [[0,-20,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ \
+        p0,v100,fine,tool0;\n";
+    rapid(&data, &format!("{start}{}", moves.collect::<String>()))
+}
+
+fn along(effect: &str, ends: &[f64]) -> Compensation {
+    done(&[effect], &[("t.mod", &past(ends))])
+}
+
+/// The lines of targets to which a joint does not come wholly from its new side, and how far off the
+/// tool would be from the other.
+fn uncertain(done: &Compensation) -> Vec<(usize, f64)> {
+    assert_eq!(errors(done), [""; 0], "{:?}", done.findings);
+    let found = done.findings.iter();
+    let found = found.filter(|f| f.id == "direction-uncertain");
+    found.map(|f| (f.line, miss_mm(&f.message))).collect()
+}
+
+#[test]
+fn a_joint_that_turns_back_by_less_than_its_backlash_is_reported() {
+    let short = along(AHEAD, &[-250.0, 20.0]);
+    let found = uncertain(&short);
+    assert_eq!(found.len(), 1, "{:?}", short.findings);
+    let (line, off) = found[0];
+    // 0.1 deg of joint 2, some 0.4 m from the tool
+    assert!(line == 3 && (0.5..0.9).contains(&off), "{found:?}");
+    let said = message(&short, "direction-uncertain");
+    assert!(
+        said.contains("joint 2") && said.contains("of 0.100 deg"),
+        "{said}"
+    );
+    assert_eq!(uncertain(&along(AHEAD, &[-250.0, 90.0])), []);
+    // where the joint lags, the correction takes its backlash up
+    assert_eq!(uncertain(&along(BACKLASH, &[-250.0, 90.0])), []);
+}
+
+#[test]
+fn what_a_joint_goes_adds_up_over_short_moves() {
+    let one_way: Vec<f64> = (0..120).map(|k| -250.0 + 2.0 * f64::from(k)).collect();
+    for effect in [AHEAD, BACKLASH] {
+        assert_eq!(uncertain(&along(effect, &one_way)), [], "{effect}");
+    }
+    // of the moves behind the turn those that come before its backlash is taken up
+    let mut on = vec![-250.0, 20.0];
+    on.extend((0..40).map(|k| 22.0 + 2.0 * f64::from(k)));
+    let found = uncertain(&along(AHEAD, &on));
+    let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();
+    let first: Vec<usize> = (3..3 + lines.len()).collect();
+    assert!(
+        lines == first && (2..30).contains(&lines.len()),
+        "{found:?}"
+    );
+}
