@@ -39,7 +39,7 @@ END
 fn krl(body: &str) -> String {
     format!(
         "DEF t()\n$TOOL={{X 0,Y 0,Z 300,A 0,B 0,C 0}}\n$BASE=$WORLD\n\
-         PTP {{A1 25,A2 -80,A3 90,A4 0,A5 80,A6 25}}\n{body}END\n{SUB}"
+         PTP {{A1 25,A2 -80,A3 90,A4 0,A5 80,A6 -155}}\n{body}END\n{SUB}"
     )
 }
 
@@ -115,7 +115,7 @@ const LED: [(&str, &str, &str, [&str; 2]); 3] = [
         KRL,
         "t.src",
         "DEF t()\n$TOOL={X 0,Y 0,Z 300,A 0,B 0,C 0}\n$BASE=$WORLD\n\
-         PTP {A1 25,A2 -80,A3 90,A4 0,A5 80,A6 25}\n$ORI_TYPE=#VAR\n\
+         PTP {A1 25,A2 -80,A3 90,A4 0,A5 80,A6 -155}\n$ORI_TYPE=#VAR\n\
          LIN {X 1600.500,Y -600.250,Z 900.125,A 0.0001,B 0.0001,C 180.0}\n\
          LIN {X 1600.500,Y 600.250,Z 900.125,A 20.0001,B 0.0001,C 180.0}\nEND\n",
         ["#VAR", "#JOINT"],

@@ -14,7 +14,7 @@ use crate::motion::course::Course;
 use crate::motion::walk::{Arrival, Arrivals, NOWHERE, WalkOptions};
 use crate::motion::{follow, ride};
 use crate::program::script::short;
-use crate::program::{Displacement, Motion, Move, Program, TargetId};
+use crate::program::{Before, Displacement, Motion, Move, Program, TargetId};
 use std::collections::BTreeMap;
 
 /// So much of its backlash a joint need not have taken up.
@@ -33,10 +33,10 @@ pub(super) struct Ends {
 }
 
 /// The path to an arrival between fake targets.
-struct Path<'a> {
-    equipped: &'a Equipped,
-    course: Course,
-    start: [f64; 6],
+pub(super) struct Path<'a> {
+    pub equipped: &'a Equipped,
+    pub course: Course,
+    pub start: [f64; 6],
 }
 
 impl Ends {
@@ -57,19 +57,21 @@ impl Ends {
         };
         // directions carry on from arrival to arrival: predecessors come first in the list
         for (at, arrival) in arrivals.all.iter().enumerate() {
-            if !is_directed_at(job, arrivals, arrival) {
+            let fakes = &ends.fakes;
+            let Some(start) = start_of(job, arrivals, walk_options, fakes, arrival) else {
                 ends.directions[at] = arrival.direction;
                 continue;
-            }
+            };
             let motion = &program.moves[arrival.motion as usize];
-            let from = arrival.from as usize;
-            let (fakes, carried) = (&ends.fakes, ends.directions[from]);
+            let carried = ends.directions.get(arrival.from as usize);
+            let carried = carried.copied().unwrap_or_default();
             if program.turned(motion).is_some() {
-                ends.directions[at] = follow::turned(&fakes[from], &fakes[at], carried);
-                ends.halves[at] = fakes[from];
+                let mechanism = &job.ground.profile.mechanism;
+                ends.directions[at] = follow::turned(mechanism, &start, &fakes[at], carried);
+                ends.halves[at] = start;
                 continue;
             }
-            let Some(path) = ends.path(job, arrivals, walk_options, at) else {
+            let Some(path) = Path::of(job, arrivals, walk_options, fakes, at) else {
                 continue;
             };
             let coming = follow::direction_of(
@@ -94,33 +96,33 @@ impl Ends {
         };
         approaches.iter().enumerate().filter_map(differs).collect()
     }
+}
 
-    /// The path to an arrival that begins where the joints are known.
-    fn path<'a>(
-        &self,
+impl<'a> Path<'a> {
+    /// The path to an arrival; `None` where nobody knows where it begins.
+    pub(super) fn of(
         job: &'a Job,
         arrivals: &Arrivals,
         walk_options: &WalkOptions,
+        fakes: &[[f64; 6]],
         at: usize,
-    ) -> Option<Path<'a>> {
+    ) -> Option<Self> {
         let ground = &job.ground;
         let arrival = &arrivals.all[at];
         let motion = &ground.program.moves[arrival.motion as usize];
         let equipped = ground.equipped(motion.tool)?;
-        let before = &arrivals.all[arrival.from as usize];
-        let end = &self.fakes[at];
-        let from = starts_at(job, arrivals, arrival);
-        let start = self.fakes[from as usize];
-        let via = (from != arrival.from).then(|| {
-            let q = &self.fakes[arrival.from as usize];
-            equipped.controller.forward(q, &Conditions::default())
+        let end = &fakes[at];
+        let start = start_of(job, arrivals, walk_options, fakes, arrival)?;
+        let from = (arrival.from != NOWHERE).then(|| starts_at(job, arrivals, arrival));
+        let before = from.map(|from| arrivals.all[from as usize].motion);
+        let ride = ground.ride(before, motion);
+        let via = from.filter(|from| *from != arrival.from).map(|_| {
+            let (at, q) = (arrival.from as usize, &fakes[arrival.from as usize]);
+            let pose = equipped.controller.forward(q, &Conditions::default());
+            let point = &ground.program.moves[arrivals.all[at].motion as usize];
+            ride::through(&pose, ground.ride(None, point).as_deref(), ride.as_deref())
         });
         let wanted = equipped.controller.forward(end, &Conditions::default());
-        let ride = ground.ride(Some(arrivals.all[from as usize].motion), motion);
-        let via = via.map(|pose| {
-            let point = ground.ride(None, &ground.program.moves[before.motion as usize]);
-            ride::through(&pose, point.as_deref(), ride.as_deref())
-        });
         let course = follow::course(
             motion,
             equipped,
@@ -131,12 +133,31 @@ impl Ends {
             ride,
             walk_options,
         );
-        Some(Path {
+        Some(Self {
             equipped,
             course,
             start,
         })
     }
+}
+
+/// The fake joints where the path to an arrival begins, which `--start-joints` gives for the first;
+/// `None` where nobody knows them.
+fn start_of(
+    job: &Job,
+    arrivals: &Arrivals,
+    walk_options: &WalkOptions,
+    fakes: &[[f64; 6]],
+    arrival: &Arrival,
+) -> Option<[f64; 6]> {
+    let program = job.ground.program;
+    if arrival.from == NOWHERE {
+        let before = program.before(&program.moves[arrival.motion as usize]);
+        let begins = arrival.known && before.contains(&Before::Start);
+        return walk_options.start_joints.filter(|_| begins);
+    }
+    is_directed_at(job, arrivals, arrival)
+        .then(|| fakes[starts_at(job, arrivals, arrival) as usize])
 }
 
 /// Whether the sides from which joints come to an arrival are those of its path.
@@ -223,32 +244,27 @@ impl Ends {
         let equipped = job.ground.equipped(motion.tool)?;
         let end = &self.fakes[at];
         let widths = widths(job, motion, end);
-        if let Some(start) = walk_options
-            .start_joints
-            .filter(|_| arrival.from == NOWHERE)
-        {
-            let through = |i: usize| Stretch::through(&[start[i], end[i]], widths[i]);
-            return arrival.known.then(|| std::array::from_fn(through));
-        }
-        if !is_directed_at(job, arrivals, arrival) || is_led(program, arrival) {
+        let start = start_of(job, arrivals, walk_options, &self.fakes, arrival)?;
+        if is_led(program, arrival) {
             return None;
         }
-        let start = &self.fakes[starts_at(job, arrivals, arrival) as usize];
-        let half = &self.halves[at];
+        let turning = |q: &[f64; 6]| equipped.mechanism.commanded(q);
+        let [from, half, to] = [&start, &self.halves[at], end].map(turning);
         let mut parts = Vec::new();
         Some(std::array::from_fn(|i| {
             if !equipped.has_backlash[i] {
                 return Stretch::NONE;
             }
-            let known = [start[i], half[i], end[i]];
+            let known = [from[i], half[i], to[i]];
             if let Some(stretch) = Stretch::roughly(known, self.directions[at][i], widths[i]) {
                 return stretch;
             }
             if parts.is_empty() {
-                let path = self.path(job, arrivals, walk_options, at);
+                let path = Path::of(job, arrivals, walk_options, &self.fakes, at);
                 parts = path.map_or_else(Vec::new, |path| {
                     let leg = follow::leg(path.equipped, &path.course, &path.start, arrival.branch);
-                    backlash::parts(&leg, end)
+                    let parts = backlash::parts(&leg, end);
+                    parts.iter().map(turning).collect()
                 });
             }
             let is_led = i >= 3 && follow::leads_wrist(motion);

@@ -55,6 +55,7 @@ mod led;
 mod limit;
 mod outcome;
 mod portions;
+mod postures;
 mod refused;
 mod remarks;
 mod rewrite;

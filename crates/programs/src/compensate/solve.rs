@@ -4,25 +4,22 @@
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
 use super::ends::Ends;
+use super::postures;
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::program::script::{Turn, short};
-use crate::program::{Displacement, Motion, Shape, Shift, Value};
+use crate::program::{Displacement, Shape, Shift};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::{PI, TAU};
+use std::collections::BTreeMap;
 
 /// Targets solved by one thread at a time.
 const CHUNK: usize = 512;
 /// Times that the directions of arrival are looked at again on the path between fake targets.
 const MOST_ROUNDS: usize = 3;
-/// Corrections move a joint by less than this, radians.
-const NEAR_HALF_RAD: f64 = 0.1;
-
 /// Whether the direction in which joints arrive matters to an effect of the profile.
 pub(super) fn is_directed(job: &Job) -> bool {
     let effects = &job.ground.profile.effects;
@@ -84,7 +81,7 @@ pub(super) fn solve(
         }
         tell_unknown(job, arrivals, approaches, findings);
     }
-    other_rotations(job, arrivals, approaches, &outcomes, findings);
+    postures::others(job, arrivals, walk_options, approaches, &outcomes, findings);
     let outcomes = outcomes.into_iter();
     let outcomes = outcomes.map(|outcome| outcome.expect("every approach is solved"));
     (outcomes.collect(), last)
@@ -227,67 +224,6 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
         for (at, outcome) in chunk.iter().zip(solved) {
             outcomes[*at as usize] = Some(outcome);
         }
-    }
-}
-
-/// Reports joint moves on which the correction takes a joint farther than half a rotation from where
-/// it stands, so that a controller that takes the nearest rotation goes the other way round.
-fn other_rotations(
-    job: &Job,
-    arrivals: &Arrivals,
-    approaches: &[Approach],
-    outcomes: &[Option<Outcome>],
-    findings: &mut Vec<Finding>,
-) {
-    let ground = &job.ground;
-    let mut reported = BTreeSet::new();
-    for arrival in &arrivals.all {
-        let motion = &ground.program.moves[arrival.motion as usize];
-        let Some(from) = arrivals.start_of(arrival).filter(|_| arrival.known) else {
-            continue;
-        };
-        let by = |from: &[f64; 6], to: &[f64; 6], i: usize| (to[i] - from[i]).abs();
-        let is_far = |i: &usize| (PI - NEAR_HALF_RAD..PI).contains(&by(&from.q, &arrival.q, *i));
-        if motion.motion != Motion::Joint || !(0..6).any(|i| is_far(&i)) {
-            continue;
-        }
-        let (Some(target), Some(goal)) = (motion.target, ground.goal(motion)) else {
-            continue;
-        };
-        if matches!(goal.value, Value::Joints(_)) || reported.contains(&target) {
-            continue;
-        }
-        let [start, end] =
-            [from, arrival].map(|at| fake_of(job, approaches, outcomes, at).unwrap_or(at.q));
-        let configuration = &goal.configuration;
-        let is_free =
-            |i: &usize| configuration.joints[*i].is_none() && configuration.beyond[*i].is_none();
-        let limits = &ground.profile.mechanism.joints;
-        let other = |i: usize| end[i] - TAU.copysign(end[i] - start[i]);
-        let fits = |i: &usize| (limits[*i].min_rad..=limits[*i].max_rad).contains(&other(*i));
-        let is_beyond = |i: &usize| by(&start, &end, *i) > PI;
-        let Some(joint) = (0..6).find(|i| is_far(i) && is_free(i) && is_beyond(i) && fits(i))
-        else {
-            continue;
-        };
-        reported.insert(target);
-        let message = format!(
-            "the correction takes joint {} farther than half a rotation from where it stands: a \
-             controller that takes the nearest goes from {:.2} deg the other way round to {:.2} deg, \
-             not to {:.2} deg, on its way to {}",
-            joint + 1,
-            start[joint] / DEG,
-            other(joint) / DEG,
-            end[joint] / DEG,
-            ground.name_of(target)
-        );
-        findings.push(ground.at_move(
-            "several-postures",
-            Severity::Warning,
-            motion,
-            message,
-            "see that nothing on the arm is wound up, or go to a target between the two first",
-        ));
     }
 }
 

@@ -3,12 +3,14 @@
 use crate::geometry::Pose;
 use crate::inverse::{Arm, Branch, Inverse, Status, Unsupported};
 use crate::model::effects::Need;
-use crate::model::{Conditions, Model};
+use crate::model::{Conditions, Mechanism, Model};
 use crate::profile::{Mounted, Profile};
 
 /// An arm with one of the program's tools.
 pub(crate) struct Equipped {
     pub arm: Arm,
+    /// How the controller counts angles.
+    pub mechanism: Mechanism,
     pub controller: Model,
     /// The inverse of a controller that computes with a calibrated chain of its own.
     pub calibrated_controller: Option<Inverse>,
@@ -51,6 +53,7 @@ impl Equipped {
         }
         let mut equipped = Self {
             arm,
+            mechanism: profile.mechanism.clone(),
             controller,
             calibrated_controller,
             inverse,

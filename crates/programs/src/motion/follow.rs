@@ -9,7 +9,7 @@ use super::walk::WalkOptions;
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::inverse::{Arm, Branch};
-use crate::model::Conditions;
+use crate::model::{Conditions, Mechanism};
 use crate::program::{Motion, Move};
 use std::sync::Arc;
 
@@ -33,8 +33,14 @@ const SINGULAR_M: f64 = 1e-4;
 /// How far along a path that begins at a singularity its branch is seen.
 const BEYOND_SINGULAR: f64 = 0.02;
 
-/// Directions after a move of the joints at constant rates.
-pub(crate) fn turned(from: &[f64; 6], to: &[f64; 6], before: [i8; 6]) -> [i8; 6] {
+/// Directions after a move of the joints at constant rates: those of the angles that turn them.
+pub(crate) fn turned(
+    mechanism: &Mechanism,
+    from: &[f64; 6],
+    to: &[f64; 6],
+    before: [i8; 6],
+) -> [i8; 6] {
+    let (from, to) = (mechanism.commanded(from), mechanism.commanded(to));
     std::array::from_fn(|i| sign(to[i] - from[i], STANDSTILL_RAD).unwrap_or(before[i]))
 }
 
@@ -70,7 +76,7 @@ pub(crate) fn course(
 
 /// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
 /// by continuity. `None` where it leaves the reach on its way.
-pub(super) fn follow(
+pub(crate) fn follow(
     equipped: &Equipped,
     course: &Course,
     start: &[f64; 6],
@@ -168,7 +174,8 @@ pub(crate) fn direction_of(
 ) -> Coming {
     let mut coming = arrival_direction(equipped, course, start, end, branch, before);
     if leads_wrist(motion) {
-        coming.direction[3..].copy_from_slice(&turned(start, end, before)[3..]);
+        coming.direction[3..]
+            .copy_from_slice(&turned(&equipped.mechanism, start, end, before)[3..]);
         coming.half[3..].copy_from_slice(&halfway(start, end)[3..]);
     }
     coming
@@ -201,9 +208,10 @@ fn arrival_direction(
     branch: Branch,
     before: [i8; 6],
 ) -> Coming {
+    let mechanism = &equipped.mechanism;
     let Course::Tool(path) = course else {
         return Coming {
-            direction: turned(start, end, before),
+            direction: turned(mechanism, start, end, before),
             half: halfway(start, end),
         };
     };
@@ -220,11 +228,12 @@ fn arrival_direction(
     let last = leg.joints(1.0, end);
     let shortly_before = leg.joints(1.0 - back, &last);
     let per = back * length;
-    let rates: [f64; 6] = std::array::from_fn(|i| (last[i] - shortly_before[i]) / per);
+    let [to, from] = [&last, &shortly_before].map(|q| mechanism.commanded(q));
+    let rates: [f64; 6] = std::array::from_fn(|i| (to[i] - from[i]) / per);
     // a joint that stands at the end keeps what it did on the way
     let half = leg.joints(0.5, end);
-    let first = turned(start, &half, before);
-    let on_way = turned(&half, end, first);
+    let first = turned(mechanism, start, &half, before);
+    let on_way = turned(mechanism, &half, end, first);
     Coming {
         direction: std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i])),
         half,

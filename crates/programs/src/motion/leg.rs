@@ -203,8 +203,9 @@ impl Leg<'_> {
             return self.conditions.direction.map(|side| vec![side]);
         };
         let stands = STANDSTILL_RAD_M * (course.length_m() + course.angle_rad());
+        let turning = self.equipped.mechanism.commanded(&piece.joints);
         std::array::from_fn(|i| {
-            let slope = &piece.joints[i].slope;
+            let slope = &turning[i].slope;
             let (low, high) = (slope.middle - slope.radius, slope.middle + slope.radius);
             if !self.equipped.has_backlash[i] || (low > -stands && high < stands) {
                 vec![self.conditions.direction[i]]

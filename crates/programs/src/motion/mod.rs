@@ -37,7 +37,7 @@ mod middle;
 mod passed;
 pub(crate) mod placed;
 pub(crate) mod plausibility;
-mod posture;
+pub(crate) mod posture;
 mod readers;
 mod resolve;
 pub(crate) mod ride;

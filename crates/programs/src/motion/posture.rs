@@ -21,7 +21,7 @@ pub(crate) const OUT_OF_REACH: &str = "out-of-reach";
 
 /// A way to stand at a target with the nominal arm.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Posture {
+pub(crate) struct Posture {
     pub branch: Branch,
     pub q: [f64; 6],
     /// It is all that the configuration data ask for.
@@ -33,7 +33,7 @@ pub(super) struct Posture {
 }
 
 /// A target whose branch is to be found.
-pub(super) struct Asked<'a> {
+pub(crate) struct Asked<'a> {
     pub target: TargetId,
     pub arm: &'a Arm,
     pub wanted: Pose,
@@ -60,7 +60,7 @@ impl Asked<'_> {
 
 /// The posture that configuration data and the joints before ask for; `None` where there is none,
 /// with a finding.
-pub(super) fn choose(
+pub(crate) fn choose(
     ground: &Ground,
     asked: &Asked,
     findings: &mut Vec<Finding>,

@@ -361,9 +361,9 @@ impl Walker<'_, '_> {
             Arrival {
                 q,
                 branch: arm.map_or(Branch::ALL[0], |equipped| equipped.arm.posture(&q).0),
-                direction: start
-                    .filter(|_| !starts_unknown)
-                    .map_or([0; 6], |start| turned(&start, &q, direction)),
+                direction: start.filter(|_| !starts_unknown).map_or([0; 6], |start| {
+                    turned(&ground.profile.mechanism, &start, &q, direction)
+                }),
                 known: true,
                 displaced,
                 ..nowhere
