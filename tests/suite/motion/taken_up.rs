@@ -67,3 +67,14 @@ fn what_a_joint_goes_adds_up_over_short_moves() {
         "{found:?}"
     );
 }
+
+#[test]
+fn a_move_in_a_work_frame_that_nobody_knows_has_no_side() {
+    let data = format!(
+        "CONST robtarget p := [[400,0,300],{P};\nPERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],\
+         [1,0,0,0]],[[0,0,0],[1,0,0,0]]];"
+    );
+    let text = rapid(&data, "SetFrame w;\nMoveJ p,v100,fine,tool0\\WObj:=w;");
+    let refused = done(&[BACKLASH], &[("t.mod", &text)]);
+    assert_eq!(errors(&refused), ["frame-chosen-at-run-time"]);
+}

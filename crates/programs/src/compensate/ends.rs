@@ -293,11 +293,12 @@ fn is_led(program: &Program, arrival: &Arrival) -> bool {
 fn widths(job: &Job, motion: &Move, q: &[f64; 6]) -> [f64; 6] {
     let ground = &job.ground;
     let equipped = ground.arm_with(motion.tool);
-    let gravity_m_s2 = ground.placed(ground.frame_of(motion)).gravity_m_s2;
-    let conditions = Conditions {
-        gravity_m_s2,
-        ..equipped.inverse.conditions
-    };
+    let mut conditions = equipped.inverse.conditions;
+    let frame = ground.frame_of(motion);
+    // of joint moves nobody need know the frame
+    if ground.setting.frames[frame].is_some() {
+        conditions.gravity_m_s2 = ground.placed(frame).gravity_m_s2;
+    }
     equipped.backlash_rad(q, &conditions)
 }
 
