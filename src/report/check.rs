@@ -1,7 +1,7 @@
 //! The text of `check`, and its `JUnit` XML.
 
 use super::junit;
-use super::text::{fixed, left_out};
+use super::text::{at_least, at_most, fixed, left_out};
 use crate::check::baseline::{Comparison, text as baseline_text};
 use crate::finding::{Finding, Severity};
 use crate::task::check::{Checked, Move, Summary};
@@ -34,6 +34,7 @@ pub(crate) fn text(found: &Checked) -> String {
         let sigma = sigma.map_or(String::new(), |s| format!(" \u{b1} {s:.3}"));
         format!("{}{sigma} mm (line {})", fixed(size_mm, 3), of.line)
     };
+    let most = |bound: Option<f64>| bound.map(|bound| at_most(bound, 3));
     let [mut at_poses, mut at_joints, mut along] = [const { None::<Move> }; 3];
     let larger = |worst: &mut Option<Move>, one: &Move, size: &dyn Fn(&Move) -> f64| {
         if worst.as_ref().is_none_or(|worst| size(one) >= size(worst)) {
@@ -65,14 +66,15 @@ pub(crate) fn text(found: &Checked) -> String {
     if let Some(worst) = along {
         lines.push(format!(
             "  along the path never more than {}, {} deg",
-            shown(path_error(&worst), &worst),
-            fixed(max_path_error_deg, 3)
+            shown(most(path_error(&worst)), &worst),
+            fixed(most(max_path_error_deg), 3)
         ));
     }
     if let Some(least) = min_clearance_mm {
         lines.push(format!(
-            "  clearance      never less than {least:.3} mm; {collisions} moves touch something, \
-             {too_near} come too near"
+            "  clearance      never less than {:.3} mm; {collisions} moves touch something, \
+             {too_near} come too near",
+            at_least(least, 3)
         ));
         if nominal_collisions > 0 {
             lines.push(format!(

@@ -42,6 +42,21 @@ pub(super) fn left_out(found: &LeftOut) -> Vec<String> {
     ignored.into_iter().chain(other).collect()
 }
 
+/// Of a last decimal, by what numbers are off that are written with it.
+const ROUNDED: f64 = 1e-6;
+
+/// The least number with so many decimals that a bound from above is not beyond.
+pub(crate) fn at_most(bound: f64, decimals: i32) -> f64 {
+    let unit = 10.0_f64.powi(decimals);
+    // what is such a number already stays
+    (bound * unit - ROUNDED).ceil() / unit
+}
+
+/// The largest number with so many decimals that a bound from below is not below.
+pub(crate) fn at_least(bound: f64, decimals: i32) -> f64 {
+    -at_most(-bound, decimals)
+}
+
 /// A number that may be none with so many decimals.
 pub(super) fn fixed(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "-".into(), |x| format!("{x:.decimals$}"))

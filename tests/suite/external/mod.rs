@@ -4,6 +4,7 @@
 mod arcs;
 mod attached;
 mod checked;
+mod coordinated;
 mod derived;
 mod joints;
 mod landing;

@@ -20,6 +20,7 @@ mod rotations;
 mod rows;
 mod straight;
 mod taken_up;
+mod tipped;
 mod wrist;
 
 use crate::support::repository;

@@ -274,11 +274,22 @@ impl Walk {
     }
 
     /// Whether the path to a stop is known between its points: not that of a spline, nor one on
-    /// which the tool rotates as the joints of the wrist do.
+    /// which the tool rotates as the joints of the wrist do, or the part moves and the path is not
+    /// relative to it.
     pub(super) fn is_followed(&self, stop: usize) -> bool {
         let motion = self.motion(stop);
         motion.motion == Motion::Joint
-            || motion.motion != Motion::Spline && !motion.free_orientation
+            || motion.motion != Motion::Spline
+                && !motion.free_orientation
+                && !self.leaves_the_part(stop)
+    }
+
+    /// Whether external axes move on the path to a stop that is not relative to what they carry.
+    pub(super) fn leaves_the_part(&self, stop: usize) -> bool {
+        let stands = |stop: usize| self.program.stands_at(self.index(stop));
+        let before = self.stops.before(stop);
+        !self.motion(stop).coordinated
+            && before.is_some_and(|before| stands(before) != stands(stop))
     }
 
     /// Index of the move of a stop.

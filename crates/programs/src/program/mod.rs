@@ -342,6 +342,8 @@ pub struct Move {
     pub configured: bool,
     /// On the way the orientation is free: only the end counts.
     pub free_orientation: bool,
+    /// Where a positioner carries the work frame, the path is relative to it.
+    pub coordinated: bool,
     /// Index in [`Program::instructions`].
     pub instruction: u32,
     /// The moves that may come before it, see [`Program::before`].
@@ -368,6 +370,7 @@ impl Default for Move {
             displacement: Displacement::None,
             configured: false,
             free_orientation: false,
+            coordinated: true,
             instruction: 0,
             before: Before::Start,
             tool_written: None,

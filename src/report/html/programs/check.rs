@@ -12,6 +12,7 @@ use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
 use crate::report::html::chart::{Axis, Chart, Kind, Series, Tone};
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Section};
+use crate::report::text::{at_least, at_most};
 use crate::task::check::{Checking, Header};
 
 /// What the page of `check` is made of.
@@ -81,12 +82,15 @@ fn page(of: &Checked) -> Page {
     }
     page.fact(
         "error along the path, never more than",
-        format!("{:.3} mm", mm_from_m(s.max_path_error.distance_m)),
+        format!(
+            "{:.3} mm",
+            at_most(mm_from_m(s.max_path_error.distance_m), 3)
+        ),
     );
     if let Some(least) = s.min_clearance_m {
         page.fact(
             "clearance, never less than",
-            format!("{:.2} mm", mm_from_m(least)),
+            format!("{:.2} mm", at_least(mm_from_m(least), 2)),
         );
         page.fact("moves that touch something", s.collisions.to_string());
         page.fact("moves that come too near", s.too_near.to_string());

@@ -198,8 +198,12 @@ impl Job<'_> {
         if !path.certified {
             let motion = self.walk.motion(index);
             let is_spline = motion.motion == Motion::Spline;
+            let leaves_the_part = self.walk.leaves_the_part(index);
             let is_free = !is_spline && !self.walk.is_followed(index);
-            let message = if is_free {
+            let message = if leaves_the_part {
+                "the part moves on this path, and the tool does not go with it (no COORD, no SMOV): \
+                 it was looked at as if it did; where it goes between its ends is not known"
+            } else if is_free {
                 "the tool rotates on this path as the joints of the wrist do: it was looked at as \
                  if it rotated evenly from beginning to end"
             } else if is_spline {
@@ -210,7 +214,12 @@ impl Job<'_> {
                  singularity, external axes lean the base or begin nobody knows where, or the \
                  controller's own chain is calibrated"
             };
-            let (severity, hint) = if is_free {
+            let (severity, hint) = if leaves_the_part {
+                (
+                    Severity::Warning,
+                    "move the positioner first, or coordinate the move; check the path on the robot",
+                )
+            } else if is_free {
                 (
                     Severity::Warning,
                     "check the orientation on the way on the robot, or let the tool rotate evenly",

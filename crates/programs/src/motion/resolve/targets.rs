@@ -337,6 +337,7 @@ impl Resolver<'_, '_> {
             displacement,
             configured,
             free_orientation: instruction.free_orientation || listed.choices.free_orientation,
+            coordinated: instruction.coordinated,
             instruction: *at,
             before: Before::Start,
             tool_written,

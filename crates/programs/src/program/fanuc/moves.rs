@@ -71,6 +71,7 @@ impl Reader<'_> {
         let mut words = Words::of(text, behind);
         let of_middle = middle.map(|middle| words.add(middle)).unwrap_or_default();
         words.against[Why::LineTracking as usize] = self.listing.tracks_line;
+        let coordinated = words.against[Why::Coordinated as usize];
         words.against[Why::Coordinated as usize] &= !self.listing.is_carried;
         let is_arc = points.len() == 2;
         let is_row = !is_arc && b"AC".contains(&letter);
@@ -78,6 +79,7 @@ impl Reader<'_> {
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
+            coordinated,
             ..Instruction::at(self.place)
         };
         let modal = Modal {

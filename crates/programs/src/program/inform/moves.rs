@@ -177,6 +177,7 @@ impl<'a> Reader<'a> {
         let mut instruction = Instruction {
             end: short(words.end),
             motion: self.motion(kind),
+            coordinated: words.verb.starts_with(b"SMOV"),
             ..Instruction::at(place)
         };
         let mut modal = Modal {

@@ -161,6 +161,8 @@ pub struct Instruction {
     pub motion: Motion,
     /// On the path the orientation is free (`SingArea \Wrist`, `Wjnt`): only the end counts.
     pub free_orientation: bool,
+    /// Where a positioner carries the work frame, the path is relative to it.
+    pub coordinated: bool,
     /// Where to.
     pub target: Expr,
     /// Index in [`super::Script::modals`]; [`Builder::go`](super::Builder::go) sets it.
@@ -184,6 +186,7 @@ impl Instruction {
             end: place.offset,
             motion: Motion::Joint,
             free_orientation: false,
+            coordinated: true,
             target: Expr::Absent,
             modal: 0,
             near: None,
