@@ -73,16 +73,16 @@ impl Known {
             return true;
         }
         let value: f64 = written.parse().expect("a number");
-        let half = half_a_digit(digits) + 1e-12 * value.abs();
-        let near = |x: f64| (x - value).abs() <= half || (x + value).abs() <= half;
+        let digit = a_digit(digits) + 1e-12 * value.abs();
+        let near = |x: f64| (x - value).abs() <= digit || (x + value).abs() <= digit;
         self.numbers
             .iter()
             .any(|x| [1.0, 100.0, 1000.0, 2.0, 0.0].iter().any(|k| near(k * x)))
     }
 }
 
-/// Half a unit of the last digit that is written, and what arithmetic takes.
-fn half_a_digit(digits: &str) -> f64 {
+/// A unit of the last digit that is written (bounds are rounded outwards), and what arithmetic takes.
+fn a_digit(digits: &str) -> f64 {
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
     let length = |text: &str| i32::try_from(text.len()).expect("a short number");
     let decimals = match mantissa.split_once('.') {
@@ -90,7 +90,7 @@ fn half_a_digit(digits: &str) -> f64 {
         None => length(mantissa.trim_end_matches('0')) - length(mantissa),
     };
     let exponent: i32 = exponent.parse().expect("an exponent");
-    0.500_001 * 10_f64.powi(exponent - decimals)
+    1.000_001 * 10_f64.powi(exponent - decimals)
 }
 
 /// The numbers of a text, names of them left out.

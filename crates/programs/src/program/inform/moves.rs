@@ -30,6 +30,8 @@ struct Words<'a> {
     station: Option<&'a [u8]>,
     /// Behind the last word that does no more than go to the position.
     end: usize,
+    /// `UNTIL`: the robot may stop on its path.
+    may_stop: bool,
     speed_zone: SpeedZone,
 }
 
@@ -42,6 +44,7 @@ impl<'a> Words<'a> {
             robot: None,
             base: None,
             station: None,
+            may_stop: false,
             end: start + verb.len(),
             speed_zone: SpeedZone::default(),
         }
@@ -59,6 +62,7 @@ impl<'a> Words<'a> {
             }
             _ => {}
         }
+        self.may_stop |= word == b"UNTIL";
         let operand = Operand::of(word).filter(|_| self.robot.is_none());
         if let Some(operand) = operand {
             let span = Span::of(at..end);
@@ -231,6 +235,16 @@ impl<'a> Reader<'a> {
         }
         modal.guards = self.variables.guards(&mut self.builder, &reasons);
         self.builder.go(instruction, modal);
+        if words.may_stop {
+            // where the robot stands then is known to nobody
+            let Modal { tool, frame, .. } = modal;
+            let stopped = Modal {
+                tool,
+                frame,
+                ..Modal::default()
+            };
+            self.builder.go(Instruction::at(place), stopped);
+        }
     }
 
     fn motion(&mut self, kind: Kind) -> Motion {

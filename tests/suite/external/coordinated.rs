@@ -1,0 +1,69 @@
+//! Moves on which a positioner moves the part, with and without words that make the tool go with it.
+
+use crate::support::{run, scratch, text};
+use serde_json::Value;
+
+/// A table that rotates about z in front of the arm.
+const TABLE: &str = "external_axes:\n  positioners:\n    - name: G2\n      follows: always\n      axes:\n        \
+     - {axis: G2J1, at: {x_mm: 565.52, y_mm: 0, z_mm: -46.21, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: -180, \
+     max_deg: 180}\n      plate: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}\n";
+
+fn listing(words: &str, table_deg: [f64; 2]) -> String {
+    let group = |deg: f64| format!("   GP2:\n\tUF : 1, UT : 1,\t\n\tJ1 = {deg:.3} deg\n}};\n");
+    let pose = |number: u32, y: f64, r: f64, deg: f64| {
+        format!(
+            "P[{number}]{{\n   GP1:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX = -40.000 mm,\tY = {y:.3} \
+             mm,\tZ = 120.000 mm,\n\tW = 180.000 deg,\tP = 0.000 deg,\tR = {r:.3} deg\n{}",
+            group(deg)
+        )
+    };
+    format!(
+        "/PROG  T\n/ATTR\nDEFAULT_GROUP = 1,1,*,*,*;\n/MN\n   1:  UFRAME_NUM=1 ;\n   2:  UTOOL_NUM=1 ;\n   3:  J P[1] \
+         50% FINE ;\n   4:  L P[2] 100mm/sec FINE{words} ;\n/POS\n{}{}/END\n",
+        pose(1, -60.0, 0.0, table_deg[0]),
+        pose(2, 60.0, 0.0, table_deg[1])
+    )
+}
+
+/// What `check` finds of the straight move, and whether it knows its path.
+fn found(words: &str, table_deg: [f64; 2]) -> (Vec<String>, Value) {
+    let folder = scratch();
+    let at = |name: &str, text: String| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("scratch");
+        path.display().to_string()
+    };
+    let program = at("t.ls", listing(words, table_deg));
+    let profile = at(
+        "p.yaml",
+        text("robots/fanuc_lrmate200ic.yaml").trim_end().to_owned() + "\n" + TABLE,
+    );
+    let given = ["--tool", "1=0,0,100,0,0,0", "--frame", "1=0,0,0,0,0,0"];
+    let command = ["check", &program, "--profile", &profile, "--json"];
+    let (status, out, said) = run(&[&command[..], &given].concat());
+    let report: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{status}: {said}"));
+    let about = report["findings"].as_array().expect("a list").iter();
+    let about = about.filter(|f| f["id"] == "path-uncertified");
+    let messages = about.map(|f| f["message"].as_str().expect("a text").to_owned());
+    (
+        messages.collect(),
+        report["moves"][1]["path_certified"].clone(),
+    )
+}
+
+#[test]
+fn a_path_that_does_not_go_with_the_part_is_not_certified() {
+    let turning = [-20.0, 20.0];
+    let (said, certified) = found("", turning);
+    assert!(
+        said.len() == 1 && said[0].contains("no COORD") && certified == false,
+        "{said:?}"
+    );
+    for (words, table_deg) in [(" COORD", turning), ("", [20.0, 20.0])] {
+        let (said, certified) = found(words, table_deg);
+        assert!(
+            said.is_empty() && certified == true,
+            "{words}: {said:?} {certified}"
+        );
+    }
+}

@@ -1,0 +1,145 @@
+//! Where the controller's own rules decide how it comes to a target, the correction may tip them.
+
+use super::{errors, given, profile_of, try_with};
+use poseshift::compensate::{Options, compensate};
+use poseshift::geometry::units::DEG;
+use poseshift::program::{Source, language_of};
+
+/// The tool ahead of the flange, so that joint 6 moves nothing but its orientation.
+const ARM: &str = "robots/abb_irb120.yaml";
+
+/// A program with a joint move to joints, and a move of this kind to a pose.
+fn rapid(joints: [f64; 6], instruction: &str, pose: &str) -> String {
+    let joints = joints.map(|q| q.to_string()).join(",");
+    format!(
+        "MODULE t\nPROC main()\nConfJ\\Off;\nConfL\\Off;\nMoveAbsJ \
+         [[{joints}],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n{instruction} \
+         [{pose},[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    )
+}
+
+/// A pose as RAPID has it: of the nominal arm in these joints.
+fn pose_at(joints: [f64; 6]) -> String {
+    let profile = profile_of(ARM, &[]);
+    let tool = poseshift::model::profile::Mounted::flange();
+    let pose = profile.controller_model(&tool).forward(
+        &joints.map(|q| q * DEG),
+        &poseshift::model::Conditions::default(),
+    );
+    let [x, y, z] = pose.translation.map(|m| m * 1e3);
+    let [w, i, j, k] = pose.rotation.quaternion().0;
+    format!("[{x:.6},{y:.6},{z:.6}],[{w:.9},{i:.9},{j:.9},{k:.9}]")
+}
+
+fn found(effects: &[&str], program: &str) -> (Vec<&'static str>, Option<String>) {
+    let done = try_with(given(), effects, &[("t.mod", program)]).expect("read");
+    let about = done.findings.iter().find(|f| f.id == "several-postures");
+    (errors(&done), about.map(|f| f.message.clone()))
+}
+
+#[test]
+fn a_joint_move_that_the_correction_takes_past_half_a_rotation_is_reported_whatever_the_file_says()
+{
+    let effect = ["{effect: link_geometry, link: 6, theta_deg: -0.1}"];
+    let from = [0.0, 0.0, 0.0, 0.0, 60.0, 0.0];
+    let to = |q6: f64| pose_at([10.0, 10.0, 5.0, 5.0, 50.0, q6]);
+    let (refused, said) = found(&effect, &rapid(from, "MoveJ", &to(179.97)));
+    assert_eq!(refused, [""; 0]);
+    let said = said.expect("a warning");
+    assert!(
+        said.contains("joint 6") && said.contains("-179.9"),
+        "{said}"
+    );
+    assert_eq!(
+        found(&effect, &rapid(from, "MoveJ", &to(170.0))),
+        (vec![], None)
+    );
+}
+
+#[test]
+fn a_joint_move_to_which_another_posture_is_nearer_with_the_correction_is_reported() {
+    let effects = ["{effect: link_geometry, link: 4, theta_deg: -0.3}"];
+    let from = [0.0, 15.0, 10.0, 0.0, 3.0, 0.0];
+    // the other posture turns joints 4 and 6 by half a rotation less: 92.0 deg there
+    let to = |q4: f64| pose_at([1.0, 17.0, 11.0, q4, 25.0, 88.0]);
+    let (refused, said) = found(&effects, &rapid(from, "MoveJ", &to(91.85)));
+    assert_eq!(refused, [""; 0]);
+    let said = said.expect("a warning");
+    assert!(said.contains("another posture is nearer"), "{said}");
+    assert_eq!(
+        found(&effects, &rapid(from, "MoveJ", &to(80.0))),
+        (vec![], None)
+    );
+}
+
+#[test]
+fn a_path_that_the_correction_takes_the_other_way_round_is_refused() {
+    let effect = ["{effect: joint_scale, joint: 6, ratio: -5.0e-4}"];
+    let from = [0.0, 15.0, 10.0, 0.0, 60.0, -85.0];
+    let to = |by: f64| pose_at([0.0, 15.0, 10.0, 0.0, 60.0, -85.0 + by]);
+    let (refused, said) = found(&effect, &rapid(from, "MoveL", &to(179.97)));
+    assert_eq!(refused, ["several-postures"]);
+    let said = said.expect("an error");
+    assert!(
+        said.contains("another way") && said.contains("95.0"),
+        "{said}"
+    );
+    assert_eq!(
+        found(&effect, &rapid(from, "MoveL", &to(170.0))),
+        (vec![], None)
+    );
+}
+
+#[test]
+fn a_coupled_joint_comes_from_the_side_of_the_angle_that_turns_it() {
+    let fanuc = "robots/fanuc_lrmate200ic.yaml";
+    // J3 falls on the pendant and rises with J2
+    let program = "/PROG T\n/MN\n   1:J P[1] 10% FINE ;\n   2:J P[2] 10% FINE ;\n   3:J P[3] 10% FINE \
+                   ;\n/POS\n\
+                   P[1]{\n   GP1:\n    UF : 0, UT : 1,\n    J1 = 0.000 deg, J2 = 0.000 deg, J3 = 0.000 \
+                   deg,\n    J4 = 0.000 deg, J5 = -50.000 deg, J6 = 0.000 deg\n};\n\
+                   P[2]{\n   GP1:\n    UF : 0, UT : 1,\n    J1 = 0.000 deg, J2 = 20.000 deg, J3 = -5.000 \
+                   deg,\n    J4 = 0.000 deg, J5 = -50.000 deg, J6 = 0.000 deg\n};\n\
+                   P[3]{\n   GP1:\n    UF : 0, UT : 1,\n    J1 = 0.000 deg, J2 = 40.000 deg, J3 = \
+                   -15.000 deg,\n    J4 = 0.000 deg, J5 = -50.000 deg, J6 = 0.000 deg\n};\n/END\n";
+    let width_deg = 0.06;
+    let effect = format!("{{effect: backlash, joint: 3, width_deg: {width_deg}}}");
+    let options = Options {
+        correct_joint_targets: true,
+        ..given()
+    };
+    let sources = [Source::new("t.ls", program.as_bytes().to_vec())];
+    let language = language_of(&sources[0]).expect("FANUC");
+    let done =
+        compensate(language, &sources, &profile_of(fanuc, &[&effect]), &options).expect("read");
+    assert!(!done.is_refused(), "{:?}", done.findings);
+    // whoever comes from below stands half the width too far up
+    let q = done.targets[2].q.expect("joints");
+    let off = q[2] / DEG + 15.0 + 0.5 * width_deg;
+    assert!(off.abs() < 1e-6, "{off}");
+}
+
+#[test]
+fn the_first_move_comes_from_where_start_joints_say_with_the_numbers_that_are_written() {
+    let effect = ["{effect: backlash, joint: 2, width_deg: 0.2}"];
+    let options = |q2: f64| Options {
+        start_joints: Some([0.0, q2, 10.0, 0.0, 60.0, 0.0].map(|q| q * DEG)),
+        ..given()
+    };
+    let to = pose_at([0.0, 15.0, 10.0, 0.0, 60.0, 0.0]);
+    let body = format!(
+        "MODULE t\nPROC main()\nConfJ\\Off;\nMoveJ \
+         [{to},[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n"
+    );
+    let shift_deg = |q2: f64| {
+        let done = try_with(options(q2), &effect, &[("t.mod", &body)]).expect("read");
+        assert_eq!(errors(&done), [""; 0]);
+        done.targets[0].q.expect("joints")[1] / DEG - 15.0
+    };
+    // from 14.95 the nominal 15 lies above, and the numbers for that, 14.9, below
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
+    close(shift_deg(10.0), -0.1);
+    close(shift_deg(20.0), 0.1);
+    close(shift_deg(14.85), -0.1);
+    close(shift_deg(15.15), 0.1);
+}
