@@ -141,6 +141,14 @@ impl Variables<'_, '_> {
     /// What an element of a list may be: by its number where the list is written out once, else
     /// any. `None` where the text does not tell them all.
     pub(super) fn elements(&self, name: Symbol, at: At, function: FunctionId) -> Option<Elements> {
+        // structures in structures are not looked into
+        let is_deep = |at: At| match at {
+            At::Member(member) => self.parsed.bytes(member).contains(&b'.'),
+            _ => false,
+        };
+        if is_deep(at) {
+            return None;
+        }
         let mut changed = None;
         let mut found = Vec::new();
         let mut seen = vec![self.meaning(name, function)?];
@@ -155,6 +163,9 @@ impl Variables<'_, '_> {
                     continue;
                 }
                 if let Assigned::Part(part) = source.way {
+                    if is_deep(part) && matches!(at, At::Member(_)) {
+                        return None;
+                    }
                     // lists have no members, structures no numbers
                     if part == at || !matches!((part, at), (At::Member(_), _) | (_, At::Member(_)))
                     {

@@ -70,6 +70,19 @@ fn what_is_made_of_a_structure_somehow_takes_its_correction_along() {
             last.displacement
         );
     }
+    // what is written into a structure in a structure by its name counts behind that, and not before
+    for go in [
+        "r=struct(b=struct(c=w))\nmovel(r.b.c)\nr.b.c=p[.1,.2,.4,0,0,1]",
+        "r=struct(t=s)\nmovel(r.t.a)\nr.t.a=p[.1,.2,.4,0,0,1]",
+    ] {
+        let program = path(&format!("{s}{go}"));
+        let last = program.moves.last().expect("a move");
+        assert!(
+            ids(&program).contains(&"computed-target")
+                || last.displacement == Displacement::Unbounded,
+            "{go}: {last:?}"
+        );
+    }
     // no structure of the file
     for go in ["movel(s.a)", "s=rpc_factory(\"x\",\"y\")\nmovel(s.pose)"] {
         let program = path(&format!("{W}movel(w)\n{go}"));
