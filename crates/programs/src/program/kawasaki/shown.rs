@@ -11,14 +11,14 @@ use crate::program::words::Words;
 const SHOWING: [&[u8]; 3] = [b"PRINT", b"TYPE", b"IFPWPRINT"];
 
 impl Reader<'_> {
-    /// Whether nothing in the files uses the numbers that `DECOMPOSE x[0]=p` takes apart but what
-    /// shows them.
+    /// Whether statements show the numbers that `DECOMPOSE x[0]=p` takes apart, and nothing else in
+    /// the files uses them.
     pub(super) fn is_only_shown(&self, part: Words, routine: RoutineId) -> bool {
         let Some((taken, _)) = Name::of(part.behind(1)) else {
             return false;
         };
         let is_own = taken.stem.starts_with(b".");
-        let mut is_shown = true;
+        let (mut is_shown, mut is_used) = (false, false);
         for (at, program) in (0..).zip(&self.sections.programs) {
             if is_own && at != routine {
                 continue;
@@ -29,15 +29,18 @@ impl Reader<'_> {
                 |_| true,
                 |line: &Statement| {
                     let part = line.words;
-                    let is_shower = SHOWING.iter().any(|word| part.is_word(0, word));
-                    if is_shower || find(part, "DECompose").is_some_and(|at| at == 0) {
+                    if find(part, "DECompose") == Some(0) {
                         return;
                     }
                     let mut names = (0..part.len()).filter_map(|at| Name::of(part.behind(at)));
-                    is_shown &= names.all(|(name, _)| name.stem != taken.stem);
+                    if names.any(|(name, _)| name.stem == taken.stem) {
+                        let shows = SHOWING.iter().any(|word| part.is_word(0, word));
+                        is_shown |= shows;
+                        is_used |= !shows;
+                    }
                 },
             );
         }
-        is_shown
+        is_shown && !is_used
     }
 }

@@ -372,14 +372,19 @@ impl<'a> Reader<'a> {
         let [(0, first), (b'+', second), ..] = terms[..] else {
             return None;
         };
-        Name::of(second).filter(|(name, words)| *words == second.len() && self.is_known(name))?;
+        let behind = part.behind(first.len() + 1);
+        let named = Name::of(second);
+        let named = named.filter(|(name, words)| *words == second.len() && self.is_known(name));
+        if named.is_none() && self.in_front(behind).is_none() {
+            return None;
+        }
         let list = first.rest_list(1).unwrap_or_default();
         let is_null = first.len() == 1;
         let is_zero = |angle: &Words| angle.is_empty() || angle.value() == Some(0.0);
         let is_straight = list.iter().skip(3).all(is_zero);
         let [x, y, z, ..] = self.quantities(&list);
         let is_only = is_null || is_transformation && is_straight;
-        is_only.then(|| ([x, y, z], part.behind(first.len() + 1)))
+        is_only.then_some(([x, y, z], behind))
     }
 
     fn term(&mut self, part: Words<'a, '_>) -> Position {
