@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
             }
             Verb::Away(motion) => {
                 let found = self.stands().in_tool(self.back(first));
-                self.relative(part, found, motion);
+                self.relative(part, &found, motion);
             }
             Verb::Draw(in_tool) => {
                 let last = self.stands();
@@ -157,7 +157,7 @@ impl<'a> Reader<'a> {
                 } else {
                     last.along(&[x, y, z].map(Quantity::clone))
                 };
-                self.relative(part, found, Motion::Linear);
+                self.relative(part, &found, Motion::Linear);
             }
             Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
             }
             Verb::Elsewhere => {
                 let unknown = Position::plain(self.unknown(RELATIVE));
-                self.relative(part, unknown, Motion::Joint);
+                self.relative(part, &unknown, Motion::Joint);
             }
             Verb::Step(motion) => {
                 let at = step_target(part).expect("it was found");
@@ -196,8 +196,8 @@ impl<'a> Reader<'a> {
     }
 
     /// A move from where the robot stands.
-    fn relative(&mut self, part: Words<'a, '_>, to: Position, motion: Motion) {
-        self.go(part, None, &to, motion, false, None);
+    fn relative(&mut self, part: Words<'a, '_>, to: &Position, motion: Motion) {
+        self.go(part, None, to, motion, false, None);
         if matches!(to.base, Expr::Unknown(_)) {
             self.here.last = None;
         }
