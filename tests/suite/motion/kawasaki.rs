@@ -131,6 +131,10 @@ fn a_relative_move_of_a_known_step_keeps_the_posture() {
 #[test]
 fn each_move_that_inherits_an_assumed_posture_is_named() {
     let text = with_tool("LMOVE p\nTOOL grip\nDRAW 0,0,SIG(1)*20\nLMOVE q\nLMOVE r");
+    // tilted, so that the wrist reaches them on both sides
+    let text = text
+        .replace("380 0 180 0", "380 90 150 0")
+        .replace("390 0 180 0", "390 90 150 0");
     let done = done(&[PLAIN], &[("t.as", &text)]);
     let said = message(&done, "posture-assumed");
     assert!(

@@ -442,9 +442,9 @@ impl Walker<'_, '_> {
         ) else {
             return nowhere;
         };
-        let is_told = honoured && configuration != Configuration::default()
+        let is_said = honoured && configuration != Configuration::default()
             || ground.program.near(motion).is_some();
-        let assumed = self.assumption(at, said, if is_told { 0 } else { nowhere.assumed });
+        let assumed = self.assumption(at, said, if is_said { 0 } else { nowhere.assumed });
         let equipped = ground.arm_with(motion.tool);
         let q = match &equipped.calibrated_controller {
             Some(controller) if self.walk_options.exact => {

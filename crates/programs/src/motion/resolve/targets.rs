@@ -188,7 +188,7 @@ impl Resolver<'_, '_> {
         };
         let modal = &script.modals[listed.instruction.modal as usize];
         let is_here = match script.lists[base as usize] {
-            Expr::Unknown(remark) => script.remarks[remark as usize].id == "relative-move",
+            Expr::Unknown(remark) => script.remarks[remark as usize].id.starts_with("relative-"),
             Expr::Value(value) => match script.values[value as usize] {
                 Held::ActualWith { tool, frame } => (modal.tool, modal.frame) == (tool, frame),
                 _ => false,
