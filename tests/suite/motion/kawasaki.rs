@@ -1,8 +1,8 @@
 //! AS programs: what is derived from joints that stay, and the load that a program says.
 
-use super::{PLAIN, done, errors, given, try_with};
-use poseshift::compensate::{Compensation, Options};
-use poseshift::finding::Severity;
+use super::{PLAIN, done, errors, given, message, try_with};
+use poseshift::compensate::{Compensation, Given, Options};
+use poseshift::finding::{Finding, Severity};
 
 /// A program at the home position of these tests, and two targets below.
 fn program(lines: &str) -> String {
@@ -96,4 +96,75 @@ fn a_load_that_the_text_does_not_say_is_reported_where_it_is_set() {
         let said: Vec<_> = said.map(|f| (f.line, f.severity)).collect();
         assert_eq!(said, [(5, Severity::Warning)], "{weight}");
     }
+}
+
+/// As [`program`], with a tool and a third target.
+fn with_tool(lines: &str) -> String {
+    program(lines).replace(
+        ".TRANS\n",
+        ".TRANS\nr 450 -40 390 0 180 0\ngrip 0 0 20 0 0 0\n",
+    )
+}
+
+#[test]
+fn a_relative_move_of_a_known_step_keeps_the_posture() {
+    for step in [
+        "DRAW 0,0,20",
+        "LDEPART 20",
+        "TDRAW 0,0,-20,0,0,5",
+        "JDEPART 15",
+    ] {
+        let text = with_tool(&format!("LMOVE p\nTOOL grip\n{step}\nLMOVE q\nLMOVE r"));
+        let done = done(&[PLAIN], &[("t.as", &text)]);
+        assert_eq!(errors(&done), [""; 0], "{step}: {:?}", done.findings);
+        let assumed = done.findings.iter().find(|f| f.id == "posture-assumed");
+        assert!(assumed.is_none(), "{step}: {assumed:?}");
+        for name in ["q", "r"] {
+            let is_it = |at: &usize| done.program.targets[*at].name.as_deref() == Some(name);
+            let at = (0..done.targets.len()).find(is_it).expect("a target");
+            let q = done.targets[at].q.expect("joints");
+            assert!(q[4] > 0.0, "{step}: {q:?}");
+        }
+    }
+}
+
+#[test]
+fn each_move_that_inherits_an_assumed_posture_is_named() {
+    let text = with_tool("LMOVE p\nTOOL grip\nDRAW 0,0,SIG(1)*20\nLMOVE q\nLMOVE r");
+    // tilted, so that the wrist reaches them on both sides
+    let text = text
+        .replace("380 0 180 0", "380 90 150 0")
+        .replace("390 0 180 0", "390 90 150 0");
+    let done = done(&[PLAIN], &[("t.as", &text)]);
+    let said = message(&done, "posture-assumed");
+    assert!(
+        said.ends_with("the posture in line 9 follows from it"),
+        "{said}"
+    );
+}
+
+#[test]
+fn text_that_nothing_reaches_needs_no_tool() {
+    let text = program("GOTO 10\nLMOVE q\n10 LMOVE p");
+    let of = |text: &str| {
+        let options = Options {
+            given: Given::default(),
+            ..given()
+        };
+        try_with(options, &[PLAIN], &[("t.as", text)]).expect("no tool is asked for")
+    };
+    let of_label = of(&text);
+    assert_eq!(errors(&of_label), [""; 0]);
+    let said = |done: &Compensation, what: &str| {
+        let found = |f: &Finding| f.id == "target-unused-here" && f.message.contains(what);
+        done.findings.iter().any(found)
+    };
+    assert!(said(&of_label, "nothing reaches go to q"));
+    let text = program("CALL s(1)").replace(
+        ".TRANS\n",
+        ".PROGRAM s(.n)\nCASE .n OF\nVALUE 1:\nLMOVE p\nVALUE 2:\nLMOVE q\nEND\n.END\n.TRANS\n",
+    );
+    let of_case = of(&text);
+    assert_eq!(errors(&of_case), [""; 0]);
+    assert!(said(&of_case, "nothing reaches go to q"));
 }

@@ -19,6 +19,7 @@ use crate::motion::placed::Placed;
 use crate::motion::plausibility;
 use crate::motion::ride::{Ride, through};
 use crate::motion::setting::Setting;
+use crate::motion::unreached;
 use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::profile::{Mounted, Profile};
 use crate::program::script::short;
@@ -176,10 +177,20 @@ impl Walk {
             &options.start_external,
             &mut findings,
         );
-        let has_numbers = |motion: &Move| {
+        let has_numbers = |program: &Program, motion: &Move| {
             let target = program.target_of(motion);
             target.is_some_and(|target| !program.numbers_of(target).is_empty())
         };
+        let of_moves = (profile, &options.given);
+        unreached::leave(
+            language,
+            &mut program,
+            sources,
+            of_moves,
+            &mut findings,
+            has_numbers,
+        );
+        let has_numbers = |motion: &Move| has_numbers(&program, motion);
         if let Some(refused) = refused_place(&program, sources, &findings, has_numbers) {
             return Err(CompensateError::Refused(Box::new(refused.clone())));
         }

@@ -82,7 +82,7 @@ use crate::model::effects::Effect;
 use crate::motion::ground::Ground;
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
-use crate::motion::{external, plausibility, setting};
+use crate::motion::{external, plausibility, setting, unreached};
 use crate::profile::Profile;
 pub use crate::program::meaning;
 use crate::program::{Language, Move, ReadError, Source, sha256};
@@ -346,8 +346,16 @@ fn with(
     );
     setting::check_measured(&program, &options.given)?;
     setting::check_given(language, profile, &[&program], &options.given)?;
+    let joints = options.correct_joint_targets;
+    unreached::leave(
+        language,
+        &mut program,
+        sources,
+        (profile, &options.given),
+        &mut findings,
+        |program, motion| approach::needs(program, joints, motion),
+    );
     if options.each_for_itself {
-        let joints = options.correct_joint_targets;
         setting::block_unplaced(
             language,
             &mut program,
@@ -358,7 +366,6 @@ fn with(
             |program, motion| approach::needs(program, joints, motion),
         );
     }
-    let joints = options.correct_joint_targets;
     let mut ground = Ground::new::<CompensateError>(
         language,
         &settings,

@@ -168,6 +168,7 @@ impl Asked<'_> {
                 .forward(&self.end, &Conditions::default()),
             configuration: self.configuration,
             honoured: self.arrival.honoured,
+            goes_on: false,
             start: Some(self.start),
             elsewhere: None,
         };

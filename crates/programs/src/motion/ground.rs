@@ -90,7 +90,8 @@ impl<'a> Ground<'a> {
 
     fn equip(&mut self, needs: &impl Fn(&Move) -> bool) -> Result<(), Unsupported> {
         let mut needed = vec![false; self.setting.tools.len()];
-        for motion in self.program.moves.iter().filter(|motion| needs(motion)) {
+        let moves = self.program.moves.iter();
+        for motion in moves.filter(|motion| needs(motion) || motion.step().is_some()) {
             needed[motion.tool] = true;
         }
         // what the user gave for targets that no move uses
@@ -215,6 +216,7 @@ impl<'a> Ground<'a> {
             honoured: true,
             start: None,
             elsewhere: None,
+            goes_on: false,
         };
         posture::choose(self, &asked, findings).map(|posture| (posture.branch, posture.q))
     }

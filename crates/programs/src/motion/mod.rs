@@ -32,6 +32,7 @@ mod flow;
 pub(crate) mod follow;
 pub(crate) mod ground;
 mod holding;
+mod inherited;
 pub(crate) mod leg;
 mod middle;
 mod passed;
@@ -43,6 +44,8 @@ mod resolve;
 pub(crate) mod ride;
 pub(crate) mod setting;
 mod standing;
+mod stepped;
+pub(crate) mod unreached;
 pub(crate) mod walk;
 
 pub use course::ToolRotation;

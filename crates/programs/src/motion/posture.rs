@@ -45,6 +45,8 @@ pub(crate) struct Asked<'a> {
     /// Joints near which another move names its posture at this target, or in which the robot stood
     /// when that was last known: looked at where it is not known from where the robot comes.
     pub elsewhere: Option<[f64; 6]>,
+    /// The robot stood there last: its branch goes on.
+    pub goes_on: bool,
 }
 
 impl Asked<'_> {
@@ -108,9 +110,14 @@ pub(crate) fn choose(
             .map(|i| (posture.q[i] - near[i]).abs())
             .fold(0.0, f64::max)
     };
+    let kept = (asked.goes_on && start.is_none()).then(|| arm.posture(&near).0);
     let nearest = |accept: &dyn Fn(&Posture) -> bool| {
         let accepted = postures.iter().filter(|posture| accept(posture)).copied();
-        accepted.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        let is_other = |posture: &Posture| kept.is_some_and(|kept| kept != posture.branch);
+        accepted.min_by(|a, b| {
+            let others = is_other(a).cmp(&is_other(b));
+            others.then(distance(a).total_cmp(&distance(b)))
+        })
     };
     if postures.is_empty() {
         return out_of_reach(ground, asked, &near, findings);

@@ -56,6 +56,7 @@ impl Walker<'_, '_> {
             honoured: motion.configured && near.is_none(),
             start: near.or(start),
             elsewhere: self.named.get(&target).copied().or(last_known),
+            goes_on: last_known.is_some() && !self.named.contains_key(&target),
         };
         let posture = posture::choose(ground, &asked, self.findings)?;
         if near.is_some() {
@@ -100,6 +101,7 @@ impl Walker<'_, '_> {
             honoured: false,
             start: Some(posture.q),
             elsewhere: None,
+            goes_on: false,
         };
         posture::choose(ground, &asked, self.findings)
     }
@@ -199,6 +201,7 @@ impl Walker<'_, '_> {
             honoured: true,
             start: Some(*q),
             elsewhere: None,
+            goes_on: false,
         };
         let posture = posture::choose(self.ground, &asked, &mut Vec::new())?;
         let meant = posture.configured.then_some(posture)?;

@@ -8,6 +8,7 @@
 use super::course::ToolRotation;
 use super::follow::{course, direction_of, turned};
 use super::ground::Ground;
+use super::inherited::Assumption;
 use super::posture::OUT_OF_REACH;
 use super::{middle, plausibility, ride};
 use crate::finding::{Finding, Severity};
@@ -52,6 +53,9 @@ pub(crate) struct Arrival {
     pub displaced: bool,
     /// The controller goes by the target's configuration data.
     pub honoured: bool,
+    /// The assumption that its posture goes back to: an index in the walk's own list, from 1; 0 is
+    /// none.
+    pub assumed: u32,
     /// In the middle of an arc: from the tool as the target's numbers have it to the tool as the
     /// path has it there, where the controller looks at the position alone.
     pub middle: Option<Rotation>,
@@ -203,6 +207,7 @@ pub(crate) fn walk(
         many: false,
         named: ground.program.named.iter().copied().collect(),
         beyond: HashSet::new(),
+        assumed: Vec::new(),
     };
     let behind = Behind::of(ground);
     for at in 0..count {
@@ -224,6 +229,7 @@ pub(crate) fn walk(
             walker.run(&behind);
         }
     }
+    walker.name_inherited();
     walker.arrivals
 }
 
@@ -277,6 +283,8 @@ pub(super) struct Walker<'a, 'f> {
     pub(super) named: HashMap<TargetId, [f64; 6]>,
     /// Targets whose joints have been reported beyond their limits.
     pub(super) beyond: HashSet<TargetId>,
+    /// Postures that were assumed.
+    pub(super) assumed: Vec<Assumption>,
 }
 
 impl Walker<'_, '_> {
@@ -350,6 +358,7 @@ impl Walker<'_, '_> {
             known: false,
             displaced: false,
             honoured,
+            assumed: before.map_or(0, |before| before.assumed),
             middle: None,
         };
         // where the robot goes from a point that only the running program knows, no side is known
@@ -377,9 +386,13 @@ impl Walker<'_, '_> {
             let turns_on = |turn: &Turn| matches!(turn, Turn::By(_)) && is_many;
             let turned = ground.program.turned(motion);
             let turned = turned.filter(|turned| is_led.is_err() && !turned.iter().any(turns_on));
-            return turned.zip(start).map_or(nowhere, |(turned, start)| {
-                in_joints(Turn::apply(turned, &start), starts_unknown)
-            });
+            if let Some((turned, start)) = turned.zip(start) {
+                return in_joints(Turn::apply(turned, &start), starts_unknown);
+            }
+            let step = motion.step().filter(|_| is_led.is_err() && !is_many);
+            let there = step.zip(start);
+            let there = there.and_then(|(step, start)| self.stepped(motion, step, &start));
+            return there.map_or(nowhere, |there| in_joints(there, true));
         };
         let Some(goal) = ground.goal(motion) else {
             return nowhere;
@@ -392,7 +405,10 @@ impl Walker<'_, '_> {
             if self.stands_beyond(target, &q) {
                 return nowhere;
             }
-            return in_joints(q, goal.is_near);
+            return Arrival {
+                assumed: 0,
+                ..in_joints(q, goal.is_near)
+            };
         }
         let frame = ground.frame_of(motion);
         let is_known = ground.equipped(motion.tool).is_some()
@@ -439,6 +455,7 @@ impl Walker<'_, '_> {
             let point = ground.ride(None, &ground.program.moves[at.motion as usize]);
             ride::through(&pose, point.as_deref(), ride.as_deref())
         });
+        let said = self.findings.len();
         let Some(posture) = self.posture(
             motion,
             target,
@@ -452,6 +469,9 @@ impl Walker<'_, '_> {
         ) else {
             return nowhere;
         };
+        let is_said = honoured && configuration != Configuration::default()
+            || ground.program.near(motion).is_some();
+        let assumed = self.assumption(at, said, if is_said { 0 } else { nowhere.assumed });
         let equipped = ground.arm_with(motion.tool);
         let q = match &equipped.calibrated_controller {
             Some(controller) if self.walk_options.exact => {
@@ -489,6 +509,7 @@ impl Walker<'_, '_> {
             direction,
             known: true,
             displaced: goal.is_near,
+            assumed,
             middle,
             ..nowhere
         }
@@ -561,6 +582,7 @@ impl Walker<'_, '_> {
 
 fn is_alike(a: &Arrival, b: &Arrival) -> bool {
     a.known == b.known
+        && a.assumed == b.assumed
         && a.branch == b.branch
         && a.direction == b.direction
         && (0..6).all(|i| (a.q[i] - b.q[i]).abs() < SAME_RAD)

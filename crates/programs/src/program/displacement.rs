@@ -1,5 +1,6 @@
 //! What a program adds to a target before the robot goes there.
 
+use super::Move;
 use crate::geometry::{Pose, Vector};
 
 /// What is added to a target before the robot goes there.
@@ -78,5 +79,15 @@ impl Shift {
     #[must_use]
     pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
         self.in_frame * *frame_from_tool * self.in_tool
+    }
+}
+
+impl Move {
+    /// How far a move goes from where the robot stands, where the text says that and no target.
+    pub(crate) fn step(&self) -> Option<&Shift> {
+        match &self.displacement {
+            Displacement::By(shift) if self.target.is_none() => Some(shift),
+            _ => None,
+        }
     }
 }

@@ -355,6 +355,8 @@ pub struct Move {
     /// What is done to external axes besides the target: from 1 an index in
     /// [`Program::external_states`], 0 is nothing.
     pub external_state: u32,
+    /// Nothing reaches it.
+    pub is_dead: bool,
 }
 
 impl Default for Move {
@@ -376,6 +378,7 @@ impl Default for Move {
             tool_written: None,
             frame_written: None,
             external_state: 0,
+            is_dead: false,
         }
     }
 }

@@ -55,6 +55,8 @@ pub(super) struct Reached {
     pub led: Option<u32>,
     /// A routine that runs between any two statements of the others came here.
     pub is_concurrent: bool,
+    /// Nothing reaches it.
+    pub is_dead: bool,
 }
 
 /// With what a move runs, whichever way the program came to it.

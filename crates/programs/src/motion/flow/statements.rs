@@ -352,12 +352,14 @@ impl<'a> Flow<'a> {
             }
             _ => self.modes(instruction.modal, site, state),
         };
+        let is_live = self.reached[stop as usize].is_some_and(|before| !before.is_dead);
         self.reached[stop as usize] = Some(Reached {
             modes,
             target,
             before: state.before,
             led: state.led.take(),
             is_concurrent: self.is_concurrent,
+            is_dead: self.dead.is_some() && !is_live,
         });
         state.before = self.sets.one(stop);
     }

@@ -187,6 +187,7 @@ impl Resolver<'_, '_> {
             choices: self.choices(reached.modes)?,
             guards,
             external_state,
+            is_dead: reached.is_dead,
             near: Vec::new(),
             is_one_of: false,
             is_shifted: false,
@@ -420,6 +421,7 @@ struct Listed<'a> {
     choices: Rc<Choices>,
     guards: Vec<(RemarkId, Site)>,
     external_state: u32,
+    is_dead: bool,
     /// Targets that the move goes near: once for all that only the running program knows.
     near: Vec<TargetId>,
     /// It may go to targets of the files, and to something else.

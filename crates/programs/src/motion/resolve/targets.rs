@@ -176,14 +176,33 @@ impl Resolver<'_, '_> {
     pub(super) fn go_nowhere(&mut self, listed: &Listed) {
         let (tool, _) = listed.choices.tools[0];
         let (frame, _) = listed.choices.frames[0];
-        self.push(
-            None,
-            (tool, None),
-            (frame, None),
-            false,
-            Displacement::None,
-            listed,
-        );
+        let step = self.step(listed).unwrap_or(Displacement::None);
+        self.push(None, (tool, None), (frame, None), false, step, listed);
+    }
+
+    /// By what the text displaces a move from where the robot stands.
+    fn step(&self, listed: &Listed) -> Option<Displacement> {
+        let script = self.script;
+        let Expr::Displaced { base, by } = listed.instruction.target else {
+            return None;
+        };
+        let modal = &script.modals[listed.instruction.modal as usize];
+        let is_here = match script.lists[base as usize] {
+            Expr::Unknown(remark) => script.remarks[remark as usize].id.starts_with("relative-"),
+            Expr::Value(value) => match script.values[value as usize] {
+                Held::ActualWith { tool, frame } => (modal.tool, modal.frame) == (tool, frame),
+                _ => false,
+            },
+            _ => false,
+        };
+        let choices = &listed.choices;
+        let is_one = choices.tools.len() == 1
+            && choices.frames.len() == 1
+            && choices.refused.is_empty()
+            && choices.uncertainty.is_none();
+        let by = self.flow.displacement(by);
+        let is_said = matches!(by, Displacement::By(_)) && !listed.is_shifted;
+        (is_here && is_one && is_said).then(|| by.clone())
     }
 
     pub(super) fn go_target(&mut self, target: TargetId, displacement: u32, listed: &mut Listed) {
@@ -343,6 +362,7 @@ impl Resolver<'_, '_> {
             tool_written,
             frame_written,
             external_state: listed.external_state,
+            is_dead: listed.is_dead,
         });
     }
 }

@@ -32,6 +32,7 @@ mod plates;
 mod reader;
 mod remarks;
 mod sections;
+mod shown;
 mod targets;
 mod watches;
 

@@ -143,24 +143,21 @@ impl<'a> Reader<'a> {
                 self.go(part, None, &found, motion, false, None);
             }
             Verb::Away(motion) => {
-                let found = self.here.last.take();
-                let found = found.map(|last| last.in_tool(self.back(first)));
-                self.relative(part, found, motion);
+                let found = self.stands().in_tool(self.back(first));
+                self.relative(part, &found, motion);
             }
             Verb::Draw(in_tool) => {
-                let found = self.here.last.take().map(|last| {
-                    let by @ [x, y, z, turned @ ..] = &self.quantities(&list);
-                    if in_tool {
-                        return last.in_tool(Steps::one(by.clone()));
-                    }
-                    let is_turned = turned.iter().any(|angle| angle.exact() != Some(0.0));
-                    if is_turned {
-                        last.in_tool(Steps::endless())
-                    } else {
-                        last.along(&[x, y, z].map(Quantity::clone))
-                    }
-                });
-                self.relative(part, found, Motion::Linear);
+                let last = self.stands();
+                let by @ [x, y, z, turned @ ..] = &self.quantities(&list);
+                let is_turned = || turned.iter().any(|angle| angle.exact() != Some(0.0));
+                let found = if in_tool {
+                    last.in_tool(Steps::one(by.clone()))
+                } else if is_turned() {
+                    last.in_tool(Steps::endless())
+                } else {
+                    last.along(&[x, y, z].map(Quantity::clone))
+                };
+                self.relative(part, &found, Motion::Linear);
             }
             Verb::Search | Verb::Other => {
                 let till = first.find(b"TILL").unwrap_or(first.len());
@@ -176,7 +173,10 @@ impl<'a> Reader<'a> {
                 self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
             }
-            Verb::Elsewhere => self.relative(part, None, Motion::Joint),
+            Verb::Elsewhere => {
+                let unknown = Position::plain(self.unknown(RELATIVE));
+                self.relative(part, &unknown, Motion::Joint);
+            }
             Verb::Step(motion) => {
                 let at = step_target(part).expect("it was found");
                 // its joints say the configuration themselves
@@ -196,13 +196,17 @@ impl<'a> Reader<'a> {
     }
 
     /// A move from where the robot stands.
-    fn relative(&mut self, part: Words<'a, '_>, to: Option<Position>, motion: Motion) {
-        if let Some(known) = to {
-            return self.go(part, None, &known, motion, false, None);
+    fn relative(&mut self, part: Words<'a, '_>, to: &Position, motion: Motion) {
+        self.go(part, None, to, motion, false, None);
+        if matches!(to.base, Expr::Unknown(_)) {
+            self.here.last = None;
         }
-        let unknown = Position::plain(self.unknown(RELATIVE));
-        self.go(part, None, &unknown, motion, false, None);
-        self.here.last = None;
+    }
+
+    /// Where the robot stands: on a target as far as the text before tells.
+    fn stands(&mut self) -> Position {
+        let last = self.here.last.take();
+        last.unwrap_or_else(|| Position::plain(self.unknown(RELATIVE)))
     }
 
     /// With what a move to a position runs.

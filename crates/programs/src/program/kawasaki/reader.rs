@@ -258,6 +258,7 @@ impl<'a> Reader<'a> {
     /// Notes the names whose numbers `FRAME(a,b,c,d)`, `DECOMPOSE x[0]=a` and `TRANS(DX(a),…)` read.
     fn note_apart(&mut self, part: Words, place: Place, routine: RoutineId) {
         let decomposed = find(part, "DECompose").map(|_| part.behind(part.before(b'=').len() + 1));
+        let decomposed = decomposed.filter(|_| !self.is_only_shown(part, routine));
         let frame = part.find(b"FRAME").filter(|at| part.is(at + 1, b'('));
         let framed = frame.map(|at| part.inside(at + 1).0);
         let is_part = |at: &usize| PARTS.iter().any(|part_of| part.is_word(*at, part_of));

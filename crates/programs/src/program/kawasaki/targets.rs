@@ -2,7 +2,7 @@
 
 use super::plates::Object;
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, not_in_files};
+use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, no_element, not_in_files};
 use super::sections::Entry;
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
@@ -310,6 +310,7 @@ impl<'a> Reader<'a> {
         let is_local = self.is_local(name);
         match self.table(name) {
             None if is_local => self.unknown(COMPUTED),
+            None if self.assigned.contains(&name.stem) => self.unknown(no_element(&name.text())),
             None => self.unknown(not_in_files(&name.text())),
             Some(table) => {
                 // others of the program's own may follow in the text
@@ -328,6 +329,9 @@ impl<'a> Reader<'a> {
 
     /// The position that words are: `p`, `#p[1]`, `TRANS(…)`, `#[…]`, `p+q-r`, `SHIFT(p BY x,y,z)`.
     pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
+        if let Some((way, behind)) = self.in_front(part) {
+            return self.position(behind).along(&way);
+        }
         let terms = part.terms();
         let Some(((_, first), mut others)) = terms.split_first() else {
             return Position::plain(self.unknown(COMPUTED));
@@ -351,6 +355,33 @@ impl<'a> Reader<'a> {
             found = found.in_tool(if is_back { steps.inverse() } else { steps });
         }
         found
+    }
+
+    /// What stands in front of a named position and only shifts it in the axes of the base: `NULL`,
+    /// `TRANS(x,y,z)`; and that position.
+    fn in_front<'w>(&self, part: Words<'a, 'w>) -> Option<([Quantity; 3], Words<'a, 'w>)> {
+        let is_transformation = part.is_word(0, b"TRANS") && part.is(1, b'(');
+        let is_alone = is_transformation && part.closing(1) + 1 == part.len();
+        if is_alone || !is_transformation && !part.is_word(0, b"NULL") {
+            return None;
+        }
+        let terms = part.terms();
+        let [(0, first), (b'+', second), ..] = terms[..] else {
+            return None;
+        };
+        let behind = part.behind(first.len() + 1);
+        let named = Name::of(second);
+        let named = named.filter(|(name, words)| *words == second.len() && self.is_known(name));
+        if named.is_none() && self.in_front(behind).is_none() {
+            return None;
+        }
+        let list = first.rest_list(1).unwrap_or_default();
+        let is_null = first.len() == 1;
+        let is_zero = |angle: &Words| angle.is_empty() || angle.value() == Some(0.0);
+        let is_straight = list.iter().skip(3).all(is_zero);
+        let [x, y, z, ..] = self.quantities(&list);
+        let is_only = is_null || is_transformation && is_straight;
+        is_only.then_some(([x, y, z], behind))
     }
 
     fn term(&mut self, part: Words<'a, '_>) -> Position {
@@ -418,6 +449,12 @@ impl<'a> Reader<'a> {
             return self.unknown(angle_too_large(&name, angle, hint));
         }
         match Name::of(part) {
+            // one of several that are written out
+            Some((name, words))
+                if words == part.len() && name.key.is_none() && self.table(&name).is_some() =>
+            {
+                self.named(&name)
+            }
             Some((name, words)) if words == part.len() && name.key.is_some() => {
                 if self.is_known(&name) || self.assigned.contains(&name.stem) {
                     Expr::Variable(self.variable(&name))

@@ -43,7 +43,10 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
             hints |= matches!(word, b"FOLD" | b"ENDFOLD");
             continue;
         }
-        let first = cursor.next();
+        let mut first = cursor.next();
+        if cursor.text(first).eq_ignore_ascii_case(b"GLOBAL") {
+            first = cursor.next();
+        }
         if first.kind != Kind::Name {
             continue;
         }

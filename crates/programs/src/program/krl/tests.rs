@@ -596,3 +596,10 @@ fn arcs_on_which_the_tool_turns_with_the_path_are_refused() {
         assert_eq!(all, refused, "{before}{with}");
     }
 }
+
+#[test]
+fn a_routine_of_all_is_krl_by_its_first_line() {
+    let text = "GLOBAL DEF move_up()\nPTP XHOME\nEND\n";
+    let source = Source::new("move_up.src", text.into());
+    assert!(crate::program::language_of(&source).is_some());
+}

@@ -9,7 +9,9 @@ use super::syntax::{
 };
 use super::translate::Translator;
 use crate::program::names::Symbol;
+use crate::program::notation::mentions;
 use crate::program::script::{self, Call, Expr, Held, How, Remark, VariableId, Written};
+use foldhash::HashSet;
 
 /// How a routine that is not in the files is taken to move.
 const UNKNOWN_MOVE: Verb = Verb::Move {
@@ -267,6 +269,9 @@ impl Translator<'_> {
         if is_foreign && given.is_empty() && !leads {
             return;
         }
+        for &routine in &callees.routines {
+            self.meet_again(routine, all);
+        }
         let arguments = self.builder.script.give(given);
         self.emit_call(Call {
             place: self.here,
@@ -417,6 +422,36 @@ impl Translator<'_> {
                 })
     }
 
+    /// A routine that is given a whole array by reference meets it again where it names it itself, or
+    /// a routine that it calls does: what either name writes is not followed into the other.
+    fn meet_again(&mut self, routine: u32, all: &[Argument]) {
+        let resolved = self.resolved;
+        for (datum, argument) in resolved.parameters(routine, all) {
+            let given = argument.filter(|argument| {
+                let is_target = resolved.datum(datum).kind.is_target();
+                is_target && resolved.is_by_reference(datum) && !self.is_one_of(argument)
+            });
+            let Some((name, Index::Whole)) =
+                given.and_then(|given| resolved.place_of(&given.expression))
+            else {
+                continue;
+            };
+            let entity = resolved.entity_of(name, self.context);
+            // the parameter hides it
+            if resolved.datum(datum).name == name {
+                continue;
+            }
+            let is_written = resolved.is_written(Entity::Declared(datum))
+                || entity.is_some_and(|entity| resolved.is_written(entity));
+            if is_written && resolved.names_within(routine, name) {
+                let how = How::PartSomehow(self.changed());
+                for variable in self.written(name, Index::Whole) {
+                    self.emit_write(self.here, variable, how.clone());
+                }
+            }
+        }
+    }
+
     /// Whether an argument is a variable of its own, which a routine may write as a whole.
     fn is_one_of(&self, argument: &Argument) -> bool {
         let Some((name, index)) = self.resolved.place_of(&argument.expression) else {
@@ -491,6 +526,34 @@ impl Translator<'_> {
 }
 
 impl Resolved<'_> {
+    /// Whether the text of a routine has a name, or that of one whose name it has.
+    fn names_within(&self, routine: u32, name: Symbol) -> bool {
+        let routines = &self.parsed.routines;
+        let text_of = |routine: u32| {
+            let place = routines[routine as usize].place;
+            let bytes = &self.sources[place.file as usize].bytes;
+            let behind = routines.iter().map(|other| other.place);
+            let behind = behind.filter(|other| other.file == place.file && *other > place);
+            let end = behind.map(|other| other.offset as usize).min();
+            bytes[place.offset as usize..end.unwrap_or(bytes.len())].to_ascii_lowercase()
+        };
+        let small = |name: Symbol| self.spelling(name).to_ascii_lowercase().into_bytes();
+        let (mut open, mut known) = (vec![routine], HashSet::from_iter([routine]));
+        while let Some(routine) = open.pop() {
+            let text = text_of(routine);
+            if mentions(&text, &small(name)) {
+                return true;
+            }
+            let called = (0..).zip(routines).map(|(at, other)| (at, other.name));
+            let called =
+                called.filter(|(at, other)| !known.contains(at) && mentions(&text, &small(*other)));
+            let called: Vec<u32> = called.map(|(at, _)| at).collect();
+            known.extend(&called);
+            open.extend(called);
+        }
+        false
+    }
+
     /// The data of modules that `SetDataVal` or `SetAllDataVal` may write: of the name or the type
     /// that is its first argument, of any where only the running program knows that.
     pub(super) fn set_by_name(&self, arguments: Part, file: u32) -> Vec<u32> {

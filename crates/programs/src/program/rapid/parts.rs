@@ -6,11 +6,11 @@ use super::syntax::{Assigned, Base, Component, Expression, Index, Type, indices}
 use super::translate::Translator;
 use crate::geometry::units::MM;
 use crate::program::displacing::{Displacing, grown_by_any};
-use crate::program::names::Symbol;
+use crate::program::names::{Meaning, Symbol};
 use crate::program::notation::mentions;
 use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
-use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How};
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How, Part, PartValue};
 use crate::program::{Displacement, Shift};
 
 impl Translator<'_> {
@@ -92,6 +92,7 @@ impl Translator<'_> {
                 let (_, text) = self.own_and_value();
                 let parts = self
                     .constant_parts(&text)
+                    .or_else(|| self.no_load(&text))
                     .filter(|parts| parts.len() == count);
                 let parts = parts.unwrap_or_else(computed);
                 How::Parts {
@@ -115,6 +116,26 @@ impl Translator<'_> {
             },
             (Component::Place | Component::Other, _) => How::PartSomehow(self.changed()),
         }
+    }
+
+    /// The parts of `load0`, where that is the controller's own.
+    ///
+    /// # Source
+    /// ABB, Technical reference manual RAPID Instructions, Functions and Data types, `loaddata`:
+    /// `load0` is a constant of 1 g at 1 um along z.
+    fn no_load(&self, text: &[u8]) -> Option<Vec<Part>> {
+        let is_own = |name| matches!(self.resolved.meaning(name, self.context), Meaning::Nothing);
+        let name = self.resolved.parsed.symbols.find(b"load0");
+        if text != b"load0" || !name.is_none_or(is_own) {
+            return None;
+        }
+        let values = [0.001, 0.0, 0.0, 0.001, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let part = |value| Part {
+            value: PartValue::Number(value),
+            place: self.here,
+            length: 0,
+        };
+        Some(values.map(part).to_vec())
     }
 
     /// What `p.trans.z:=` makes of a target: it displaces it by 200 mm where `p.trans.z+200` is

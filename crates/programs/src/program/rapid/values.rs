@@ -327,6 +327,7 @@ impl Translator<'_> {
         };
         let is_written = self.resolved.is_written(entity);
         match index {
+            Index::Variable if !is_written => self.frame_of_row(entity, name),
             Index::Variable => self.frame_chosen(),
             Index::At(_) if is_written => self.frame_assigned(),
             Index::At(place) => self.frame_element(entity, name, place),
@@ -365,6 +366,24 @@ impl Translator<'_> {
             return Expr::Variable(self.variable(entity, 0, declared));
         }
         declared
+    }
+
+    /// One of the elements of an array of tools or work objects that is written out.
+    fn frame_of_row(&mut self, entity: Entity, name: Symbol) -> Expr {
+        let count = match entity {
+            Entity::Declared(datum) => match self.resolved.datum(datum).value {
+                Stored::Row { count, .. } => count,
+                _ => 0,
+            },
+            Entity::Undeclared(_) => 0,
+        };
+        if !(1..=MOST_FRAMES).contains(&count) {
+            return self.frame_chosen();
+        }
+        let all: Vec<Expr> = (1..=count)
+            .map(|at| self.frame_element(entity, name, [at, 0, 0]))
+            .collect();
+        self.builder.script.any(all)
     }
 
     /// An element of an array of tools or work objects.
@@ -535,6 +554,9 @@ impl Translator<'_> {
         })
     }
 }
+
+/// Tools or work objects that a move keeps apart.
+const MOST_FRAMES: u32 = 4;
 
 /// The leaves of a tool or frame in a row.
 fn of_row(value: Stored, place: [u32; 3]) -> Option<Part> {

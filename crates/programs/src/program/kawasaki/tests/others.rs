@@ -85,3 +85,69 @@ fn what_a_sensor_latches_is_written() {
     assert_eq!(found(code), ["computed-target"]);
     assert!(found("HSENSE 1 r,s,#other,e,m\nJMOVE #home").is_empty());
 }
+
+#[test]
+fn a_tool_of_an_array_is_each_of_its_elements() {
+    let program = read("BASE NULL\nTOOL p[i]\nLMOVE p1");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    assert_eq!(program.moves.len(), 2);
+    // what the running program writes is none of them
+    let program = read("BASE NULL\nPOINT p[i] = FRAME(a,b,c,d)\nTOOL p[i]\nLMOVE p1");
+    assert!(
+        program
+            .findings
+            .iter()
+            .any(|f| f.severity == Severity::Error),
+        "{:?}",
+        program.findings
+    );
+}
+
+#[test]
+fn a_shift_in_front_of_a_target_is_along_the_axes_of_the_base() {
+    for (line, z_m) in [
+        ("LMOVE TRANS(0,0,50,0,0,0)+p1", 0.05),
+        ("LMOVE TRANS(0,0,50)+p1", 0.05),
+        ("LMOVE NULL+p1", 0.0),
+        ("POINT q = NULL+TRANS(0,0,-20)+p1\nLMOVE q", -0.02),
+    ] {
+        let program = read(&format!("TOOL NULL\nBASE NULL\n{line}"));
+        assert_eq!(ids(&program), [""; 0], "{line}: {:?}", program.findings);
+        let [motion] = &program.moves[..] else {
+            panic!("{line}: {:?}", program.moves);
+        };
+        assert_eq!(target(&program, motion), Some("p1"));
+        let expected = if z_m == 0.0 {
+            Displacement::None
+        } else {
+            Displacement::By(Box::new(crate::program::Shift::along([0.0, 0.0, z_m])))
+        };
+        assert_eq!(motion.displacement, expected, "{line}");
+    }
+    // a target that is written out, with a step in the tool
+    let program = read("TOOL NULL\nBASE NULL\nLMOVE TRANS(100,900,200,10,180,0)+off");
+    assert_eq!(target(&program, &program.moves[0]), Some("here"));
+}
+
+#[test]
+fn numbers_of_a_target_that_are_only_shown_do_not_refuse_it() {
+    let of = |line: &str| {
+        let code = format!("TOOL NULL\nBASE NULL\nDECOMPOSE x[0]=p1\n{line}\nLMOVE p1");
+        ids(&read(&code)).join(" ")
+    };
+    assert_eq!(of("PRINT \"z\",x[2]"), "");
+    assert_eq!(of("TYPE x[2]"), "");
+    assert_eq!(of("h = x[2]"), "target-used-as-frame");
+    assert_eq!(of("CALL sub(x[])"), "target-used-as-frame");
+}
+
+#[test]
+fn an_array_without_a_named_element_is_said_to_be_that() {
+    let program = read("TOOL NULL\nBASE NULL\nPOINT w[i] = p[i]\nLMOVE w[i]");
+    let found = program
+        .findings
+        .iter()
+        .find(|f| f.id == "target-not-in-files");
+    let message = &found.expect("an error").message;
+    assert!(message.contains("one of its elements"), "{message}");
+}

@@ -187,3 +187,43 @@ fn a_parameter_by_reference_is_the_variable_that_it_is_given() {
     );
     assert!(matches!(program.moves[0].displacement, Displacement::By(_)));
 }
+
+#[test]
+fn an_array_by_reference_that_the_routine_names_itself_is_refused() {
+    for inside in [
+        // what one name writes is gone to by the other
+        "q{2}.trans.z:=60;\nMoveL a{2},v5,z5,t;",
+        "a{2}:=p2;\nMoveL q{2},v5,z5,t;",
+        "q{2}:=p2;\ndeeper;\nENDPROC\nPROC deeper()\nMoveL a{2},v5,z5,t;",
+    ] {
+        let program = path(&format!(
+            "run a;\nENDPROC\nPROC run(INOUT robtarget q{{*}})\n{inside}\n{ARRAY}"
+        ));
+        assert!(
+            ids(&program).contains(&"target-assigned-at-run-time"),
+            "{inside}: {:?}",
+            program.findings
+        );
+    }
+    // by the parameter alone it is followed
+    let program = path(&format!(
+        "run a;\nENDPROC\nPROC run(INOUT robtarget q{{*}})\nMoveL q{{2}},v5,z5,t;\n{ARRAY}"
+    ));
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+}
+
+#[test]
+fn a_tool_of_an_array_is_each_that_is_written_out() {
+    let tool = |x: u32| format!("[TRUE,[[{x},0,100],[1,0,0,0]],[1.5,[0,0,50],[1,0,0,0],0,0,0]]");
+    let of = |write: &str| {
+        let tools = format!("PERS tooldata ta{{2}}:=[{},{}];", tool(1), tool(2));
+        path(&format!(
+            "{write}MoveL p1,v5,z5,ta{{i}};\nENDPROC\n{tools}\nPROC last()"
+        ))
+    };
+    let program = of("");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    assert_eq!(program.moves.len(), 2);
+    let program = of("ta{1}:=t;\n");
+    assert!(ids(&program).iter().any(|id| id.starts_with("frame-")));
+}

@@ -38,3 +38,11 @@ fn the_load_of_a_move_is_that_of_its_text() {
         );
     }
 }
+
+#[test]
+fn load0_is_the_constant_of_the_controller() {
+    let program = path("t.tload:=load0;\nMoveL p1,v5,z5,t;");
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    let load = program.tools[program.moves[0].tool].load.expect("a load");
+    assert!((load.mass_kg - 0.001).abs() < 1e-12, "{load:?}");
+}

@@ -1,0 +1,94 @@
+//! Postures that were assumed, and the moves that go on in them.
+
+use super::ground::Ground;
+use super::walk::Walker;
+use crate::finding::Finding;
+use std::collections::BTreeSet;
+
+/// A posture that was assumed.
+pub(super) struct Assumption {
+    /// What was said of it.
+    finding: Finding,
+    /// The moves to poses that inherit it.
+    moves: BTreeSet<u32>,
+}
+
+impl Walker<'_, '_> {
+    /// The assumption that the posture at a move goes back to, where `said` findings were there
+    /// before it was chosen; `before` is that of the move before.
+    pub(super) fn assumption(&mut self, at: u32, said: usize, before: u32) -> u32 {
+        let own = self.findings[said..].iter();
+        let own = own.rev().find(|found| found.id == "posture-assumed");
+        let Some(own) = own else {
+            if let Some(number) = before.checked_sub(1) {
+                self.assumed[number as usize].moves.insert(at);
+            }
+            return before;
+        };
+        let known = self.assumed.iter().position(|of| of.finding == *own);
+        let number = known.unwrap_or_else(|| {
+            self.assumed.push(Assumption {
+                finding: own.clone(),
+                moves: BTreeSet::new(),
+            });
+            self.assumed.len() - 1
+        });
+        crate::program::script::short(number + 1)
+    }
+
+    /// Says with each assumption which moves go on in it.
+    pub(super) fn name_inherited(&mut self) {
+        for of in std::mem::take(&mut self.assumed) {
+            let lines = lines(self.ground, &of.moves);
+            let same = self
+                .findings
+                .iter_mut()
+                .filter(|found| **found == of.finding);
+            for found in same.filter(|_| !lines.is_empty()) {
+                found.message += &format!("; the posture in {lines} follows from it");
+            }
+        }
+    }
+}
+
+/// The lines of moves, moves in a row as one: `lines 4 to 9, 12`; those of each file with its name
+/// where there are several.
+fn lines(ground: &Ground, moves: &BTreeSet<u32>) -> String {
+    let mut rows: Vec<(u32, [u32; 2])> = Vec::new();
+    for &at in moves {
+        let file = ground.program.moves[at as usize].file;
+        match rows.last_mut() {
+            Some((of, [_, last])) if *of == file && *last + 1 == at => *last = at,
+            _ => rows.push((file, [at, at])),
+        }
+    }
+    let line = |at: u32| ground.line_of(&ground.program.moves[at as usize]);
+    let mut named: Vec<(u32, Vec<String>)> = Vec::new();
+    for (file, [first, last]) in rows {
+        let (first, last) = (line(first), line(last));
+        let row = if first == last {
+            first.to_string()
+        } else {
+            format!("{first} to {last}")
+        };
+        match named.last_mut() {
+            Some((of, all)) if *of == file => all.push(row),
+            _ => named.push((file, vec![row])),
+        }
+    }
+    for (_, all) in &mut named {
+        all.dedup();
+    }
+    let are_many = ground.sources.len() > 1;
+    let named = named.iter().map(|(file, all)| {
+        let is_one = all.len() == 1 && !all[0].contains(' ');
+        let word = if is_one { "line" } else { "lines" };
+        let of = format!("{word} {}", all.join(", "));
+        if are_many {
+            format!("{} {of}", ground.sources[*file as usize].name)
+        } else {
+            of
+        }
+    });
+    named.collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,35 @@
+//! Where moves lead that go from where the robot stands.
+
+use super::follow::{course, follow};
+use super::posture;
+use super::walk::Walker;
+use crate::model::Conditions;
+use crate::program::{Configuration, Motion, Move, Shift};
+
+impl Walker<'_, '_> {
+    /// The joints at the end of a move that goes by a step of the text from where the robot stands:
+    /// on the branch where it begins. `None` where that is not known.
+    pub(super) fn stepped(
+        &self,
+        motion: &Move,
+        step: &Shift,
+        start: &[f64; 6],
+    ) -> Option<[f64; 6]> {
+        let ground = self.ground;
+        if ground.is_adrift(motion) {
+            return None;
+        }
+        let equipped = ground.equipped(motion.tool)?;
+        let placed = ground.setting.frames[motion.frame].as_ref()?;
+        let stands = equipped.controller.forward(start, &Conditions::default());
+        let wanted = placed.nominal * step.apply(&(placed.nominal.inverse() * stands));
+        if motion.motion != Motion::Joint {
+            let options = self.walk_options;
+            let path = course(motion, equipped, start, None, &wanted, start, None, options);
+            return follow(equipped, &path, start).map(|(_, q)| q);
+        }
+        let branch = equipped.arm.posture(start).0;
+        let any = Configuration::default();
+        posture::on_branch(&equipped.arm, &wanted, branch, start, &any).map(|there| there.q)
+    }
+}
