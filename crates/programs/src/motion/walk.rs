@@ -582,7 +582,7 @@ impl Walker<'_, '_> {
 
 fn is_alike(a: &Arrival, b: &Arrival) -> bool {
     a.known == b.known
-        && a.assumed == b.assumed
+        && (a.assumed == 0) == (b.assumed == 0)
         && a.branch == b.branch
         && a.direction == b.direction
         && (0..6).all(|i| (a.q[i] - b.q[i]).abs() < SAME_RAD)
