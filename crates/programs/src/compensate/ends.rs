@@ -344,7 +344,7 @@ impl TakenUp {
             if !arrival.known || !open.contains(&true) || is_led(program, arrival) {
                 continue;
             }
-            let off_m = other_side_m(job, arrival, ends.directions[at], &open);
+            let off_m = other_side_m(job, arrival, ends.directions[at], open);
             let before = worst.entry(target).or_insert((0.0, at));
             if off_m > before.0 {
                 *before = (off_m, at);
@@ -353,7 +353,7 @@ impl TakenUp {
         for (target, (off_m, at)) in worst {
             if off_m > LEAST_SIDE_M {
                 let open = self.open(job, ends, arrivals, at);
-                findings.push(self.finding(job, ends, arrivals, (target, at), &open, off_m));
+                findings.push(self.finding(job, ends, arrivals, (target, at), open, off_m));
             }
         }
     }
@@ -364,7 +364,7 @@ impl TakenUp {
         ends: &Ends,
         arrivals: &Arrivals,
         (target, at): (TargetId, usize),
-        open: &[bool; 6],
+        open: [bool; 6],
         off_m: f64,
     ) -> Finding {
         let ground = &job.ground;
@@ -373,17 +373,14 @@ impl TakenUp {
         let joints = (0..6).filter(|i| open[*i]).map(|i| {
             let left = self.0[at][i].left(ends.directions[at][i]);
             let width = widths[i] / DEG;
-            format!(
-                "joint {} by {:.3} of {width:.3} deg",
-                i + 1,
-                (1.0 - left) * width
-            )
+            let taken_up = (1.0 - left) * width;
+            format!("joint {}: {taken_up:.3} of {width:.3} deg", i + 1)
         });
         let joints: Vec<String> = joints.collect();
         let message = format!(
-            "since it turned back, or the program began, less than its backlash is certainly taken \
-             up on the move to {} in line {} ({}): it is taken to come wholly from its new side; from \
-             the other the tool would be {:.3} mm off",
+            "on the move to {} in line {} joints with backlash have taken up less than its width \
+             since they turned back, or the program began ({}): they are taken to come wholly from \
+             their new side; from the other the tool would be {:.3} mm off",
             ground.name_of(target),
             ground.line_of(motion),
             joints.join(", "),
@@ -396,7 +393,7 @@ impl TakenUp {
 }
 
 /// How far off the tool is where some joints come from the other side, metres.
-fn other_side_m(job: &Job, arrival: &Arrival, direction: [i8; 6], open: &[bool; 6]) -> f64 {
+fn other_side_m(job: &Job, arrival: &Arrival, direction: [i8; 6], open: [bool; 6]) -> f64 {
     let ground = &job.ground;
     let motion = &ground.program.moves[arrival.motion as usize];
     let equipped = ground.arm_with(motion.tool);

@@ -19,7 +19,11 @@ pub(super) enum Written {
     /// By the assignment of this number.
     Assigned(u32),
     /// By a call, which gives it.
-    Given { call: u32, position: usize },
+    Given {
+        call: u32,
+        callee: FunctionId,
+        position: usize,
+    },
     /// By the RETURN that begins at this byte of a function.
     Returned(u32, FunctionId),
     /// Nothing: between these bytes is what a condition of a function compares a number with.
@@ -88,7 +92,11 @@ impl Variables<'_, '_> {
                 numbers.calls(call.function, callee);
                 for position in 0..parsed.functions[callee as usize].parameters.len() {
                     let (parameter, _) = self.given(call, callee, position);
-                    let given = Written::Given { call: at, position };
+                    let given = Written::Given {
+                        call: at,
+                        callee,
+                        position,
+                    };
                     numbers.write(parameter, given, Some(Site::at_start(callee)));
                 }
             }
@@ -140,15 +148,28 @@ impl Variables<'_, '_> {
             Written::Limit(start, end, function) => {
                 Some((&self.parsed.text[start as usize..end as usize], function))
             }
-            Written::Given { call, position } => {
+            Written::Given {
+                call,
+                callee,
+                position,
+            } => {
                 let call = &self.parsed.calls[call as usize];
-                // arguments by name, or left out, are not followed
+                let of = &self.parsed.functions[callee as usize];
+                let (name, default) = of.parameters[position];
                 let arguments = self.parsed.arguments_of(call);
-                let is_plain = arguments.iter().all(|(name, _)| name.is_none());
-                let text = self.parsed.text.get(call.offset as usize..)?;
+                let named = arguments.iter().position(|(by, _)| *by == Some(name));
+                let is_placed = arguments.get(position).is_some_and(|(by, _)| by.is_none());
+                // behind the bracket of the call, or of the function where that has a default
+                let (offset, at, function) = match named.or(is_placed.then_some(position)) {
+                    Some(at) => (call.offset, at, call.function),
+                    None => (default.map(|_| of.offset)?, position, of.parent),
+                };
+                let text = self.parsed.text.get(offset as usize..)?;
                 let inside = &text[memchr::memchr(b'(', text)? + 1..];
-                let part = parts(inside).nth(position).filter(|_| is_plain)?;
-                (position < arguments.len()).then_some((part, call.function))
+                let part = parts(inside).nth(at)?;
+                let has_name = named.is_some() || !is_placed;
+                let equals = memchr::memchr(b'=', part).filter(|_| has_name);
+                Some((&part[equals.map_or(0, |at| at + 1)..], function))
             }
         }
     }

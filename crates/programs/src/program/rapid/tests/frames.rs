@@ -166,14 +166,28 @@ fn tools_and_work_objects_are_written_by_others() {
     }
     let program = path("SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;");
     assert_eq!(ids(&program), ["frame-chosen-at-run-time"]);
-    // a second move with another tool is no other matter
-    let two = "SetFrame w;\nMoveL p1,v5,z5,t\\WObj:=w;\nMoveL p2,v5,z5,tool0\\WObj:=w;";
-    assert_eq!(blocked(&path(two)), ["p1", "p2"]);
     let program = path("w:=w2;\nMoveL p1,v5,z5,t\\WObj:=w;");
     assert_eq!(
         (program.frames[0].name.as_str(), ids(&program)),
         ("w2", vec![])
     );
+}
+
+#[test]
+fn more_values_of_a_tool_than_are_followed_are_refused_at_each_move() {
+    let each = |at: usize| {
+        format!(
+            "PERS tooldata a{at}:=[TRUE,[[0,0,{at}],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n\
+             IF DInput(d{at})=1 THEN\nt:=a{at};\nENDIF\n"
+        )
+    };
+    let many: String = (1..7).map(each).collect();
+    // one of the moves in another frame
+    let program = path(&format!(
+        "{many}MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t\\WObj:=w;"
+    ));
+    assert_eq!(ids(&program), ["frame-chosen-at-run-time"; 2]);
+    assert_eq!(blocked(&program), ["p1", "p2"]);
 }
 
 #[test]

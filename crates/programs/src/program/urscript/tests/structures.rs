@@ -1,7 +1,7 @@
 //! Members of structures, copies by elements, displacements backwards, names of inner functions.
 
 use super::*;
-use crate::program::{Displacement, Shift};
+use crate::program::{Displacement, Shift, Stride};
 
 const W: &str = "w=p[.1,.2,.3,0,0,1]\n";
 
@@ -46,6 +46,33 @@ fn members_of_structures_are_what_they_are_made_of() {
     }
     let program = path(&format!("{s}{v}s.b=v\nmovel(s.a)"));
     assert_eq!(to(&program), ["w"]);
+}
+
+#[test]
+fn numbers_of_a_call_are_given_by_place_by_name_or_by_default() {
+    for (default, given) in [
+        ("", "f(w, 0.15)"),
+        ("", "f(w, d=0.15)"),
+        ("", "f(d=0.15, x=w)"),
+        ("=0.15", "f(w)"),
+        ("=0.15", "f(x=w)"),
+        ("=0.02", "f(w, d=0.15)"),
+    ] {
+        let program = path(&format!(
+            "{W}def f(x, d{default}):\nmovel(pose_trans(x,p[0,0,-d,0,0,0]))\nend\nmovel(w)\n{given}"
+        ));
+        let all = program.moves.iter().map(|motion| &motion.displacement);
+        let told: Vec<&Displacement> = all.filter(|by| **by != Displacement::None).collect();
+        let by = match told[..] {
+            [Displacement::By(shift)] => &**shift,
+            [Displacement::Within(strides)] => match &**strides {
+                [Stride::By { shift, .. }] => shift,
+                _ => panic!("{given}: {strides:?}"),
+            },
+            _ => panic!("{given}: {told:?}"),
+        };
+        assert_eq!(by.in_tool.translation, [0.0, 0.0, -0.15], "{given}");
+    }
 }
 
 #[test]
