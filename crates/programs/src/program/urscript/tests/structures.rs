@@ -62,14 +62,14 @@ fn numbers_of_a_call_are_given_by_place_by_name_or_by_default() {
             "{W}def f(x, d{default}):\nmovel(pose_trans(x,p[0,0,-d,0,0,0]))\nend\nmovel(w)\n{given}"
         ));
         let all = program.moves.iter().map(|motion| &motion.displacement);
-        let told: Vec<&Displacement> = all.filter(|by| **by != Displacement::None).collect();
-        let by = match told[..] {
+        let known: Vec<&Displacement> = all.filter(|by| **by != Displacement::None).collect();
+        let by = match known[..] {
             [Displacement::By(shift)] => &**shift,
             [Displacement::Within(strides)] => match &**strides {
                 [Stride::By { shift, .. }] => shift,
                 _ => panic!("{given}: {strides:?}"),
             },
-            _ => panic!("{given}: {told:?}"),
+            _ => panic!("{given}: {known:?}"),
         };
         assert_eq!(by.in_tool.translation, [0.0, 0.0, -0.15], "{given}");
     }
