@@ -33,7 +33,7 @@ pub enum Severity {
 }
 
 /// Something in a program that a person should look at.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(into = "Written")]
 pub struct Finding {
     /// Stable name in kebab-case.

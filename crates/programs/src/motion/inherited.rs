@@ -3,48 +3,50 @@
 use super::ground::Ground;
 use super::walk::Walker;
 use crate::finding::Finding;
+use foldhash::HashMap;
 use std::collections::BTreeSet;
 
-/// A posture that was assumed.
-pub(super) struct Assumption {
-    /// What was said of it.
-    finding: Finding,
-    /// The moves to poses that inherit it.
-    moves: BTreeSet<u32>,
+/// The finding about a posture that nothing tells.
+const POSTURE_ASSUMED: &str = "posture-assumed";
+
+/// The postures that were assumed.
+#[derive(Default)]
+pub(super) struct Assumptions {
+    /// The number of each, by what was said of it: what several arrivals say is one.
+    numbers: HashMap<Finding, u32>,
+    /// The moves to poses that inherit each.
+    moves: Vec<BTreeSet<u32>>,
 }
 
 impl Walker<'_, '_> {
-    /// The assumption that the posture at a move goes back to, where `said` findings were there
-    /// before it was chosen; `before` is that of the move before.
+    /// The assumption that the posture at a move goes back to, from 1, where `said` findings were
+    /// there before it was chosen; `before` is that of the move before, 0 none.
     pub(super) fn assumption(&mut self, at: u32, said: usize, before: u32) -> u32 {
         let own = self.findings[said..].iter();
-        let own = own.rev().find(|found| found.id == "posture-assumed");
-        let Some(own) = own else {
-            if let Some(number) = before.checked_sub(1) {
-                self.assumed[number as usize].moves.insert(at);
+        let own = own.rev().find(|found| found.id == POSTURE_ASSUMED);
+        let assumed = &mut self.assumed;
+        if let Some(own) = own {
+            let next = crate::program::script::short(assumed.moves.len() + 1);
+            let number = *assumed.numbers.entry(own.clone()).or_insert(next);
+            if number == next {
+                assumed.moves.push(BTreeSet::new());
             }
-            return before;
-        };
-        let known = self.assumed.iter().position(|of| of.finding == *own);
-        let number = known.unwrap_or_else(|| {
-            self.assumed.push(Assumption {
-                finding: own.clone(),
-                moves: BTreeSet::new(),
-            });
-            self.assumed.len() - 1
-        });
-        crate::program::script::short(number + 1)
+            return number;
+        }
+        if let Some(number) = before.checked_sub(1) {
+            assumed.moves[number as usize].insert(at);
+        }
+        before
     }
 
     /// Says with each assumption which moves go on in it.
     pub(super) fn name_inherited(&mut self) {
-        for of in std::mem::take(&mut self.assumed) {
-            let lines = lines(self.ground, &of.moves);
-            let same = self
-                .findings
-                .iter_mut()
-                .filter(|found| **found == of.finding);
-            for found in same.filter(|_| !lines.is_empty()) {
+        let assumed = std::mem::take(&mut self.assumed);
+        for found in self.findings.iter_mut().filter(|f| f.id == POSTURE_ASSUMED) {
+            let number = assumed.numbers.get(found);
+            let moves = number.map(|number| &assumed.moves[*number as usize - 1]);
+            if let Some(moves) = moves.filter(|moves| !moves.is_empty()) {
+                let lines = lines(self.ground, moves);
                 found.message += &format!("; the posture in {lines} follows from it");
             }
         }

@@ -8,7 +8,7 @@
 use super::course::ToolRotation;
 use super::follow::{course, direction_of, turned};
 use super::ground::Ground;
-use super::inherited::Assumption;
+use super::inherited::Assumptions;
 use super::posture::OUT_OF_REACH;
 use super::{middle, plausibility, ride};
 use crate::finding::{Finding, Severity};
@@ -207,7 +207,7 @@ pub(crate) fn walk(
         many: false,
         named: ground.program.named.iter().copied().collect(),
         beyond: HashSet::new(),
-        assumed: Vec::new(),
+        assumed: Assumptions::default(),
     };
     let behind = Behind::of(ground);
     for at in 0..count {
@@ -284,7 +284,7 @@ pub(super) struct Walker<'a, 'f> {
     /// Targets whose joints have been reported beyond their limits.
     pub(super) beyond: HashSet<TargetId>,
     /// Postures that were assumed.
-    pub(super) assumed: Vec<Assumption>,
+    pub(super) assumed: Assumptions,
 }
 
 impl Walker<'_, '_> {
