@@ -15,6 +15,10 @@ const largest = (list, size) => list.reduce((most, one) => ((size(one) ?? -Infin
 /** The first error among findings, else the first warning. */
 const gravest = (findings) => findings.find((one) => one.severity === "error") ?? findings.find((one) => one.severity === "warning");
 
+/** Bounds are rounded outwards. */
+const upwards = (mm) => (Math.ceil(mm * 1e3 - 1e-6) / 1e3).toFixed(3);
+const downwards = (mm) => (Math.floor(mm * 1e2 + 1e-6) / 1e2).toFixed(2);
+
 /** What each page has to say first, of its JSON: texts that stand in what is seen without scrolling. */
 const worst = {
   compensate: (of) => [of.summary.max_before_mm.toFixed(3), gravest(of.findings)?.id],
@@ -22,10 +26,10 @@ const worst = {
   many: () => ["largest error"],
   evil: (of) => [gravest(of.findings)?.id],
   empty: (of) => [gravest(of.findings)?.id ?? "0 of 0"],
-  check: (of) => [of.summary.max_path_error_mm.toFixed(3), of.summary.min_clearance_mm.toFixed(2)],
-  collision: (of) => [gravest(of.findings).id, gravest(of.findings).message.slice(0, 40), of.summary.max_path_error_mm.toFixed(3)],
-  rail: (of) => [gravest(of.findings)?.id, of.summary.max_path_error_mm.toFixed(3)],
-  positioner: (of) => [gravest(of.findings)?.id, of.summary.max_path_error_mm.toFixed(3)],
+  check: (of) => [upwards(of.summary.max_path_error_mm), downwards(of.summary.min_clearance_mm)],
+  collision: (of) => [gravest(of.findings).id, gravest(of.findings).message.slice(0, 40), upwards(of.summary.max_path_error_mm)],
+  rail: (of) => [gravest(of.findings)?.id, upwards(of.summary.max_path_error_mm)],
+  positioner: (of) => [gravest(of.findings)?.id, upwards(of.summary.max_path_error_mm)],
   calibrate: (of) => [of.after.position.max_mm.toFixed(4)],
   validate: (of) => [of.position.real.max_mm.toFixed(4), of.position.controller.max_mm.toFixed(4)],
   diagnose: (of) => [of.left_mm.toFixed(4), ...of.effects.filter((one) => one.standing !== "certain").slice(0, 1).map((one) => one.effect)],
