@@ -31,62 +31,76 @@ fn pose_at(joints: [f64; 6]) -> String {
     format!("[{x:.6},{y:.6},{z:.6}],[{w:.9},{i:.9},{j:.9},{k:.9}]")
 }
 
-fn found(effects: &[&str], program: &str) -> (Vec<&'static str>, Option<String>) {
-    let done = try_with(given(), effects, &[("t.mod", program)]).expect("read");
-    let about = done.findings.iter().find(|f| f.id == "several-postures");
-    (errors(&done), about.map(|f| f.message.clone()))
+/// What is said of a move that the correction tips and whose pose is that of the first joints; of the
+/// same move to the second, which it does not, nothing is.
+fn tipped(
+    effect: &str,
+    instruction: &str,
+    from: [f64; 6],
+    [to, clear]: [[f64; 6]; 2],
+    refused: &[&str],
+) -> String {
+    // from a move to joints, and from those of `--start-joints`
+    let [first, second] = [to, clear].map(pose_at);
+    let as_first = |program: String| {
+        let lines = program.lines().filter(|line| !line.starts_with("MoveAbsJ"));
+        lines.map(|line| line.to_owned() + "\n").collect::<String>()
+    };
+    let start_joints = Some(from.map(|q| q * DEG));
+    let found = |pose: &str, starts: bool| {
+        let program = rapid(from, instruction, pose);
+        let (options, program) = if starts {
+            let options = Options {
+                start_joints,
+                ..given()
+            };
+            (options, as_first(program))
+        } else {
+            (given(), program)
+        };
+        let done = try_with(options, &[effect], &[("t.mod", &program)]).expect("read");
+        let about = done.findings.iter().find(|f| f.id == "several-postures");
+        (errors(&done), about.map(|f| f.message.clone()))
+    };
+    for starts in [false, true] {
+        assert_eq!(found(&second, starts), (vec![], None), "{starts}");
+        assert_eq!(found(&first, starts).0, refused, "{starts}");
+    }
+    let [said, at_start] = [false, true].map(|starts| found(&first, starts).1.expect("a finding"));
+    assert_eq!(said, at_start);
+    said
 }
 
 #[test]
 fn a_joint_move_that_the_correction_takes_past_half_a_rotation_is_reported_whatever_the_file_says()
 {
-    let effect = ["{effect: link_geometry, link: 6, theta_deg: -0.1}"];
-    let from = [0.0, 0.0, 0.0, 0.0, 60.0, 0.0];
-    let to = |q6: f64| pose_at([10.0, 10.0, 5.0, 5.0, 50.0, q6]);
-    let (refused, said) = found(&effect, &rapid(from, "MoveJ", &to(179.97)));
-    assert_eq!(refused, [""; 0]);
-    let said = said.expect("a warning");
+    let to = [179.97, 170.0].map(|q6| [10.0, 10.0, 5.0, 5.0, 50.0, q6]);
+    let effect = "{effect: link_geometry, link: 6, theta_deg: -0.1}";
+    let said = tipped(effect, "MoveJ", [0.0, 0.0, 0.0, 0.0, 60.0, 0.0], to, &[]);
     assert!(
         said.contains("joint 6") && said.contains("-179.9"),
         "{said}"
-    );
-    assert_eq!(
-        found(&effect, &rapid(from, "MoveJ", &to(170.0))),
-        (vec![], None)
     );
 }
 
 #[test]
 fn a_joint_move_to_which_another_posture_is_nearer_with_the_correction_is_reported() {
-    let effects = ["{effect: link_geometry, link: 4, theta_deg: -0.3}"];
-    let from = [0.0, 15.0, 10.0, 0.0, 3.0, 0.0];
     // the other posture turns joints 4 and 6 by half a rotation less: 92.0 deg there
-    let to = |q4: f64| pose_at([1.0, 17.0, 11.0, q4, 25.0, 88.0]);
-    let (refused, said) = found(&effects, &rapid(from, "MoveJ", &to(91.85)));
-    assert_eq!(refused, [""; 0]);
-    let said = said.expect("a warning");
+    let to = [91.85, 80.0].map(|q4| [1.0, 17.0, 11.0, q4, 25.0, 88.0]);
+    let effect = "{effect: link_geometry, link: 4, theta_deg: -0.3}";
+    let said = tipped(effect, "MoveJ", [0.0, 15.0, 10.0, 0.0, 3.0, 0.0], to, &[]);
     assert!(said.contains("another posture is nearer"), "{said}");
-    assert_eq!(
-        found(&effects, &rapid(from, "MoveJ", &to(80.0))),
-        (vec![], None)
-    );
 }
 
 #[test]
 fn a_path_that_the_correction_takes_the_other_way_round_is_refused() {
-    let effect = ["{effect: joint_scale, joint: 6, ratio: -5.0e-4}"];
     let from = [0.0, 15.0, 10.0, 0.0, 60.0, -85.0];
-    let to = |by: f64| pose_at([0.0, 15.0, 10.0, 0.0, 60.0, -85.0 + by]);
-    let (refused, said) = found(&effect, &rapid(from, "MoveL", &to(179.97)));
-    assert_eq!(refused, ["several-postures"]);
-    let said = said.expect("an error");
+    let to = [94.97, 85.0].map(|q6| [0.0, 15.0, 10.0, 0.0, 60.0, q6]);
+    let effect = "{effect: joint_scale, joint: 6, ratio: -5.0e-4}";
+    let said = tipped(effect, "MoveL", from, to, &["several-postures"]);
     assert!(
         said.contains("another way") && said.contains("95.0"),
         "{said}"
-    );
-    assert_eq!(
-        found(&effect, &rapid(from, "MoveL", &to(170.0))),
-        (vec![], None)
     );
 }
 

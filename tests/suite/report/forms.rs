@@ -73,16 +73,64 @@ impl Known {
             return true;
         }
         let value: f64 = written.parse().expect("a number");
-        let digit = a_digit(digits) + 1e-12 * value.abs();
-        let near = |x: f64| (x - value).abs() <= digit || (x + value).abs() <= digit;
+        let half = half_a_digit(digits) + 1e-12 * value.abs();
+        let near = |x: f64| (x - value).abs() <= half || (x + value).abs() <= half;
         self.numbers
             .iter()
             .any(|x| [1.0, 100.0, 1000.0, 2.0, 0.0].iter().any(|k| near(k * x)))
     }
+
+    /// Whether a bound as it is written, which is rounded outwards, is that of a number in it.
+    fn bounds(&self, written: &str, from_above: bool) -> bool {
+        let value: f64 = written.parse().expect("a number");
+        let digit = 2.0 * half_a_digit(written.trim_start_matches('-'));
+        // as far as the JSON has decimals
+        let beyond = |x: &f64| if from_above { value - x } else { x - value };
+        let mut numbers = self.numbers.iter();
+        numbers.any(|x| (-1e-6..digit).contains(&beyond(x)))
+    }
 }
 
-/// A unit of the last digit that is written (bounds are rounded outwards), and what arithmetic takes.
-fn a_digit(digits: &str) -> f64 {
+/// What stands in front of bounds, and whether they are from above.
+const BOUNDS: [(&str, bool); 2] = [("never more than", true), ("never less than", false)];
+
+/// The bounds of a text, and the rest of it: a page has the number in front of its words, a text
+/// behind them, and in degrees in their line.
+fn without_bounds(text: &str, is_page: bool) -> (Vec<(String, bool)>, String) {
+    let is_number = |word: &str| word.parse::<f64>().is_ok();
+    let (mut found, mut rest) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let mut words: Vec<&str> = line.split_whitespace().collect();
+        let mut at = 0;
+        while at + 3 <= words.len() {
+            let said = words[at..at + 3].join(" ");
+            let bound = BOUNDS.iter().find(|(words, _)| *words == said);
+            at += 1;
+            let Some((_, from_above)) = bound else {
+                continue;
+            };
+            let numbers = if is_page {
+                vec![
+                    (0..at)
+                        .rfind(|at| is_number(words[*at]))
+                        .expect("its number"),
+                ]
+            } else {
+                let in_deg = (at + 3..words.len() - 1).find(|at| words[at + 1] == "deg");
+                std::iter::once(at + 2).chain(in_deg).collect()
+            };
+            for number in numbers {
+                found.push((words[number].to_owned(), *from_above));
+                words[number] = "";
+            }
+        }
+        rest.push(words.join(" "));
+    }
+    (found, rest.join("\n"))
+}
+
+/// Half a unit of the last digit that is written, and what arithmetic takes.
+fn half_a_digit(digits: &str) -> f64 {
     let (mantissa, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
     let length = |text: &str| i32::try_from(text.len()).expect("a short number");
     let decimals = match mantissa.split_once('.') {
@@ -90,7 +138,7 @@ fn a_digit(digits: &str) -> f64 {
         None => length(mantissa.trim_end_matches('0')) - length(mantissa),
     };
     let exponent: i32 = exponent.parse().expect("an exponent");
-    1.000_001 * 10_f64.powi(exponent - decimals)
+    0.500_001 * 10_f64.powi(exponent - decimals)
 }
 
 /// The numbers of a text, names of them left out.
@@ -112,12 +160,15 @@ fn numbers(text: &str) -> Vec<String> {
 
 /// How many numbers of a text are in the JSON; those that are not go to `unknown`.
 fn count(known: &Known, text: &str, what: &str, unknown: &mut Vec<String>) -> usize {
-    let numbers = numbers(text);
-    let missing: Vec<&String> = numbers.iter().filter(|n| !known.has(n)).collect();
+    let (bounds, text) = without_bounds(text, what.starts_with("page"));
+    let beyond = bounds.iter().filter(|(n, above)| !known.bounds(n, *above));
+    let numbers = numbers(&text);
+    let missing = numbers.iter().filter(|n| !known.has(n));
+    let missing: Vec<&String> = missing.chain(beyond.map(|(n, _)| n)).collect();
     if !missing.is_empty() {
         unknown.push(format!("{what}: {missing:?}"));
     }
-    numbers.len() - missing.len()
+    numbers.len() + bounds.len() - missing.len()
 }
 
 /// What a page says without its script: the text between the tags of its body.

@@ -141,23 +141,55 @@ impl<'a> Path<'a> {
     }
 }
 
-/// The fake joints where the path to an arrival begins, which `--start-joints` gives for the first;
-/// `None` where nobody knows them.
+/// Where the path to an arrival begins.
+pub(super) enum Begin {
+    /// Where the program does, as `--start-joints` says.
+    Joints([f64; 6]),
+    /// At another arrival.
+    At(usize),
+}
+
+impl Begin {
+    /// `None` where nobody knows where that is.
+    pub(super) fn of(
+        job: &Job,
+        arrivals: &Arrivals,
+        walk_options: &WalkOptions,
+        arrival: &Arrival,
+    ) -> Option<Self> {
+        let program = job.ground.program;
+        if arrival.from == NOWHERE {
+            let before = program.before(&program.moves[arrival.motion as usize]);
+            let begins = arrival.known && before.contains(&Before::Start);
+            return walk_options
+                .start_joints
+                .filter(|_| begins)
+                .map(Self::Joints);
+        }
+        is_directed_at(job, arrivals, arrival)
+            .then(|| Self::At(starts_at(job, arrivals, arrival) as usize))
+    }
+
+    /// The joints there, of those at each arrival.
+    pub(super) fn joints<'a>(&'a self, of: impl Fn(usize) -> &'a [f64; 6]) -> &'a [f64; 6] {
+        match self {
+            Self::Joints(q) => q,
+            Self::At(at) => of(*at),
+        }
+    }
+}
+
+/// The joints where the path to an arrival begins, of those at each arrival; `None` where nobody
+/// knows them.
 fn start_of(
     job: &Job,
     arrivals: &Arrivals,
     walk_options: &WalkOptions,
-    fakes: &[[f64; 6]],
+    joints: &[[f64; 6]],
     arrival: &Arrival,
 ) -> Option<[f64; 6]> {
-    let program = job.ground.program;
-    if arrival.from == NOWHERE {
-        let before = program.before(&program.moves[arrival.motion as usize]);
-        let begins = arrival.known && before.contains(&Before::Start);
-        return walk_options.start_joints.filter(|_| begins);
-    }
-    is_directed_at(job, arrivals, arrival)
-        .then(|| fakes[starts_at(job, arrivals, arrival) as usize])
+    let begin = Begin::of(job, arrivals, walk_options, arrival)?;
+    Some(*begin.joints(|at| &joints[at]))
 }
 
 /// Whether the sides from which joints come to an arrival are those of its path.
@@ -289,17 +321,21 @@ fn is_led(program: &Program, arrival: &Arrival) -> bool {
         .is_ok()
 }
 
+/// Where joints stand at the end of a move, but for their directions.
+fn conditions(job: &Job, motion: &Move) -> Conditions {
+    let ground = &job.ground;
+    // of joint moves nobody need know the frame
+    let placed = ground.setting.frames[ground.frame_of(motion)].as_ref();
+    Conditions {
+        gravity_m_s2: placed.and_then(|placed| placed.gravity_m_s2),
+        ..ground.arm_with(motion.tool).inverse.conditions
+    }
+}
+
 /// How wide the backlash of each joint is at the end of a move, radians.
 fn widths(job: &Job, motion: &Move, q: &[f64; 6]) -> [f64; 6] {
-    let ground = &job.ground;
-    let equipped = ground.arm_with(motion.tool);
-    let mut conditions = equipped.inverse.conditions;
-    let frame = ground.frame_of(motion);
-    // of joint moves nobody need know the frame
-    if ground.setting.frames[frame].is_some() {
-        conditions.gravity_m_s2 = ground.placed(frame).gravity_m_s2;
-    }
-    equipped.backlash_rad(q, &conditions)
+    let equipped = job.ground.arm_with(motion.tool);
+    equipped.backlash_rad(q, &conditions(job, motion))
 }
 
 impl TakenUp {
@@ -401,8 +437,7 @@ fn other_side_m(job: &Job, arrival: &Arrival, direction: [i8; 6], open: [bool; 6
         let of = |i: usize| f64::from(direction[i]) * if open[i] { side } else { 1.0 };
         let conditions = Conditions {
             direction: std::array::from_fn(of),
-            gravity_m_s2: ground.placed(ground.frame_of(motion)).gravity_m_s2,
-            ..equipped.inverse.conditions
+            ..conditions(job, motion)
         };
         equipped.inverse.real.forward(&arrival.q, &conditions)
     };

@@ -18,9 +18,10 @@
 //! the wrist's singularity), `shared` one set of numbers for all approaches (`differing` says why
 //! there is none), `limit` what a correction may be; `rewrite` puts the new numbers in the place of
 //! the old ones, `added` new targets between them, `displaced` says what a correction does to points
-//! that the program derives from a target, `deciding` that it decides by numbers of one, `ends`
-//! how much of its backlash a joint has taken up, `led` what calls that may leave the robot elsewhere do to the side from which joints come; `written` puts it
-//! all into the files and reads them again.
+//! that the program derives from a target, `deciding` that it decides by numbers of one, `ends` how
+//! joints with backlash come to the end of each path between fake targets, `postures` where the
+//! controller comes there in other joints, `led` what may leave the robot elsewhere before a move;
+//! `written` puts it all into the files and reads them again.
 //! `context` and `refused` say which files stay.
 //!
 //! # Source

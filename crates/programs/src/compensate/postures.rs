@@ -3,7 +3,7 @@
 
 use super::Job;
 use super::approach::Approach;
-use super::ends::Path;
+use super::ends::{Begin, Path};
 use super::solve::fake_joints;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
@@ -12,6 +12,7 @@ use crate::model::Conditions;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::motion::{follow, posture};
 use crate::program::{Configuration, Displacement, Motion, Move, TargetId, Value};
+use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
@@ -46,33 +47,34 @@ pub(super) fn others(
 ) {
     let ground = &job.ground;
     let mut reported = BTreeSet::new();
-    let mut fakes = Vec::new();
+    let fakes = LazyCell::new(|| fake_joints(job, arrivals, approaches, outcomes));
+    let nominal = LazyCell::new(|| arrivals.all.iter().map(|of| of.q).collect::<Vec<_>>());
     for (at, arrival) in arrivals.all.iter().enumerate() {
         let motion = &ground.program.moves[arrival.motion as usize];
-        let from = arrivals.start_of(arrival).filter(|_| arrival.known);
-        let Some(from) = from.filter(|from| is_wide(from, arrival)) else {
+        let Some(begin) = Begin::of(job, arrivals, walk_options, arrival) else {
             continue;
         };
-        let (Some(target), Some(goal)) = (motion.target, ground.goal(motion)) else {
+        let from = begin.joints(|at| &arrivals.all[at].q);
+        let (Some(target), true) = (motion.target, is_wide(from, &arrival.q)) else {
             continue;
         };
-        let is_other = matches!(goal.value, Value::Joints(_))
-            || motion.motion == Motion::ArcVia
+        let is_other = motion.motion == Motion::ArcVia
             || motion.displacement != Displacement::None
             || ground.program.near(motion).is_some();
         if is_other || reported.contains(&target) {
             continue;
         }
-        if fakes.is_empty() {
-            fakes = fake_joints(job, arrivals, approaches, outcomes);
-        }
+        let goal = ground.goal(motion);
+        let Some(goal) = goal.filter(|goal| !matches!(goal.value, Value::Joints(_))) else {
+            continue;
+        };
         let asked = Asked {
             job,
             arrival,
             motion,
             target,
             configuration: goal.configuration,
-            start: fakes[arrival.from as usize],
+            start: *begin.joints(|at| &fakes[at]),
             end: fakes[at],
         };
         let is_path = motion.motion != Motion::Joint && !motion.free_orientation;
@@ -82,14 +84,11 @@ pub(super) fn others(
                 Some(follow::follow(path.equipped, &path.course, &path.start)?.1)
             };
             // a path that ends elsewhere without the correction, too, has a finding of its own
-            let is_meant = || {
-                let nominal: Vec<[f64; 6]> = arrivals.all.iter().map(|of| of.q).collect();
-                end_of(&nominal).is_some_and(|q| !differ(&q, &arrival.q))
-            };
+            let is_meant = || end_of(&nominal).is_some_and(|q| !differ(&q, &arrival.q));
             let other = end_of(&fakes).filter(|q| differ(q, &asked.end) && is_meant());
             other.map(|other| asked.elsewhere(&other))
         } else {
-            asked.rotation(&from.q).or_else(|| asked.nearer())
+            asked.rotation(from).or_else(|| asked.nearer())
         };
         if let Some(finding) = found {
             reported.insert(target);
@@ -99,11 +98,9 @@ pub(super) fn others(
 }
 
 /// Whether another posture at the end of a move, or another rotation, can be near.
-fn is_wide(from: &Arrival, to: &Arrival) -> bool {
+fn is_wide(from: &[f64; 6], to: &[f64; 6]) -> bool {
     let near_wrist = |q: &[f64; 6]| q[4].sin().abs() < NEAR_WRIST_RAD.sin();
-    near_wrist(&from.q)
-        || near_wrist(&to.q)
-        || (0..6).any(|i| (to.q[i] - from.q[i]).abs() > SHORT_RAD)
+    near_wrist(from) || near_wrist(to) || (0..6).any(|i| (to[i] - from[i]).abs() > SHORT_RAD)
 }
 
 fn differ(a: &[f64; 6], b: &[f64; 6]) -> bool {

@@ -315,19 +315,16 @@ fn axes() -> impl Iterator<Item = Vector> {
 
 /// Along each axis of the work frame and of the tool, both ways, by so much.
 pub(super) fn along_each_axis(by_m: f64) -> impl Iterator<Item = Shift> {
-    (0..12).map(move |side| {
+    (0..6).flat_map(move |side| {
         let mut by = [0.0; 3];
-        by[side / 2 % 3] = if side % 2 == 0 { by_m } else { -by_m };
-        let along = Shift::along(by);
-        if side < 6 {
-            along
-        } else {
-            // the axes of the tool rotate with the correction
-            Shift {
-                in_frame: along.in_tool,
-                in_tool: along.in_frame,
-            }
-        }
+        by[side / 2] = if side % 2 == 0 { by_m } else { -by_m };
+        let Shift { in_frame, in_tool } = Shift::along(by);
+        // the axes of the tool rotate with the correction
+        let swapped = Shift {
+            in_frame: in_tool,
+            in_tool: in_frame,
+        };
+        [Shift::along(by), swapped]
     })
 }
 

@@ -8,6 +8,7 @@ use super::numbers::Known;
 use super::plates::Plates;
 use super::remarks::{ARC_CHAIN, COMPUTED, LOAD, SAVED, SWITCHED, declared_again};
 use super::sections::{Entry, Program, Sections, Statement};
+use super::shown::Shown;
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
@@ -58,6 +59,8 @@ pub(super) struct Reader<'a> {
     pub parameters: Vec<Vec<Vec<u8>>>,
     /// What reals and transformations are, once a position asks.
     pub known: OnceCell<Known<'a>>,
+    /// Names that programs only show, once a `DECOMPOSE` asks.
+    pub shown: OnceCell<Shown>,
     /// Targets whose numbers are added to those of others.
     pub taken: RefCell<Vec<TargetId>>,
     /// Names whose numbers programs read out of them, and where first.
@@ -144,6 +147,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         programs: HashMap::default(),
         parameters: Vec::new(),
         known: OnceCell::new(),
+        shown: OnceCell::new(),
         apart: HashMap::default(),
         copied: Vec::new(),
         taken: RefCell::default(),
