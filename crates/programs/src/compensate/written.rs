@@ -341,17 +341,22 @@ fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<
         room[target.file as usize] += target.numbers.len();
     }
     let mut all: Vec<Vec<u32>> = room.into_iter().map(Vec::with_capacity).collect();
-    // mostly they come in the order of the file
+    // mostly they come in the order of the file, or those of each target next to each other
     let mut last = vec![None; files];
     let mut in_order = vec![true; files];
     for target in targets {
         let file = target.file as usize;
-        for index in target.numbers.clone() {
-            let next = Some(start(&index));
+        let from = all[file].len();
+        all[file].extend(target.numbers.clone());
+        let own = &mut all[file][from..];
+        if !own.is_sorted_by_key(start) {
+            own.sort_by_key(start);
+        }
+        for index in own {
+            let next = Some(start(index));
             in_order[file] &= last[file] < next;
             last[file] = next;
         }
-        all[file].extend(target.numbers.clone());
     }
     for (found, in_order) in all.iter_mut().zip(in_order) {
         if in_order {

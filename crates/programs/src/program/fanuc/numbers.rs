@@ -455,7 +455,7 @@ impl Known {
     /// All programs are read. The loops of the script that do not count as they say.
     pub(super) fn finish(&mut self) -> Vec<usize> {
         let is_any = |number: u32| number == any_of(number);
-        self.write_shown();
+        let held = self.write_shown();
         for (of, entered) in std::mem::take(&mut self.any) {
             let concerned = self.all.iter().filter(|number| any_of(**number) == of);
             for number in concerned.copied().chain([of]).collect::<Vec<_>>() {
@@ -470,7 +470,10 @@ impl Known {
         for &number in &self.all {
             if read.contains(&number) && !is_any(number) {
                 let is_counter = self.loops.iter().any(|of| of.counter == number);
-                if !is_counter || self.assigned.contains(&number) {
+                if let Some(value) = held.get(&number) {
+                    let entered = Entered::of(Content::Exactly(*value), self.path.routine);
+                    self.numbers.write(number, Rc::new(entered), None);
+                } else if !is_counter || self.assigned.contains(&number) {
                     self.numbers.lose(number);
                 }
             }
@@ -484,18 +487,29 @@ impl Known {
         assigned.collect()
     }
 
-    /// Numbers of registers that no program writes are what a file of the controller shows.
-    fn write_shown(&mut self) {
+    /// Numbers of registers that no program writes are what a file of the controller shows. Hands
+    /// over the others, which are that before they are written.
+    fn write_shown(&mut self) -> HashMap<u32, f64> {
         let written_by_index: HashSet<u32> = self.any.iter().map(|(of, _)| *of).collect();
+        let mut held = HashMap::default();
         for (&register, shown) in &self.shown {
             let values = (0..ELEMENTS).zip(shown.iter().flatten());
             for (number, value) in values.map(|(at, value)| (of_position(register, at), value)) {
-                if !self.all.contains(&number) && !written_by_index.contains(&any_of(number)) {
+                let is_written = self.all.contains(&number);
+                if !is_written {
                     let entered = Entered::of(Content::Exactly(*value), self.path.routine);
                     self.numbers.write(number, Rc::new(entered), None);
                 }
+                let may_be_written = written_by_index.contains(&any_of(number));
+                if may_be_written {
+                    self.all.insert(number);
+                }
+                if is_written || may_be_written {
+                    held.insert(number, *value);
+                }
             }
         }
+        held
     }
 
     /// What is written comes to; `own` where that number stands for itself.

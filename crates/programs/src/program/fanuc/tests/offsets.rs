@@ -273,11 +273,24 @@ fn a_register_that_no_program_writes_is_what_a_file_of_the_controller_shows() {
     // one of its numbers is written, or another register is meant
     let by = with(&format!("CALL X ;\nPR[7,3]=300 ;\n{GO}"), &shown);
     assert_eq!(by, up(0.3));
+    // where it may not be written before the move, it is that, too
+    for lines in [
+        format!("IF DI[1]=ON,JMP LBL[1] ;\nPR[7,3]=5 ;\nLBL[1] ;\n{GO}"),
+        format!("{GO}PR[7,3]=5 ;"),
+        format!("PR[R[1],3]=5 ;\n{GO}"),
+    ] {
+        let by = with(&lines, &shown);
+        let ends = between(&by).unwrap_or_else(|| panic!("{lines}: {by:?}"));
+        assert_eq!(
+            ends.map(|end| (end * 1e6).round() / 1e6),
+            [0.0, 0.1],
+            "{lines}"
+        );
+    }
     for lines in [
         GO.replace('7', "9"),
         format!("PR[7,3]=GI[1] ;\n{GO}"),
         format!("SEARCH_IT PR[7] ;\n{GO}"),
-        format!("PR[R[1],3]=5 ;\n{GO}"),
     ] {
         let by = with(&lines, &shown);
         assert!(
