@@ -78,3 +78,22 @@ fn a_move_in_a_work_frame_that_nobody_knows_has_no_side() {
     let refused = done(&[BACKLASH], &[("t.mod", &text)]);
     assert_eq!(errors(&refused), ["frame-chosen-at-run-time"]);
 }
+
+#[test]
+fn behind_a_move_in_one_of_several_work_frames_no_side_is_taken_for_sure() {
+    let data = format!(
+        "CONST robtarget p := [[400,0,300],{P};\nCONST robtarget q := [[400,10,200],{P};\nPERS wobjdata \
+         w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];"
+    );
+    let found = |set: &str| {
+        let moves = format!("{set}\nMoveJ p,v100,fine,tool0\\WObj:=w;\nMoveJ q,v100,fine,tool0;");
+        let done = done(&[BACKLASH], &[("t.mod", &rapid(&data, &moves))]);
+        let of_q = |f: &&poseshift::finding::Finding| f.message.contains("`q`");
+        let ids: Vec<&str> = done.findings.iter().filter(of_q).map(|f| f.id).collect();
+        (errors(&done), ids)
+    };
+    assert_eq!(found(""), (vec![], vec![]));
+    let (refused, of_q) = found("IF DInput(di1)=1 THEN\nSetFrame w;\nENDIF");
+    assert_eq!(refused, ["frame-chosen-at-run-time", "target-shared"]);
+    assert_eq!(of_q, ["direction-uncertain", "target-shared"]);
+}

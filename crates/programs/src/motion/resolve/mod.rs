@@ -199,6 +199,7 @@ impl Resolver<'_, '_> {
                 self.computed(instruction.place);
             }
         }
+        let first = self.report.program.moves.len();
         for shift in shifts {
             listed.is_shifted = shift != NOT_DISPLACED;
             for by in self
@@ -211,6 +212,7 @@ impl Resolver<'_, '_> {
                 }
             }
         }
+        self.go_elsewhere(first, &listed);
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Where moves go.
 
-use super::{Listed, MOST_USES, Refused, Resolver};
+use super::{Choices, Listed, MOST_USES, Refused, Resolver};
 use crate::finding::Severity;
 use crate::motion::flow::OF_MOVE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
@@ -264,6 +264,31 @@ impl Resolver<'_, '_> {
                     );
                 }
             }
+        }
+    }
+
+    /// With a tool or frame that only the running program knows a move to a pose goes elsewhere,
+    /// besides where it goes with those that are known; `first` is its first move.
+    pub(super) fn go_elsewhere(&mut self, first: usize, listed: &Listed) {
+        let Choices {
+            tools,
+            frames,
+            refused,
+            ..
+        } = &*listed.choices;
+        let is_known = tools
+            .iter()
+            .all(|(tool, _)| Some(*tool) != self.unknown_tool)
+            && frames
+                .iter()
+                .all(|(frame, _)| Some(*frame) != self.unknown_frame);
+        let program = &self.report.program;
+        let is_pose = |motion: &Move| {
+            let target = program.target_of(motion);
+            target.is_some_and(|target| target.layout.shape == Shape::Pose)
+        };
+        if !refused.is_empty() && is_known && program.moves[first..].iter().any(is_pose) {
+            self.go_nowhere(listed);
         }
     }
 
