@@ -183,7 +183,7 @@ impl Base<'_> {
             Displacement::AtLeast(steps) => {
                 let most = judged.most_m(displacement, &self.uses, || {
                     let known = strides::places(steps, self.reach_m, true)?.into_iter();
-                    Some(self.most_m(&mut known.chain(strides::along_each_axis(SOMEHOW_M))))
+                    Some(self.most_m(&mut known.chain(strides::all_around(SOMEHOW_M))))
                 });
                 self.bounded_by(most, &|name| {
                     format!(
@@ -225,7 +225,7 @@ impl Base<'_> {
     }
 
     fn unknown(&self) -> Verdict {
-        let off_m = self.most_m(&mut strides::along_each_axis(SOMEHOW_M));
+        let off_m = self.most_m(&mut strides::all_around(SOMEHOW_M));
         let what = format!(
             "a point derived from {} at run time takes its correction along: up to {:.0} mm from it",
             self.name,
@@ -332,7 +332,7 @@ impl Base<'_> {
 
     /// How far from the target its correction is worth the limit.
     fn holds(&self) -> String {
-        let holds = |by: &f64| self.most_m(&mut strides::along_each_axis(*by)) <= self.limit_m;
+        let holds = |by: &f64| self.most_m(&mut strides::all_around(*by)) <= self.limit_m;
         match DISTANCES_M.iter().take_while(|by| holds(by)).last() {
             Some(by) => format!("within the limit up to {:.0} mm from it", mm_from_m(*by)),
             None => "within the limit for less than 1 mm from it".into(),

@@ -18,6 +18,9 @@ const MOST_ROTATING: usize = 4;
 const MOST_SAID: u32 = 1000;
 /// A step shorter than this, metres, or a rotation smaller than this, radians, is none.
 const NO_STEP: f64 = 1e-9;
+/// How far the corners of a body with a corner on each of [`axes`] are, where a ball of 1 fits into
+/// it, rounded up: |n| of the plane n·p = 1 through (1, 0, 0), (1, 1, 0)/√2 and (1, 1, 1)/√3 is (1, √2-1, √3-√2).
+const CORNER: f64 = 1.128_2;
 /// Rotations by an unknown angle are looked at so far apart.
 const TURN_RAD: f64 = 30.0 * DEG;
 
@@ -313,24 +316,28 @@ fn axes() -> impl Iterator<Item = Vector> {
     })
 }
 
-/// Along each axis of the work frame and of the tool, both ways, by so much.
-pub(super) fn along_each_axis(by_m: f64) -> impl Iterator<Item = Shift> {
-    (0..6).flat_map(move |side| {
-        let mut by = [0.0; 3];
-        by[side / 2] = if side % 2 == 0 { by_m } else { -by_m };
-        let Shift { in_frame, in_tool } = Shift::along(by);
-        // the axes of the tool rotate with the correction
-        let swapped = Shift {
-            in_frame: in_tool,
-            in_tool: in_frame,
-        };
-        [Shift::along(by), swapped]
+/// The corners of a body around all that is no farther than so much, along the axes of the work
+/// frame and of the tool: an error that grows evenly is nowhere inside larger than at the worst of
+/// them.
+pub(super) fn all_around(by_m: f64) -> impl Iterator<Item = Shift> {
+    axes().flat_map(move |axis| {
+        [by_m, -by_m].into_iter().flat_map(move |by_m| {
+            let Shift { in_frame, in_tool } = Shift::along(scale(CORNER * by_m, axis));
+            // the axes of the tool rotate with the correction
+            let swapped = Shift {
+                in_frame: in_tool,
+                in_tool: in_frame,
+            };
+            [Shift { in_frame, in_tool }, swapped]
+        })
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::array::uniform3;
+    use proptest::prelude::*;
 
     fn by(shift: Shift, most: Option<u32>) -> Stride {
         Stride::By { shift, most }
@@ -417,6 +424,24 @@ mod tests {
         let short = every(&[by(Shift::along([1e-5, 0.0, 0.0]), None)]);
         let far = short.iter().map(|shift| shift.in_frame.translation[0]);
         assert!(short.len() <= MOST_PLACES && far.fold(0.0, f64::max) > 1.9999);
+    }
+
+    proptest! {
+        #[test]
+        fn corners_all_around_bound_what_grows_evenly(
+            rows in uniform3(uniform3(-1.0..1.0)),
+            constant in uniform3(-1.0..1.0),
+            inside in uniform3(-1.0..1.0),
+        ) {
+            prop_assume!(norm(inside) > 0.0);
+            let of = |by: Vector| {
+                let grown = rows.map(|row: Vector| row.iter().zip(by).map(|(a, b)| a * b).sum());
+                norm(add(constant, grown))
+            };
+            let corners = all_around(1.0).map(|shift| of(shift.in_frame.translation));
+            let most = corners.fold(0.0, f64::max);
+            prop_assert!(of(scale(1.0 / norm(inside), inside)) <= most);
+        }
     }
 
     #[test]
