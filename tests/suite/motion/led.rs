@@ -1,5 +1,5 @@
-//! Calls that may leave the robot elsewhere than the text says: the side from which joints with
-//! backlash come behind them.
+//! Calls and interrupts that may leave the robot elsewhere than the text says: the side from which
+//! joints with backlash come behind them, and the posture.
 
 use super::given::{CONFIG, DATA, START};
 use super::{P, PLAIN, done};
@@ -148,4 +148,50 @@ fn an_interrupt_that_moves_the_robot_makes_directions_uncertain() {
     );
     assert_eq!(said(&[backlash], "TPWrite \"x\";"), []);
     assert_eq!(said(&[PLAIN], moves), []);
+}
+
+/// Another error on each side of the wrist.
+const WRIST: &str = "{effect: link_geometry, link: 5, theta_deg: 0.1}";
+
+/// An AS program, and what is said of postures that are not certain: line and message.
+fn postures(lines: &str, more: &str) -> Vec<(usize, String)> {
+    let text = format!(
+        ".PROGRAM main()\nTOOL NULL\nBASE NULL\nJMOVE #h\n{lines}\n.END\n{more}.TRANS\np 430 0 400 90 150 \
+         0\nq 400 50 380 90 150 0\n.END\n.JOINTS\n#h 0 0 0 0 60 0\n#k 0 0 0 90 -60 0\n.END\n"
+    );
+    let done = done(&[WRIST], &[("t.as", &text)]);
+    let found = done.findings.iter().filter(|f| f.id == "posture-assumed");
+    found.map(|f| (f.line, f.message.clone())).collect()
+}
+
+#[test]
+fn a_routine_that_is_not_in_the_files_may_leave_the_robot_in_another_posture() {
+    let found = postures("LMOVE p\nCALL ext\nLMOVE q\nCALL ext\nLMOVE p", "");
+    let [(line, said)] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(*line, 6);
+    assert!(
+        said.contains("`ext`")
+            && said.contains("another posture")
+            && said.ends_with("at another move"),
+        "{said}"
+    );
+    // joints behind the call, or the routine itself, say where the robot is
+    let none: [(usize, String); 0] = [];
+    assert_eq!(postures("LMOVE p\nCALL ext\nJMOVE #h\nLMOVE q", ""), none);
+    let own = ".PROGRAM ext()\nSIGNAL 1\n.END\n";
+    assert_eq!(postures("LMOVE p\nCALL ext\nLMOVE q", own), none);
+}
+
+#[test]
+fn an_interrupt_may_leave_the_robot_in_another_posture() {
+    let lines = "LMOVE p\nONI 1001 CALL er\nLMOVE q\nIGNORE 1001";
+    let handler = |to: &str| format!(".PROGRAM er()\nJMOVE #h\n{to}\n.END\n");
+    let found = postures(lines, &handler("JMOVE #k"));
+    assert!(
+        matches!(&found[..], [(_, said)] if said.contains("`er`") && said.contains("another posture")),
+        "{found:?}"
+    );
+    assert_eq!(postures(lines, &handler("JMOVE #h")), []);
 }

@@ -154,7 +154,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     let program = ground.program;
     let mut approaches: Vec<Approach> = Vec::with_capacity(arrivals.all.len());
     let mut derived: Vec<Approach> = Vec::new();
-    let mut led = Led::of(job);
+    let mut led = Led::of(job, arrivals);
     let mut used = vec![false; program.targets.len()];
     for motion in &program.moves {
         if let Some(target) = motion.target {

@@ -1,15 +1,22 @@
 //! What may leave the robot elsewhere than the text says before a move: calls of routines that are
-//! not in the files, searches that stop on their way, interrupts that move the robot.
+//! not in the files, searches that stop on their way, interrupts that move the robot. Joints may
+//! come from other sides then, and the robot go on in another posture.
 
 use super::Job;
 use super::approach::Approach;
 use super::solve::is_directed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::program::Interrupt;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::geometry::{norm, sub};
+use crate::inverse::Branch;
+use crate::model::Conditions;
+use crate::motion::posture;
+use crate::motion::walk::Arrivals;
+use crate::program::{Called, Configuration, Interrupt, Value};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// A tool that the other sides of its joints put less off is not reported, metres.
+/// A tool that the other sides of its joints, or another posture, put less off is not reported,
+/// metres.
 const LEAST_M: f64 = 2e-5;
 
 /// What leads the robot elsewhere before a move.
@@ -21,36 +28,73 @@ enum By {
     Interrupt(usize),
 }
 
+/// What may be otherwise then.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum What {
+    Sides,
+    Posture,
+}
+
+/// How far the tool is off at most, metres, at the end of which approach, and the moves behind the
+/// cause.
+struct Worst {
+    off_m: f64,
+    approach: Approach,
+    moves: BTreeSet<u32>,
+}
+
 /// The worst of what calls and interrupts do to the moves behind them.
 pub(super) struct Led {
+    is_led: bool,
     is_directed: bool,
-    /// By the cause: how far the tool is off, metres, of which approach, and the moves behind it.
-    worst: BTreeMap<By, (f64, Approach, BTreeSet<u32>)>,
+    /// The branches in which each interrupt may leave the robot.
+    left_in: Vec<Vec<Branch>>,
+    /// The first call of the same routine as each call.
+    first: Vec<u32>,
+    /// By what is otherwise, and the cause.
+    worst: BTreeMap<(What, By), Worst>,
 }
 
 impl Led {
-    pub(super) fn of(job: &Job) -> Self {
+    pub(super) fn of(job: &Job, arrivals: &Arrivals) -> Self {
+        let program = job.ground.program;
+        let left_in = |of: &Interrupt| {
+            let all = of.moves.iter();
+            let all = all.flat_map(|motion| arrivals.at(*motion as usize));
+            let mut branches = BTreeSet::new();
+            for arrival in all.map(|at| &arrivals.all[at]) {
+                if !arrival.known {
+                    return Branch::ALL.to_vec();
+                }
+                branches.insert(arrival.branch);
+            }
+            branches.into_iter().collect()
+        };
+        let mut first = HashMap::new();
+        let calls = (0..).zip(&program.calls);
+        let first_of = |(at, of): (u32, &Called)| *first.entry(of.name.clone()).or_insert(at);
         Self {
-            is_directed: {
-                let program = job.ground.program;
-                let is_led = !program.led.is_empty() || !program.interrupts.is_empty();
-                is_led && is_directed(job)
-            },
+            first: calls.map(first_of).collect(),
+            is_led: !program.led.is_empty() || !program.interrupts.is_empty(),
+            is_directed: is_directed(job),
+            left_in: program.interrupts.iter().map(left_in).collect(),
             worst: BTreeMap::new(),
         }
     }
 
     /// Notes how far the tool is off at the end of a move where joints with backlash come from the
-    /// other side than they do from the move before the call, or the interrupt.
+    /// other side than they do from the move before the call, or the interrupt, and where the robot
+    /// is in another posture behind it.
     pub(super) fn look(&mut self, job: &Job, approach: &Approach) {
-        if !self.is_directed {
+        if !self.is_led {
             return;
         }
-        let ground = &job.ground;
-        let led = &ground.program.led;
-        let called = led.binary_search_by_key(&approach.motion, |(motion, _)| *motion);
-        let called = called.ok().map(|at| By::Call(led[at].1));
-        let interrupts = ground.program.interrupts.iter().enumerate();
+        let program = job.ground.program;
+        let called = program
+            .led
+            .binary_search_by_key(&approach.motion, |(motion, _)| *motion);
+        let called = called.ok().map(|at| By::Call(program.led[at].1));
+        let interrupts = program.interrupts.iter().enumerate();
         let other =
             |(_, of): &(usize, &Interrupt)| of.moves.binary_search(&approach.motion).is_err();
         let others = interrupts.filter(other).map(|(at, _)| By::Interrupt(at));
@@ -58,87 +102,159 @@ impl Led {
         if causes.is_empty() {
             return;
         }
-        let equipped = ground.arm_with(approach.tool as usize);
-        let side = |side: f64| {
-            let mut conditions = approach.conditions(job);
-            for (direction, has_backlash) in
-                conditions.direction.iter_mut().zip(equipped.has_backlash)
-            {
-                if has_backlash {
-                    *direction *= side;
-                }
+        if self.is_directed {
+            let off_m = from_the_other_sides_m(job, approach);
+            for by in &causes {
+                self.note(What::Sides, *by, off_m, approach);
             }
-            equipped
-                .inverse
-                .real
-                .forward(&approach.nominal_q, &conditions)
-        };
-        let off_m = side(1.0).separation(&side(-1.0)).distance_m;
-        if off_m < LEAST_M {
+        }
+        if is_decided(job, approach) {
             return;
         }
         for by in causes {
-            let new = || (0.0, *approach, BTreeSet::new());
-            let (worst, of, moves) = self.worst.entry(by).or_insert_with(new);
-            moves.insert(approach.motion);
-            if off_m > *worst {
-                (*worst, *of) = (off_m, *approach);
-            }
+            let (by, branches) = match by {
+                // a search stops on its path
+                By::Call(call) if !program.calls[call as usize].is_foreign => continue,
+                By::Call(call) => (By::Call(self.first[call as usize]), &Branch::ALL[..]),
+                By::Interrupt(at) => (by, &self.left_in[at][..]),
+            };
+            let off_m = in_other_postures_m(job, approach, branches);
+            self.note(What::Posture, by, off_m, approach);
+        }
+    }
+
+    fn note(&mut self, what: What, by: By, off_m: f64, approach: &Approach) {
+        if off_m < LEAST_M {
+            return;
+        }
+        let new = || Worst {
+            off_m: 0.0,
+            approach: *approach,
+            moves: BTreeSet::new(),
+        };
+        let worst = self.worst.entry((what, by)).or_insert_with(new);
+        worst.moves.insert(approach.motion);
+        if off_m > worst.off_m {
+            (worst.off_m, worst.approach) = (off_m, *approach);
         }
     }
 
     /// One finding a cause.
     pub(super) fn report(self, job: &Job, findings: &mut Vec<Finding>) {
         let ground = &job.ground;
-        for (by, (off_m, approach, moves)) in self.worst {
-            let (place, name, does, hint) = match by {
+        for ((what, by), worst) in self.worst {
+            let Worst {
+                off_m,
+                approach,
+                moves,
+            } = worst;
+            let (place, name, does) = match by {
                 By::Call(call) => {
-                    let (place, name) = &ground.program.calls[call as usize];
-                    (
-                        place,
-                        name,
-                        "may leave the robot elsewhere than the text says",
-                        "give the files of the routine with --with, or go to a point of the text \
-                         first, from which the joints come as they should",
-                    )
+                    let of = &ground.program.calls[call as usize];
+                    let does = "may leave the robot elsewhere than the text says";
+                    (&of.place, &of.name, does)
                 }
                 By::Interrupt(at) => {
                     let of = &ground.program.interrupts[at];
-                    (
-                        &of.place,
-                        &of.name,
-                        "moves the robot, and may run between any two moves of the others",
-                        "go back in it to where the program was, on a longer move, from where \
-                         joints come as they did",
-                    )
+                    let does = "moves the robot, and may run between any two moves of the others";
+                    (&of.place, &of.name, does)
                 }
             };
-            let equipped = ground.arm_with(approach.tool as usize);
-            let joints: Vec<String> = (0..6)
-                .filter(|&i| equipped.has_backlash[i] && approach.direction[i] != 0)
-                .map(|i| (i + 1).to_string())
-                .collect();
+            let hint = match (what, by) {
+                (What::Sides, By::Call(_)) => {
+                    "give the files of the routine with --with, or go to a point of the text \
+                     first, from which the joints come as they should"
+                }
+                (What::Sides, By::Interrupt(_)) => {
+                    "go back in it to where the program was, on a longer move, from where joints \
+                     come as they did"
+                }
+                (What::Posture, By::Call(_)) => {
+                    "give the files of the routine with --with, or go to joints behind the call"
+                }
+                (What::Posture, By::Interrupt(_)) => {
+                    "go back in it to the joints in which the program was"
+                }
+            };
             let line = ground.line_of(&ground.program.moves[approach.motion as usize]);
+            let to = ground.name_of(approach.target as usize);
+            let otherwise = match what {
+                What::Sides => {
+                    let equipped = ground.arm_with(approach.tool as usize);
+                    let joints: Vec<String> = (0..6)
+                        .filter(|&i| equipped.has_backlash[i] && approach.direction[i] != 0)
+                        .map(|i| (i + 1).to_string())
+                        .collect();
+                    let joints = joints.join(", ");
+                    format!("joint {joints} with backlash may come from the other side to {to}")
+                }
+                What::Posture => format!("the robot may come in another posture to {to}"),
+            };
             let others = match moves.len() {
                 1 => String::new(),
                 2 => ", and at another move".to_owned(),
                 count => format!(", and at {} other moves", count - 1),
             };
             let message = format!(
-                "`{name}` {does}; if it does, joint {} with backlash may come from the other side to \
-                 {} in line {line}, and the tool be {:.3} mm off{others}",
-                joints.join(", "),
-                ground.name_of(approach.target as usize),
+                "`{name}` {does}; if it does, {otherwise} in line {line}, and the tool be \
+                 {:.3} mm off{others}",
                 mm_from_m(off_m)
             );
-            findings.push(ground.finding(
-                "direction-uncertain",
-                Severity::Warning,
-                place.file,
-                place.offset,
-                message,
-                hint,
-            ));
+            let id = match what {
+                What::Sides => "direction-uncertain",
+                What::Posture => "posture-assumed",
+            };
+            let severity = Severity::Warning;
+            findings.push(ground.finding(id, severity, place.file, place.offset, message, hint));
         }
     }
+}
+
+/// Whether the file says in which posture the robot comes to a target.
+fn is_decided(job: &Job, approach: &Approach) -> bool {
+    let ground = &job.ground;
+    let motion = &ground.program.moves[approach.motion as usize];
+    if ground.program.near(motion).is_some() {
+        return true;
+    }
+    let goal = ground.goal(motion);
+    let goal = goal.filter(|goal| matches!(goal.value, Value::Pose(_)));
+    goal.is_none_or(|goal| approach.honoured && goal.configuration != Configuration::default())
+}
+
+/// How far the tool is off where joints with backlash come from the other side.
+fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    let side = |side: f64| {
+        let mut conditions = approach.conditions(job);
+        for (direction, has_backlash) in conditions.direction.iter_mut().zip(equipped.has_backlash)
+        {
+            if has_backlash {
+                *direction *= side;
+            }
+        }
+        let real = &equipped.inverse.real;
+        real.forward(&approach.nominal_q, &conditions)
+    };
+    side(1.0).separation(&side(-1.0)).distance_m
+}
+
+/// How far the tool is off where the robot comes to the target on another one of these branches.
+fn in_other_postures_m(job: &Job, approach: &Approach, branches: &[Branch]) -> f64 {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    let conditions = approach.conditions(job);
+    let meant = approach.meant(job);
+    let error = |q: &[f64; 6]| {
+        let real = equipped.inverse.real.forward(q, &conditions);
+        let believed = equipped.controller.forward(q, &Conditions::default());
+        sub(real.translation, believed.translation)
+    };
+    let here = error(&approach.nominal_q);
+    let others = branches.iter().filter(|branch| **branch != approach.branch);
+    let any = Configuration::default();
+    let found = others.filter_map(|branch| {
+        posture::on_branch(&equipped.arm, &meant, *branch, &approach.nominal_q, &any)
+    });
+    let off = found.map(|posture| norm(sub(error(&posture.q), here)));
+    off.fold(0.0, f64::max)
 }

@@ -322,7 +322,7 @@ fn sides_off(configuration: &Configuration, branch: Branch) -> (usize, bool) {
 
 /// The solution on one branch with the turns that the configuration data and the limits ask for;
 /// `None` out of reach or beyond a limit.
-pub(super) fn on_branch(
+pub(crate) fn on_branch(
     arm: &Arm,
     wanted: &Pose,
     branch: Branch,

@@ -409,6 +409,17 @@ pub struct Interrupt {
     pub moves: Vec<u32>,
 }
 
+/// A call, or a search that stops.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Called {
+    /// Where it stands.
+    pub place: Place,
+    /// What it calls.
+    pub name: Box<str>,
+    /// That may be a routine that is not in the files.
+    pub is_foreign: bool,
+}
+
 /// What program files hold.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Program {
@@ -435,8 +446,8 @@ pub struct Program {
     /// that are not in the files, and searches that stop. Indices in [`Program::moves`], which are
     /// in order, and in [`Program::calls`].
     pub led: Vec<(u32, u32)>,
-    /// The place and the name of each call; empty where none of them is in [`Program::led`].
-    pub calls: Vec<(Place, Box<str>)>,
+    /// Each call; empty where none of them is in [`Program::led`].
+    pub calls: Vec<Called>,
     /// Routines that may run between any two moves of the others, and move the robot.
     pub interrupts: Vec<Interrupt>,
     /// Where targets say that external axes stand, by target.
@@ -501,7 +512,7 @@ impl Program {
             .led
             .binary_search_by(|led| (led.0 as usize).cmp(&motion));
         let (_, call) = self.led[led.ok()?];
-        Some(&self.calls[call as usize].1)
+        Some(&self.calls[call as usize].name)
     }
 
     /// Where each listed external axis stands at the end of a move, metres and radians, where that

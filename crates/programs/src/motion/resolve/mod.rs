@@ -14,7 +14,7 @@ use crate::program::script::{
     short,
 };
 use crate::program::{
-    ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
+    Called, ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
     TargetId, ToolId,
 };
 use foldhash::{HashMap, HashMapExt};
@@ -82,7 +82,12 @@ pub(super) fn resolve(
     program.instructions = script.instructions;
     if !program.led.is_empty() {
         let calls = script.calls.into_iter();
-        program.calls = calls.map(|call| (call.place, call.name)).collect();
+        let called = calls.map(|call| Called {
+            place: call.place,
+            name: call.name,
+            is_foreign: call.foreign,
+        });
+        program.calls = called.collect();
         program.led.sort_unstable();
     }
     program.speed_zones = script.modals.iter().map(|modal| modal.speed_zone).collect();
