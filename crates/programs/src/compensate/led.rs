@@ -12,7 +12,7 @@ use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::motion::posture;
 use crate::motion::walk::Arrivals;
-use crate::program::{Called, Configuration, Interrupt, Value};
+use crate::program::{Called, Configuration, Interrupt, Motion, Value};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// A tool that the other sides of its joints, or another posture, put less off is not reported,
@@ -49,8 +49,8 @@ pub(super) struct Led {
     is_directed: bool,
     /// The branches in which each interrupt may leave the robot.
     left_in: Vec<Vec<Branch>>,
-    /// The first call of the same routine as each call.
-    first: Vec<u32>,
+    /// The call behind which the posture at each arrival goes on; empty where there is none.
+    behind: Vec<Option<u32>>,
     /// By what is otherwise, and the cause.
     worst: BTreeMap<(What, By), Worst>,
 }
@@ -63,18 +63,17 @@ impl Led {
             let all = all.flat_map(|motion| arrivals.at(*motion as usize));
             let mut branches = BTreeSet::new();
             for arrival in all.map(|at| &arrivals.all[at]) {
-                if !arrival.known {
+                let motion = &program.moves[arrival.motion as usize];
+                if arrival.known {
+                    branches.insert(arrival.branch);
+                } else if motion.motion == Motion::Joint {
                     return Branch::ALL.to_vec();
                 }
-                branches.insert(arrival.branch);
             }
             branches.into_iter().collect()
         };
-        let mut first = HashMap::new();
-        let calls = (0..).zip(&program.calls);
-        let first_of = |(at, of): (u32, &Called)| *first.entry(of.name.clone()).or_insert(at);
         Self {
-            first: calls.map(first_of).collect(),
+            behind: behind_calls(job, arrivals),
             is_led: !program.led.is_empty() || !program.interrupts.is_empty(),
             is_directed: is_directed(job),
             left_in: program.interrupts.iter().map(left_in).collect(),
@@ -98,27 +97,31 @@ impl Led {
         let other =
             |(_, of): &(usize, &Interrupt)| of.moves.binary_search(&approach.motion).is_err();
         let others = interrupts.filter(other).map(|(at, _)| By::Interrupt(at));
-        let causes: Vec<By> = called.into_iter().chain(others).collect();
+        let others: Vec<By> = others.collect();
+        let causes: Vec<By> = called.into_iter().chain(others.iter().copied()).collect();
+        if self.is_directed && !causes.is_empty() {
+            let off_m = from_the_other_sides_m(job, approach);
+            for by in causes {
+                self.note(What::Sides, by, off_m, approach);
+            }
+        }
+        let behind = self.behind.get(approach.arrival as usize).copied();
+        let causes: Vec<By> = behind
+            .flatten()
+            .map(By::Call)
+            .into_iter()
+            .chain(others)
+            .collect();
         if causes.is_empty() {
             return;
         }
-        if self.is_directed {
-            let off_m = from_the_other_sides_m(job, approach);
-            for by in &causes {
-                self.note(What::Sides, *by, off_m, approach);
-            }
-        }
-        if is_decided(job, approach) {
-            return;
-        }
+        let open = open_branches(job, approach.motion as usize, approach.honoured);
         for by in causes {
-            let (by, branches) = match by {
-                // a search stops on its path
-                By::Call(call) if !program.calls[call as usize].is_foreign => continue,
-                By::Call(call) => (By::Call(self.first[call as usize]), &Branch::ALL[..]),
-                By::Interrupt(at) => (by, &self.left_in[at][..]),
-            };
-            let off_m = in_other_postures_m(job, approach, branches);
+            let mut branches = open.clone();
+            if let By::Interrupt(at) = by {
+                branches.retain(|branch| self.left_in[at].contains(branch));
+            }
+            let off_m = in_other_postures_m(job, approach, &branches);
             self.note(What::Posture, by, off_m, approach);
         }
     }
@@ -142,6 +145,7 @@ impl Led {
     /// One finding a cause.
     pub(super) fn report(self, job: &Job, findings: &mut Vec<Finding>) {
         let ground = &job.ground;
+        let mut new = Vec::new();
         for ((what, by), worst) in self.worst {
             let Worst {
                 off_m,
@@ -173,7 +177,7 @@ impl Led {
                     "give the files of the routine with --with, or go to joints behind the call"
                 }
                 (What::Posture, By::Interrupt(_)) => {
-                    "go back in it to the joints in which the program was"
+                    "nothing is off where it ends in the joints in which it began"
                 }
             };
             let line = ground.line_of(&ground.program.moves[approach.motion as usize]);
@@ -205,21 +209,85 @@ impl Led {
                 What::Posture => "posture-assumed",
             };
             let severity = Severity::Warning;
-            findings.push(ground.finding(id, severity, place.file, place.offset, message, hint));
+            new.push(ground.finding(id, severity, place.file, place.offset, message, hint));
         }
+        // of a thread that moves joints that is said already
+        let is_said = |new: &Finding| {
+            let mut same = findings.iter().filter(|of| of.id == "posture-assumed");
+            same.any(|of| (of.id, &of.file, of.line) == (new.id, &new.file, new.line))
+        };
+        new.retain(|new| !is_said(new));
+        findings.extend(new);
     }
 }
 
-/// Whether the file says in which posture the robot comes to a target.
-fn is_decided(job: &Job, approach: &Approach) -> bool {
-    let ground = &job.ground;
-    let motion = &ground.program.moves[approach.motion as usize];
-    if ground.program.near(motion).is_some() {
-        return true;
+/// The first call of the routine that is not in the files behind which the posture at each arrival
+/// goes on; empty where none is called.
+fn behind_calls(job: &Job, arrivals: &Arrivals) -> Vec<Option<u32>> {
+    let program = job.ground.program;
+    if !program.calls.iter().any(|of| of.is_foreign) {
+        return Vec::new();
     }
+    let mut first = HashMap::new();
+    let calls = (0..).zip(&program.calls);
+    let first_of = |(at, of): (u32, &Called)| *first.entry(of.name.clone()).or_insert(at);
+    let first: Vec<u32> = calls.map(first_of).collect();
+    let mut behind: Vec<Option<u32>> = Vec::with_capacity(arrivals.all.len());
+    // predecessors come first in the list
+    for arrival in &arrivals.all {
+        let motion = arrival.motion;
+        let led = program.led.binary_search_by_key(&motion, |led| led.0);
+        // a search stops on its path
+        let called = led.ok().map(|at| program.led[at].1);
+        let called = called.filter(|call| program.calls[*call as usize].is_foreign);
+        let called = called.map(|call| first[call as usize]);
+        let before = behind.get(arrival.from as usize).copied().flatten();
+        let cause = called.or(before);
+        let is_open = |_: &u32| {
+            let all = open_branches(job, motion as usize, arrival.honoured);
+            all.iter().any(|branch| *branch != arrival.branch)
+        };
+        behind.push(cause.filter(is_open));
+    }
+    behind
+}
+
+/// The branches on which the robot may come to the target of a move, as far as the file says.
+fn open_branches(job: &Job, motion: usize, honoured: bool) -> Vec<Branch> {
+    let ground = &job.ground;
+    let motion = &ground.program.moves[motion];
+    let mut all = Branch::ALL.to_vec();
     let goal = ground.goal(motion);
-    let goal = goal.filter(|goal| matches!(goal.value, Value::Pose(_)));
-    goal.is_none_or(|goal| approach.honoured && goal.configuration != Configuration::default())
+    if ground.program.near(motion).is_some()
+        || goal
+            .as_ref()
+            .is_some_and(|goal| matches!(goal.value, Value::Joints(_)))
+    {
+        return Vec::new();
+    }
+    let Some(goal) = goal.filter(|_| honoured) else {
+        return all;
+    };
+    let of = goal.configuration;
+    let is_said = of
+        != Configuration {
+            kept: of.kept,
+            ..Configuration::default()
+        };
+    if is_said && of.kept == [false; 3] {
+        return Vec::new();
+    }
+    all.retain(|branch| {
+        let sides = [
+            (of.behind_axis_1, branch.behind_axis_1),
+            (of.behind_lower_arm, branch.behind_lower_arm),
+            (of.joint_5_negative, branch.joint_5_negative),
+        ];
+        sides
+            .iter()
+            .all(|(said, has)| said.is_none_or(|said| said == *has))
+    });
+    all
 }
 
 /// How far the tool is off where joints with backlash come from the other side.

@@ -122,8 +122,12 @@ pub(crate) fn choose(
     if postures.is_empty() {
         return out_of_reach(ground, asked, &near, findings);
     }
-    if !honoured && start.is_some() {
-        return nearest(&|_| true);
+    if !honoured && (start.is_some() || asked.goes_on) {
+        let posture = nearest(&|_| true)?;
+        if start.is_none() && postures.len() > 1 {
+            findings.push(assumed(ground, *target, &posture));
+        }
+        return Some(posture);
     }
     let by_ranges = || {
         let suffice = configuration.ranges_suffice || !honoured;
@@ -132,7 +136,9 @@ pub(crate) fn choose(
     let exactly = nearest(&|posture| posture.configured && posture.exactly);
     let about = || nearest(&|posture| posture.configured);
     if let Some(posture) = exactly.or_else(about).or_else(by_ranges) {
-        let is_other = |other: &Posture| other.configured && other.branch != posture.branch;
+        // what the controller does not go by says nothing
+        let is_other =
+            |other: &Posture| (other.configured || !honoured) && other.branch != posture.branch;
         if let Some(other) = postures.iter().find(|other| is_other(other)) {
             if start.is_none() {
                 findings.push(assumed(ground, *target, &posture));

@@ -3,12 +3,14 @@
 use super::follow::{course, follow};
 use super::posture;
 use super::walk::Walker;
+use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::program::{Configuration, Motion, Move, Shift};
 
 impl Walker<'_, '_> {
     /// The joints at the end of a move that goes by a step of the text from where the robot stands:
-    /// on the branch where it begins. `None` where that is not known.
+    /// on the branch where it begins. `None` where that is not known, as of a joint move to which
+    /// another posture is nearer.
     pub(super) fn stepped(
         &self,
         motion: &Move,
@@ -28,8 +30,17 @@ impl Walker<'_, '_> {
             let path = course(motion, equipped, start, None, &wanted, start, None, options);
             return follow(equipped, &path, start).map(|(_, q)| q);
         }
-        let branch = equipped.arm.posture(start).0;
         let any = Configuration::default();
-        posture::on_branch(&equipped.arm, &wanted, branch, start, &any).map(|there| there.q)
+        let on = |branch| posture::on_branch(&equipped.arm, &wanted, branch, start, &any);
+        let branch = equipped.arm.posture(start).0;
+        let there = on(branch)?.q;
+        let farthest = |q: &[f64; 6]| {
+            let each = q.iter().zip(start).map(|(to, from)| (to - from).abs());
+            each.fold(0.0, f64::max)
+        };
+        let others = Branch::ALL.into_iter().filter(|other| *other != branch);
+        let mut others = others.filter_map(on);
+        let is_nearer = others.any(|other| farthest(&other.q) <= farthest(&there));
+        (!is_nearer).then_some(there)
     }
 }
