@@ -1,6 +1,6 @@
 //! Which posture is assumed where neither configuration data nor the move before tell it.
 
-use super::{PLAIN, done, errors, message};
+use super::{PLAIN, done, errors, message, rapid};
 
 /// Joints 16, 12, -2, 80, 60, 20 deg.
 const HOME: &str = "p[0.388198,0.263919,0.530188,-0.744695,-2.258760,-1.863143]";
@@ -58,4 +58,60 @@ fn behind_a_position_that_nobody_knows_the_robot_goes_on_as_it_stood() {
         let found = assumed(&format!("movej({joints})\n{AWAY}{AWAY}movej({HOME})\n"));
         assert!(found.contains(expected), "{joints}: {found}");
     }
+}
+
+/// What is said of postures in a RAPID program that begins in these joints.
+fn postures(q4_q5: &str, body: &str) -> usize {
+    // of joints 5, 15, 10, -82, 35, 20 deg; `other` has the data of the flipped wrist
+    let pose = "[[426.1436,-3.7691,456.4762],[0.29947917,-0.32294611,0.77780059,-0.4483796]";
+    let target = |name: &str, cf: &str| {
+        format!("CONST robtarget {name} := {pose},{cf},[9E9,9E9,9E9,9E9,9E9,9E9]];\n")
+    };
+    let data = target("p", "[0,-1,0,0]") + &target("other", "[0,1,-2,0]") + "VAR jointtarget j;";
+    let start =
+        format!("MoveAbsJ [[4,20,0,{q4_q5},20],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;");
+    let text = rapid(&data, &format!("{start}\n{body}"));
+    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0], "{body}: {:?}", done.findings);
+    let found = done.findings.iter();
+    found.filter(|f| f.id == "posture-assumed").count()
+}
+
+#[test]
+fn a_joint_move_by_a_step_goes_to_the_nearest_posture() {
+    let step = |by: &str| {
+        format!(
+            "ConfJ\\Off;\nConfL\\Off;\nMoveJ RelTool(CRobT(\\Tool:=tool0\\WObj:=wobj0),0,0,0\\Ry:={by}),v100,fine,tool0;\n\
+             MoveL p,v100,fine,tool0;"
+        )
+    };
+    assert_eq!(postures("-70,8", &step("-30")), 1);
+    assert_eq!(postures("-70,60", &step("-3")), 0);
+}
+
+#[test]
+fn data_that_the_controller_does_not_go_by_say_nothing_behind_a_move_that_nobody_knows() {
+    let away = "j:=CJointT();\nj.robax.rax_6:=j.robax.rax_6+90;\nMoveAbsJ j,v100,fine,tool0;\n";
+    let body = |away: &str| format!("ConfL\\Off;\n{away}MoveL other,v100,fine,tool0;");
+    assert_eq!(postures("-70,30", &body(away)), 1);
+    assert_eq!(postures("-70,30", &body("")), 0);
+}
+
+#[test]
+fn data_that_the_controller_does_not_go_by_name_no_rotations() {
+    let fake = |cf: &str| {
+        let data = format!(
+            "CONST robtarget p := [[52.36174,-304.57487,304.84003],[0.36420504,0.54464963,0.65494239,\
+             -0.37651287],{cf},[9E9,9E9,9E9,9E9,9E9,9E9]];"
+        );
+        let body = "ConfL\\Off;\nConfJ\\Off;\nMoveAbsJ [[4.45,12.44,14.6,83.6,25.4,185.4],\
+            [9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveJ p,v100,fine,tool0;";
+        let done = done(&[PLAIN], &[("t.mod", &rapid(&data, body))]);
+        done.targets
+            .iter()
+            .find_map(|target| target.fake)
+            .expect("a fake target")
+    };
+    let [one, other] = ["[-1,1,-1,0]", "[-1,1,1,0]"].map(fake);
+    assert_eq!(one, other);
 }

@@ -63,7 +63,7 @@ fn a_search_that_stops_leaves_the_robot_on_its_way() {
         ("\\SStop,", "", 1),
         ("", "", 0),
         ("", "rHome;\n", 1),
-        ("", "TPWrite \"x\";\n", 0),
+        ("", "TPWrite \"x\";\nSet do1;\nReset do1;\n", 0),
     ] {
         let data = format!(
             "CONST robtarget a := [[330,10,420],{P};\nCONST robtarget b := [[330,10,380],{P};\nCONST \
@@ -194,4 +194,18 @@ fn an_interrupt_may_leave_the_robot_in_another_posture() {
         "{found:?}"
     );
     assert_eq!(postures(lines, &handler("JMOVE #h")), []);
+}
+
+#[test]
+fn where_force_has_moved_the_robot_is_not_known() {
+    let moves = "movej([0,0,0,0,1.2,0])\nforce_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,9,0,0,0],2,\
+        [1,1,1,1,1,1])\nsleep(1)\nend_force_mode()\nmovel(p[0.33,0.01,0.42,0,3.14159,0])\n";
+    let text = format!("def t():\nset_tcp(p[0,0,0,0,0,0])\n{moves}end\nt()\n");
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let done = done(&[backlash], &[("t.script", &text)]);
+    let found = done
+        .findings
+        .iter()
+        .filter(|f| f.id == "direction-uncertain");
+    assert_eq!(found.count(), 1, "{:?}", done.findings);
 }

@@ -68,6 +68,31 @@ fn what_a_joint_goes_adds_up_over_short_moves() {
     );
 }
 
+/// On the second line joint 2 turns back twice behind its middle, and goes 0.042 deg from there.
+#[test]
+fn a_joint_may_turn_back_twice_in_one_half_of_a_long_path() {
+    let frame = "[[200,50,100],[0.96592583,0,0,0.25881905]]";
+    let data = format!(
+        "PERS tooldata t:=[TRUE,[[20,-30,100],[0.97638259,0.17216259,0.12854321,-0.02266564]],[1,[0,0,50],\
+         [1,0,0,0],0,0,0]];\nTASK PERS wobjdata w:=[FALSE,TRUE,\"\",{frame},[[0,0,0],[1,0,0,0]]];\nCONST \
+         robtarget a:=[[14.99305,-285.56269,319.27863],[0.18993278,0.63338960,0.62739656,-0.41123803],\
+         [-1,1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nCONST robtarget b:=[[273.50903,-177.03958,248.79246],\
+         [0.09292323,-0.83291091,0.33431674,-0.43111136],[0,0,2,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    );
+    let start = "ConfL\\Off;\nMoveAbsJ [[12.86,10.27,5.96,6.9,60.41,7.16],[9E9,9E9,9E9,9E9,9E9,9E9]],\
+        v100,fine,t;\n";
+    let moves = "MoveL a,v100,fine,t\\WObj:=w;\nMoveL b,v100,fine,t\\WObj:=w;";
+    let found = done(
+        &[BACKLASH],
+        &[("t.mod", &rapid(&data, &format!("{start}{moves}")))],
+    );
+    let said = message(&found, "direction-uncertain");
+    assert!(
+        said.contains("`b`") && said.contains("of 0.100 deg"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_move_in_a_work_frame_that_nobody_knows_has_no_side() {
     let data = format!(

@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 
 /// So much of its backlash a joint need not have taken up.
 const LEAST_LEFT: f64 = 0.01;
+/// On a path on which no joint goes farther one can turn back once at most, radians.
+const SHORT_RAD: f64 = 15.0 * DEG;
 /// Times that where joints stand is handed on around loops.
 const MOST_ROUNDS: usize = 8;
 
@@ -283,12 +285,15 @@ impl Ends {
         let turning = |q: &[f64; 6]| equipped.mechanism.commanded(q);
         let [from, half, to] = [&start, &self.halves[at], end].map(turning);
         let mut parts = Vec::new();
+        // on a long path a joint may turn back twice in one of its halves
+        let is_short = (0..6).all(|i| (to[i] - from[i]).abs() < SHORT_RAD);
         Some(std::array::from_fn(|i| {
             if !equipped.has_backlash[i] {
                 return Stretch::NONE;
             }
             let known = [from[i], half[i], to[i]];
-            if let Some(stretch) = Stretch::roughly(known, self.directions[at][i], widths[i]) {
+            let roughly = || Stretch::roughly(known, self.directions[at][i], widths[i]);
+            if let Some(stretch) = is_short.then(roughly).flatten() {
                 return stretch;
             }
             if parts.is_empty() {

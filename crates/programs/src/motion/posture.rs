@@ -67,8 +67,15 @@ pub(crate) fn choose(
     asked: &Asked,
     findings: &mut Vec<Finding>,
 ) -> Option<Posture> {
+    // what the controller does not go by says nothing of rotations either, once it is known from
+    // where it comes
+    let counts = asked.honoured || !(asked.start.is_some() || asked.goes_on);
     let asked = &Asked {
-        configuration: with_kept(asked),
+        configuration: if counts {
+            with_kept(asked)
+        } else {
+            Configuration::default()
+        },
         ..*asked
     };
     let Asked {

@@ -30,12 +30,13 @@ impl Walker<'_, '_> {
             let path = course(motion, equipped, start, None, &wanted, start, None, options);
             return follow(equipped, &path, start).map(|(_, q)| q);
         }
+        let near = ground.program.near(motion).unwrap_or(start);
         let any = Configuration::default();
-        let on = |branch| posture::on_branch(&equipped.arm, &wanted, branch, start, &any);
-        let branch = equipped.arm.posture(start).0;
+        let on = |branch| posture::on_branch(&equipped.arm, &wanted, branch, near, &any);
+        let branch = equipped.arm.posture(near).0;
         let there = on(branch)?.q;
         let farthest = |q: &[f64; 6]| {
-            let each = q.iter().zip(start).map(|(to, from)| (to - from).abs());
+            let each = q.iter().zip(near).map(|(to, from)| (to - from).abs());
             each.fold(0.0, f64::max)
         };
         let others = Branch::ALL.into_iter().filter(|other| *other != branch);

@@ -36,6 +36,7 @@ pub(super) fn is_block_word(word: &[u8]) -> bool {
             | b"return"
             | b"raise"
             | b"retry"
+            | b"startmoveretry"
             | b"trynext"
             | b"exit"
             | b"exitcycle"
@@ -116,7 +117,7 @@ impl Reader<'_> {
                 self.end_statement()?;
                 self.note(start, StatementKind::Return(value));
             }
-            b"retry" | b"trynext" => {
+            b"retry" | b"startmoveretry" | b"trynext" => {
                 self.end_statement()?;
                 self.note(start, StatementKind::Retry);
             }

@@ -54,13 +54,13 @@ const HARMLESS: &str = "\
         pathresol \
     procerrrecovery pulsedo readblock removedir removefile renamefile \
         reset resetppmoved \
-    restopath rewind save setao setdatasearch setdo setgo setleadthrough setsysdata sismoveoff \
+    restopath rewind save set setao setdatasearch setdo setgo setleadthrough setsysdata sismoveoff \
         skipwarn \
     socketaccept socketbind socketclose socketconnect socketcreate socketlisten socketreceive \
         socketsend \
     socketsendto softact softdeact speedlimaxis speedlimcheckpoint speedrefresh spyon spystart \
         spystop startload \
-    startmove startmoveretry stop stopmove stopmovereset storepath syncmoveoff syncmoveon \
+    startmove stop stopmove stopmovereset storepath syncmoveoff syncmoveon \
         syncmoveresume \
     syncmovesuspend syncmoveundo systemstopaction testsigndefine testsignreset texttabinstall \
         tpdefaultdi tperase \

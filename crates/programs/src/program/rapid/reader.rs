@@ -62,7 +62,7 @@ pub(super) struct Reader<'a> {
 }
 
 /// Longest keyword.
-pub(super) const KEYWORD: usize = 12;
+pub(super) const KEYWORD: usize = 14;
 
 /// A name in lower case where it is short enough for a keyword, else nothing.
 pub(super) fn keyword<'b>(name: &[u8], buffer: &'b mut [u8; KEYWORD]) -> &'b [u8] {

@@ -102,7 +102,9 @@ pub(super) fn verb(name: &[u8]) -> Verb {
         b"set_payload_mass" => Verb::Load(LoadParts::Mass),
         b"set_payload_cog" => Verb::Load(LoadParts::Cog),
         b"force_mode" => Verb::Force,
-        b"speedj"
+        // what force has moved stands elsewhere
+        b"end_force_mode"
+        | b"speedj"
         | b"speedl"
         | b"freedrive_mode"
         | b"teach_mode"
@@ -156,7 +158,7 @@ const KNOWN: &str = "\
         conveyor_pulse_decode cos \
     cross d2r dot enable_external_ft_sensor encoder_enable_pulse_decode \
         encoder_enable_set_tick_count \
-    encoder_get_tick_count encoder_set_tick_count encoder_unwind_delta_tick_count end_force_mode \
+    encoder_get_tick_count encoder_set_tick_count encoder_unwind_delta_tick_count \
     end_freedrive_mode end_screw_driving end_teach_mode enter_critical exit_critical float floor \
         force \
     force_mode_set_damping force_mode_set_gain_scaling ft_rtde_input_enable get_base_acceleration \

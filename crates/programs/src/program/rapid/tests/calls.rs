@@ -159,23 +159,24 @@ fn late_bound_calls_find_their_routines() {
 
 #[test]
 fn handlers_may_run_between_any_statements() {
-    let program = path(
-        "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL \
-         p3,v5,z5,t;\nRETRY;\n\
-         ENDIF\nRAISE;",
-    );
-    let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
-    for name in ["p1", "p2", "p3"] {
-        let mut configured = all
-            .iter()
-            .filter(|(to, _)| *to == name)
-            .map(|(_, m)| m.configured);
-        assert!(configured.clone().any(|c| c) && configured.any(|c| !c));
+    for retry in ["RETRY", "StartMoveRetry"] {
+        let program = path(&format!(
+            "MoveL p1,v5,z5,t;\nConfL\\Off;\nMoveL p2,v5,z5,t;\nERROR\nIF ERRNO=1 THEN\nMoveL \
+             p3,v5,z5,t;\n{retry};\nENDIF\nRAISE;",
+        ));
+        let all: Vec<_> = to(&program).into_iter().zip(&program.moves).collect();
+        for name in ["p1", "p2", "p3"] {
+            let mut configured = all
+                .iter()
+                .filter(|(to, _)| *to == name)
+                .map(|(_, m)| m.configured);
+            assert!(configured.clone().any(|c| c) && configured.any(|c| !c));
+        }
+        assert!(
+            all.iter().all(|(_, m)| program.before(m).len() > 1),
+            "the handler goes on anywhere: {retry}"
+        );
     }
-    assert!(
-        all.iter().all(|(_, m)| program.before(m).len() > 1),
-        "the handler goes on anywhere"
-    );
     let program = path("MoveL p1,v5,z5,t;\nMoveL p2,v5,z5,t;\nERROR\nWaitTime 1;\nRETRY;");
     assert_eq!(
         program.before(&program.moves[1]),
