@@ -115,3 +115,28 @@ fn data_that_the_controller_does_not_go_by_name_no_rotations() {
     let [one, other] = ["[-1,1,-1,0]", "[-1,1,1,0]"].map(fake);
     assert_eq!(one, other);
 }
+
+#[test]
+fn moves_that_go_on_in_a_posture_which_the_file_does_not_give_are_named() {
+    let target = |name: &str, x: f64, cf: &str| {
+        format!(
+            "CONST robtarget {name} := [[{x},-3.77,456.5],[0.29947917,-0.32294611,0.77780059,-0.4483796],\
+             {cf},[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        )
+    };
+    let data = target("p", 426.0, "[2,-1,0,0]") + &target("q", 400.0, "[0,-1,0,0]");
+    let body = "ConfL\\Off;\nMoveAbsJ [[4,20,0,-70,30,20],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n\
+        MoveJ p,v100,fine,tool0;\nMoveL q,v100,fine,tool0;";
+    let text = rapid(&data, body);
+    let line = text
+        .lines()
+        .position(|line| line.contains("MoveL q"))
+        .expect("a move")
+        + 1;
+    let done = done(&[PLAIN], &[("t.mod", &text)]);
+    let said = message(&done, "configuration-mismatch");
+    assert!(
+        said.ends_with(&format!("the posture in line {line} follows from it")),
+        "{said}"
+    );
+}

@@ -6,8 +6,9 @@ use crate::finding::Finding;
 use foldhash::HashMap;
 use std::collections::BTreeSet;
 
-/// The finding about a posture that nothing tells.
-const POSTURE_ASSUMED: &str = "posture-assumed";
+/// The findings about a posture that nothing tells, and of one that the file gives and no solution
+/// has.
+const ASSUMED: [&str; 2] = ["posture-assumed", "configuration-mismatch"];
 
 /// The postures that were assumed.
 #[derive(Default)]
@@ -23,7 +24,7 @@ impl Walker<'_, '_> {
     /// there before it was chosen; `before` is that of the move before, 0 none.
     pub(super) fn assumption(&mut self, at: u32, said: usize, before: u32) -> u32 {
         let own = self.findings[said..].iter();
-        let own = own.rev().find(|found| found.id == POSTURE_ASSUMED);
+        let own = own.rev().find(|found| ASSUMED.contains(&found.id));
         let assumed = &mut self.assumed;
         if let Some(own) = own {
             let next = crate::program::script::short(assumed.moves.len() + 1);
@@ -42,7 +43,8 @@ impl Walker<'_, '_> {
     /// Says with each assumption which moves go on in it.
     pub(super) fn name_inherited(&mut self) {
         let assumed = std::mem::take(&mut self.assumed);
-        for found in self.findings.iter_mut().filter(|f| f.id == POSTURE_ASSUMED) {
+        let findings = self.findings.iter_mut();
+        for found in findings.filter(|found| ASSUMED.contains(&found.id)) {
             let number = assumed.numbers.get(found);
             let moves = number.map(|number| &assumed.moves[*number as usize - 1]);
             if let Some(moves) = moves.filter(|moves| !moves.is_empty()) {
