@@ -140,3 +140,24 @@ fn moves_that_go_on_in_a_posture_which_the_file_does_not_give_are_named() {
         "{said}"
     );
 }
+
+#[test]
+fn a_step_goes_near_the_joints_that_it_names() {
+    let corrected = |near: &str| {
+        let step = "pose_trans(get_actual_tcp_pose(), p[0,0,0,-0.15,0,0])";
+        let text = format!(
+            "def t():\nset_tcp(p[0,0,0.1,0,0,0])\nmovej([0.279,0.209,-0.035,1.396,1.047,0.349])\n\
+             movej(get_inverse_kin({step}{near}))\nmovel({HOME})\nend\nt()\n"
+        );
+        let wrist = "{effect: link_geometry, link: 5, theta_deg: 0.1}";
+        let done = done(&[wrist], &[("t.script", &text)]);
+        assert_eq!(errors(&done), [""; 0], "{near}: {:?}", done.findings);
+        let mut fakes = done.targets.iter().filter_map(|target| target.fake);
+        fakes.next_back().expect("a fake target")
+    };
+    assert_eq!(
+        corrected(""),
+        corrected(", qnear=[0.279,0.209,-0.035,1.396,1.047,0.349]")
+    );
+    assert_ne!(corrected(""), corrected(&format!(", qnear={FLIPPED}")));
+}

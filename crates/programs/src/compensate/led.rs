@@ -211,10 +211,11 @@ impl Led {
             let severity = Severity::Warning;
             new.push(ground.finding(id, severity, place.file, place.offset, message, hint));
         }
-        // of a thread that moves joints that is said already
+        // of a thread that moves joints its posture is reported already
         let is_said = |new: &Finding| {
-            let mut same = findings.iter().filter(|of| of.id == "posture-assumed");
-            same.any(|of| (of.id, &of.file, of.line) == (new.id, &new.file, new.line))
+            let has_place = |of: &&Finding| (&of.file, of.line) == (&new.file, new.line);
+            let mut there = findings.iter().filter(has_place);
+            there.any(|of| of.id == "posture-assumed" && of.id == new.id)
         };
         new.retain(|new| !is_said(new));
         findings.extend(new);

@@ -18,8 +18,9 @@ const MOST_ROTATING: usize = 4;
 const MOST_SAID: u32 = 1000;
 /// A step shorter than this, metres, or a rotation smaller than this, radians, is none.
 const NO_STEP: f64 = 1e-9;
-/// How far the corners of a body with a corner on each of [`axes`] are, where a ball of 1 fits into
-/// it, rounded up: |n| of the plane n·p = 1 through (1, 0, 0), (1, 1, 0)/√2 and (1, 1, 1)/√3 is (1, √2-1, √3-√2).
+/// How far the corners of a body with a corner on each of [`axes`], both ways, are from its middle,
+/// where a ball of radius 1 fits into it, rounded up: |n| of the plane n·p = 1 through (1, 0, 0),
+/// (1, 1, 0)/√2 and (1, 1, 1)/√3, with n = (1, √2-1, √3-√2).
 const CORNER: f64 = 1.128_2;
 /// Rotations by an unknown angle are looked at so far apart.
 const TURN_RAD: f64 = 30.0 * DEG;
