@@ -15,6 +15,7 @@ mod kawasaki;
 mod krl;
 mod led;
 mod listings;
+mod parts;
 mod registers;
 mod rotations;
 mod rows;

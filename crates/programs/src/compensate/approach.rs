@@ -9,12 +9,13 @@ use crate::model::Conditions;
 use crate::motion::walk::{Arrivals, NOWHERE};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shape, TargetId, Value};
+use std::sync::Arc;
 
 /// Joints that differ by less are the same, radians.
 pub(super) const SAME_RAD: f64 = 1e-7;
 
 /// An approach of a target.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Approach {
     /// The controller's joints at the wanted pose.
     pub nominal_q: [f64; 6],
@@ -32,7 +33,7 @@ pub(super) struct Approach {
     /// The controller goes by the target's configuration data.
     pub honoured: bool,
     /// As [`crate::motion::walk::Arrival::middle`].
-    pub middle: Option<Rotation>,
+    pub middle: Option<Arc<Rotation>>,
 }
 
 impl Approach {
@@ -49,15 +50,15 @@ impl Approach {
     /// Where the controller has the tool at a pose that the target's numbers give: in the middle of
     /// an arc it looks at the position alone.
     pub(super) fn taken(&self, mut numbers: Pose) -> Pose {
-        if let Some(middle) = self.middle {
-            numbers.rotation = numbers.rotation * middle;
+        if let Some(middle) = self.middle.as_deref() {
+            numbers.rotation = numbers.rotation * *middle;
         }
         numbers
     }
 
     /// The pose that the numbers must give for the controller to have the tool at one.
     pub(super) fn numbers_for(&self, mut taken: Pose) -> Pose {
-        if let Some(middle) = self.middle {
+        if let Some(middle) = self.middle.as_deref() {
             taken.rotation = taken.rotation * middle.transpose();
         }
         taken
@@ -66,7 +67,8 @@ impl Approach {
     /// Whether the robot goes there in another orientation than the target's numbers give.
     pub(super) fn is_turned(&self) -> bool {
         self.middle
-            .is_some_and(|middle| middle != Rotation::identity())
+            .as_deref()
+            .is_some_and(|middle| *middle != Rotation::identity())
     }
 
     /// Where the tool is with the target's numbers, in the work frame.
@@ -179,7 +181,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             branch: arrival.branch,
             direction: arrival.direction,
             honoured: arrival.honoured,
-            middle: arrival.middle,
+            middle: arrival.middle.clone(),
         };
         led.look(job, &approach);
         if motion.displacement == Displacement::None {
@@ -217,15 +219,15 @@ fn sort(approaches: &mut [Approach]) {
 fn drop_same(job: &Job, approaches: &mut Vec<Approach>) {
     let (mut kept, mut first) = (0, 0);
     for at in 0..approaches.len() {
-        let approach = approaches[at];
+        let approach = &approaches[at];
         if kept > 0 && approaches[kept - 1].target != approach.target {
             first = kept;
         }
         let known = approaches[first..kept]
             .iter()
-            .any(|other| is_same(job, other, &approach));
+            .any(|other| is_same(job, other, approach));
         if !known {
-            approaches[kept] = approach;
+            approaches.swap(kept, at);
             kept += 1;
         }
     }

@@ -40,7 +40,7 @@ pub(super) fn arrivals(
     let known = |at: usize| {
         let here = arrivals.at(at).map(|index| Arrival {
             direction: sides(index),
-            ..arrivals.all[index]
+            ..arrivals.all[index].clone()
         });
         here.filter(|arrival| arrival.known).collect()
     };
@@ -429,7 +429,7 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
         tool: short(motion.tool),
         frame: short(job.ground.frame_of(motion)),
         direction: [0; 6],
-        ..*approach
+        ..approach.clone()
     };
     if arrivals.is_empty() {
         return vec![there];
@@ -439,7 +439,7 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
         nominal_q: arrival.q,
         branch: arrival.branch,
         direction: if is_known { arrival.direction } else { [0; 6] },
-        middle: arrival.middle,
+        middle: arrival.middle.clone(),
         ..there
     };
     arrivals.iter().map(of).collect()

@@ -5,6 +5,7 @@ use super::approach::{Approach, stays};
 use super::solve::fake_joints;
 use super::{Job, LEAST_SIDE_M};
 use crate::finding::{Finding, Severity};
+use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::Outcome;
 use crate::model::Conditions;
@@ -39,6 +40,8 @@ pub(super) struct Path<'a> {
     pub equipped: &'a Equipped,
     pub course: Course,
     pub start: [f64; 6],
+    /// The tool at its end.
+    pub end: Pose,
 }
 
 impl Ends {
@@ -139,6 +142,7 @@ impl<'a> Path<'a> {
             equipped,
             course,
             start,
+            end: wanted,
         })
     }
 }

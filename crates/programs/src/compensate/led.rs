@@ -132,13 +132,13 @@ impl Led {
         }
         let new = || Worst {
             off_m: 0.0,
-            approach: *approach,
+            approach: approach.clone(),
             moves: BTreeSet::new(),
         };
         let worst = self.worst.entry((what, by)).or_insert_with(new);
         worst.moves.insert(approach.motion);
         if off_m > worst.off_m {
-            (worst.off_m, worst.approach) = (off_m, *approach);
+            (worst.off_m, worst.approach) = (off_m, approach.clone());
         }
     }
 

@@ -302,7 +302,18 @@ impl<'a> Portion<'a> {
         };
         let mut new: Vec<f64> = numbers.iter().map(|n| n.value).collect();
         let programmed = as_programmed(job, approach);
-        let (before, after) = (posture_of(arm, &programmed), posture_of(arm, &fake.q));
+        let posture = |q: &[f64; 6]| {
+            // only configuration data hang on the sides
+            if roles.contains(&Role::Configuration) {
+                return posture_of(arm, q);
+            }
+            Posture {
+                joints_rad: *q,
+                behind_axis_1: false,
+                behind_lower_arm: false,
+            }
+        };
+        let (before, after) = (posture(&programmed), posture(&fake.q));
         ground.language.encode(
             target.layout,
             &value,

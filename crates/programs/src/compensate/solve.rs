@@ -197,33 +197,42 @@ fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut 
         same.push(at);
     }
     let chunks: Vec<&[u32]> = alike.values().flat_map(|same| same.chunks(CHUNK)).collect();
-    let solved: Vec<Vec<Outcome>> = chunks
-        .par_iter()
-        .map(|chunk| {
-            let of = |at: &u32| &approaches[*at as usize];
-            let first = of(&chunk[0]);
-            let inverse = Inverse {
-                conditions: first.conditions(job),
-                ..job.ground.arm_with(first.tool as usize).inverse.clone()
-            };
-            let wanted: Vec<_> = chunk.iter().map(|at| of(at).wanted(job)).collect();
-            let branches: Vec<_> = chunk.iter().map(|at| of(at).branch).collect();
-            let near: Vec<_> = chunk.iter().map(|at| of(at).nominal_q).collect();
-            solve_batch_by(
-                job.options.methods,
-                &inverse,
-                Targets {
-                    wanted: &wanted,
-                    branches: &branches,
-                    near: &near,
-                },
-            )
-        })
-        .collect();
-    for (chunk, solved) in chunks.iter().zip(solved) {
-        for (at, outcome) in chunk.iter().zip(solved) {
-            outcomes[*at as usize] = Some(outcome);
-        }
+    let solve = |chunk: &&[u32]| {
+        let of = |at: &u32| &approaches[*at as usize];
+        let first = of(&chunk[0]);
+        let inverse = Inverse {
+            conditions: first.conditions(job),
+            ..job.ground.arm_with(first.tool as usize).inverse.clone()
+        };
+        let wanted: Vec<_> = chunk.iter().map(|at| of(at).wanted(job)).collect();
+        let branches: Vec<_> = chunk.iter().map(|at| of(at).branch).collect();
+        let near: Vec<_> = chunk.iter().map(|at| of(at).nominal_q).collect();
+        let targets = Targets {
+            wanted: &wanted,
+            branches: &branches,
+            near: &near,
+        };
+        solve_batch_by(job.options.methods, &inverse, targets)
+    };
+    // a few chunks at a time: what they return is not in memory twice for a long program
+    let mut some = chunks.chunks(8 * rayon::current_num_threads());
+    let of = |some: &[&[u32]]| -> Vec<Vec<Outcome>> { some.par_iter().map(solve).collect() };
+    let mut which = some.next();
+    let mut solved = which.map(of);
+    while let (Some(chunks), Some(done)) = (which, solved) {
+        which = some.next();
+        let put = || {
+            for (at, outcome) in chunks
+                .iter()
+                .copied()
+                .flatten()
+                .zip(done.into_iter().flatten())
+            {
+                outcomes[*at as usize] = Some(outcome);
+            }
+        };
+        // the next are solved while these are put in their places
+        solved = rayon::join(|| which.map(of), put).0;
     }
 }
 
@@ -317,7 +326,7 @@ fn unsettled(job: &Job, approach: &Approach, direction: [i8; 6]) -> Finding {
     let ground = &job.ground;
     let other = Approach {
         direction,
-        ..*approach
+        ..approach.clone()
     };
     let real = &ground.arm_with(approach.tool as usize).inverse.real;
     let [a, b] = [approach, &other]

@@ -114,7 +114,6 @@ impl Compensation {
             .iter()
             .zip(sources)
             .all(|(is, s)| *is || s.is_context);
-        // what was computed goes here, so that a long program is not in memory twice
         let check = Check {
             meant,
             moves: all_written.then_some(self.program.instructions.len()),
@@ -125,6 +124,9 @@ impl Compensation {
             sources: written,
             is_written,
         };
+        // what was computed goes now, so that a long program is not in memory twice
+        let done = (self.program, self.targets, all_edits);
+        rayon::spawn(move || drop(done));
         (written, check)
     }
 }

@@ -76,17 +76,21 @@ pub(crate) fn course(
 
 /// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
 /// by continuity. `None` where it leaves the reach on its way.
+///
+/// `end` is the pose at its end: on the path it is the same but for rounding.
 pub(crate) fn follow(
     equipped: &Equipped,
     course: &Course,
     start: &[f64; 6],
+    end: &Pose,
 ) -> Option<(Branch, [f64; 6])> {
     let Course::Tool(path) = course else {
         return None;
     };
     let arm = &equipped.arm;
     let at = |s: f64, branch: Branch, near: &[f64; 6]| {
-        let solution = arm.solve_along(&path.pose(s), branch, near);
+        let pose = if s < 1.0 { path.pose(s) } else { *end };
+        let solution = arm.solve_along(&pose, branch, near);
         (solution.beyond == 0.0).then_some(solution.q)
     };
     let (mut branch, margins) = arm.posture(start);

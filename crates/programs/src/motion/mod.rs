@@ -42,6 +42,7 @@ pub(crate) mod posture;
 mod readers;
 mod resolve;
 pub(crate) mod ride;
+mod rows;
 pub(crate) mod setting;
 mod standing;
 mod stepped;

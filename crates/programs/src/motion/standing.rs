@@ -44,7 +44,7 @@ impl Walker<'_, '_> {
                 ride,
                 self.walk_options,
             );
-            if let Some((branch, q)) = follow(equipped, &course, &start) {
+            if let Some((branch, q)) = follow(equipped, &course, &start, wanted) {
                 return Some(self.compared(motion, target, wanted, configuration, branch, q));
             }
         }

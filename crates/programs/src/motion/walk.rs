@@ -20,6 +20,7 @@ use crate::program::script::Turn;
 use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::sync::Arc;
 
 /// A joint that stands beyond this is written in another unit: 278 rotations, as of orientations.
 const MOST_JOINT_RAD: f64 = 1e5 * DEG;
@@ -35,7 +36,7 @@ const MOST_TURNS: usize = 16;
 const SAME_RAD: f64 = 1e-7;
 
 /// The robot at the end of a move.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Arrival {
     /// Index in the program's moves.
     pub motion: u32,
@@ -58,7 +59,7 @@ pub(crate) struct Arrival {
     pub assumed: u32,
     /// In the middle of an arc: from the tool as the target's numbers have it to the tool as the
     /// path has it there, where the controller looks at the position alone.
-    pub middle: Option<Rotation>,
+    pub middle: Option<Arc<Rotation>>,
 }
 
 /// Name of the finding about a path that ends in another configuration than the file gives.
@@ -71,8 +72,8 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 pub(crate) struct Arrivals {
     pub all: Vec<Arrival>,
     /// First arrival at each move, and the next one at the same move behind each.
-    first: Vec<u32>,
-    next: Vec<u32>,
+    pub(super) first: Vec<u32>,
+    pub(super) next: Vec<u32>,
 }
 
 impl Arrivals {
@@ -128,10 +129,10 @@ impl Arrivals {
     /// The joints in which the robot stood last, as far as that is known, else those of the move
     /// that was looked at last: from a position that only the running program knows it most likely
     /// goes on in the same posture.
-    fn last_known(&self, before: Option<Arrival>) -> Option<[f64; 6]> {
-        let back = |arrival: &Arrival| self.all.get(arrival.from as usize).copied();
+    fn last_known(&self, before: Option<&Arrival>) -> Option<[f64; 6]> {
+        let back = |arrival: &&Arrival| self.all.get(arrival.from as usize);
         let chain = std::iter::successors(before, back).take(MOST_UNKNOWN);
-        let others = self.all.iter().rev().copied().take(MOST_UNKNOWN);
+        let others = self.all.iter().rev().take(MOST_UNKNOWN);
         let mut known = chain.chain(others).filter(|arrival| arrival.known);
         known.next().map(|arrival| arrival.q)
     }
@@ -163,7 +164,7 @@ impl Arrivals {
             .collect()
     }
 
-    fn add(&mut self, arrival: Arrival) {
+    pub(super) fn add(&mut self, arrival: Arrival) {
         let here = crate::program::script::short(self.all.len());
         let first = &mut self.first[arrival.motion as usize];
         self.next.push(std::mem::replace(first, here));
@@ -208,6 +209,7 @@ pub(crate) fn walk(
         named: ground.program.named.iter().copied().collect(),
         beyond: HashSet::new(),
         assumed: Assumptions::default(),
+        no_row_before: 0,
     };
     let behind = Behind::of(ground);
     for at in 0..count {
@@ -234,7 +236,7 @@ pub(crate) fn walk(
 }
 
 /// The moves behind each move.
-struct Behind {
+pub(super) struct Behind {
     first: Vec<u32>,
     list: Vec<u32>,
 }
@@ -265,7 +267,7 @@ impl Behind {
         Self { first, list }
     }
 
-    fn of_move(&self, at: u32) -> &[u32] {
+    pub(super) fn of_move(&self, at: u32) -> &[u32] {
         let at = at as usize;
         &self.list[self.first[at] as usize..self.first[at + 1] as usize]
     }
@@ -275,21 +277,26 @@ pub(super) struct Walker<'a, 'f> {
     pub(super) ground: &'a Ground<'a>,
     pub(super) walk_options: &'a WalkOptions,
     pub(super) findings: &'f mut Vec<Finding>,
-    arrivals: Arrivals,
+    pub(super) arrivals: Arrivals,
     /// Moves to arrive at, and from which arrival: the first of the text first.
-    open: BinaryHeap<Reverse<(u32, u32)>>,
-    many: bool,
+    pub(super) open: BinaryHeap<Reverse<(u32, u32)>>,
+    pub(super) many: bool,
     /// Where a move says itself near which joints it comes to a target: its posture there.
     pub(super) named: HashMap<TargetId, [f64; 6]>,
     /// Targets whose joints have been reported beyond their limits.
     pub(super) beyond: HashSet<TargetId>,
     /// Postures that were assumed.
     pub(super) assumed: Assumptions,
+    /// Where rows of moves have been looked for.
+    pub(super) no_row_before: u32,
 }
 
 impl Walker<'_, '_> {
     fn run(&mut self, behind: &Behind) {
         while let Some(Reverse((at, from))) = self.open.pop() {
+            if self.walk_row(behind, at, from) {
+                continue;
+            }
             let arrival = self.arrive(at, from);
             let mut others = 0;
             let mut is_same = false;
@@ -338,10 +345,11 @@ impl Walker<'_, '_> {
         );
     }
 
-    fn arrive(&mut self, at: u32, from: u32) -> Arrival {
+    pub(super) fn arrive(&mut self, at: u32, from: u32) -> Arrival {
         let ground = self.ground;
         let motion = &ground.program.moves[at as usize];
-        let before = self.arrivals.all.get(from as usize).copied();
+        let before = self.arrivals.all.get(from as usize).cloned();
+        let before = before.as_ref();
         let start = before.filter(|before| before.known).map(|before| before.q);
         let is_first = ground.program.before(motion).contains(&Before::Start);
         let start = match (start, from) {
@@ -375,7 +383,7 @@ impl Walker<'_, '_> {
                 }),
                 known: true,
                 displaced,
-                ..nowhere
+                ..nowhere.clone()
             }
         };
         let Some(target) = motion.target else {
@@ -392,7 +400,10 @@ impl Walker<'_, '_> {
             let step = motion.step().filter(|_| is_led.is_err() && !is_many);
             let there = step.zip(start);
             let there = there.and_then(|(step, start)| self.stepped(motion, step, &start));
-            return there.map_or(nowhere, |there| in_joints(there, true));
+            return match there {
+                Some(there) => in_joints(there, true),
+                None => nowhere,
+            };
         };
         let Some(goal) = ground.goal(motion) else {
             return nowhere;
@@ -431,7 +442,7 @@ impl Walker<'_, '_> {
         }
         let middle = before.filter(|before| before.known).and_then(|before| {
             let (at, walk_options) = (at as usize, self.walk_options);
-            middle::middle(ground, walk_options, at, &before, &wanted, self.findings)
+            middle::middle(ground, walk_options, at, before, &wanted, self.findings)
         });
         let mut configuration = goal.configuration;
         if let Some(middle) = middle.filter(|middle| *middle != Rotation::identity()) {
@@ -441,13 +452,11 @@ impl Walker<'_, '_> {
         }
         // the point on the way of an arc comes before its end
         let (via, start) = match (motion.motion, before) {
-            (Motion::ArcEnd, Some(before)) => self.arc_start(&before, start),
+            (Motion::ArcEnd, Some(before)) => self.arc_start(before, start),
             _ => (None, start),
         };
         let from = match via {
-            Some(_) => before
-                .and_then(|before| self.arrivals.start_of(&before))
-                .copied(),
+            Some(_) => before.and_then(|before| self.arrivals.start_of(before)),
             None => before,
         };
         let ride = ground.ride(from.map(|from| from.motion), motion);
@@ -510,7 +519,7 @@ impl Walker<'_, '_> {
             known: true,
             displaced: goal.is_near,
             assumed,
-            middle,
+            middle: middle.map(Arc::new),
             ..nowhere
         }
     }

@@ -84,15 +84,21 @@ impl Edits {
     /// # Panics
     /// If the file or all new text together has 4 GiB or more.
     pub fn insert(&mut self, at: usize, text: &[u8]) {
-        let write = |out: &mut Vec<u8>| out.extend_from_slice(text);
         let first = self.spans.first().map_or(at, |first| first.start as usize);
         if at >= first {
-            return self.replace(at..at, write);
+            return self.replace(at..at, |out| out.extend_from_slice(text));
         }
-        let mut all = Self::with_room(1 + self.spans.len(), text.len() + self.text.len());
-        all.replace(at..at, write);
-        all.append(self);
-        *self = all;
+        let (start, by) = (short(at), short(text.len()));
+        self.text.splice(0..0, text.iter().copied());
+        for span in &mut self.spans {
+            span.text += by;
+        }
+        let first = Span {
+            start,
+            end: start,
+            text: 0,
+        };
+        self.spans.insert(0, first);
     }
 
     /// Whether nothing is replaced.

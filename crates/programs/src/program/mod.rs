@@ -548,6 +548,7 @@ impl Program {
         self.targets.shrink_to_fit();
         self.numbers.shrink_to_fit();
         self.moves.shrink_to_fit();
+        self.instructions.shrink_to_fit();
     }
 
     /// The target of a move.

@@ -174,7 +174,7 @@ pub(super) fn truly_changes(
         let all = within(posture, ROUNDED_DEG);
         all.contains(&true) && all.contains(&false)
     };
-    if !is_near(before) || right(after) {
+    if right(after) || !is_near(before) {
         return false;
     }
     let means_other = [-360.0, 360.0].into_iter().any(|by| turned(after, by));

@@ -374,7 +374,13 @@ impl Arm {
     /// The branch of a posture and its distances from the singularities.
     #[must_use]
     pub fn posture(&self, q: &[f64; 6]) -> (Branch, Margins) {
-        let stance = self.stance(&AxisRotation::of_each(&self.mechanism.commanded(q)));
+        let angles = self.mechanism.commanded(q);
+        let mut turns = [AxisRotation::none(); 6];
+        // neither the first nor the last decides
+        for i in 1..5 {
+            turns[i] = AxisRotation::of(angles[i]);
+        }
+        let stance = self.stance(&turns);
         (stance.branch(), stance.margins())
     }
 
