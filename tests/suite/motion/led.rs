@@ -197,6 +197,73 @@ fn an_interrupt_may_leave_the_robot_in_another_posture() {
 }
 
 #[test]
+fn an_interrupt_whose_routine_is_not_in_the_files_may_leave_the_robot_in_another_posture() {
+    let lines = "LMOVE p\nONI 1001 CALL er\nLMOVE q\nIGNORE 1001";
+    let found = postures(lines, "");
+    let [(line, said)] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(*line, 6, "where the interrupt is set");
+    assert!(
+        said.contains("`er`, which is not in the files")
+            || said.contains("`er` is not in the files"),
+        "{said}"
+    );
+    // likewise where it calls one that is not
+    let calls = ".PROGRAM er()\nCALL ext\n.END\n";
+    let found = postures(lines, calls);
+    assert!(
+        matches!(&found[..], [(_, said)] if said.contains("`er` calls `ext`, which is not in the files")),
+        "{found:?}"
+    );
+    // a process may not move the robot
+    assert_eq!(postures("LMOVE p\nPCEXECUTE er\nLMOVE q", ""), []);
+    assert_eq!(postures(lines, ".PROGRAM er()\nSIGNAL 1\n.END\n"), []);
+}
+
+/// What is said of postures that are not certain in a KRL program: line and message.
+fn krl_postures(head: &str, more: &str) -> Vec<(usize, String)> {
+    let text = format!(
+        "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n{head}\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 60,A6 0}}\n\
+         LIN {{X 430,Y 0,Z 400,A 90,B 150,C 0}}\nLIN {{X 400,Y 50,Z 380,A 90,B 150,C 0}}\nEND\n{more}"
+    );
+    let done = done(&[WRIST], &[("t.src", &text)]);
+    let found = done.findings.iter().filter(|f| f.id == "posture-assumed");
+    found.map(|f| (f.line, f.message.clone())).collect()
+}
+
+#[test]
+fn of_interrupts_and_triggers_of_krl_the_first_alone_may_move_the_robot() {
+    let declared = "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO outer()\n";
+    let found = krl_postures(&format!("{declared}INTERRUPT ON 5"), "");
+    assert!(
+        matches!(&found[..], [(5, said)] if said.contains("`outer` is not in the files")),
+        "{found:?}"
+    );
+    let with_arguments = "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO outer(3)\nINTERRUPT ON 5";
+    let found = krl_postures(with_arguments, "");
+    assert!(
+        matches!(&found[..], [(5, said)] if said.contains("`outer` is not in the files")),
+        "{found:?}"
+    );
+    let none: [(usize, String); 0] = [];
+    assert_eq!(krl_postures(declared, ""), none, "never switched on");
+    let stop = "INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM()\nINTERRUPT ON 3";
+    assert_eq!(krl_postures(stop, ""), none);
+    for trigger in ["outer()", "outer(3)", "own()"] {
+        let head = format!("TRIGGER WHEN DISTANCE=0 DELAY=0 DO {trigger}");
+        let own = "DEF own()\nouter()\nEND\n";
+        assert_eq!(krl_postures(&head, own), none, "{trigger}");
+    }
+    let own = "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO own()\nINTERRUPT ON 5";
+    let found = krl_postures(own, "DEF own()\nouter()\nEND\n");
+    assert!(
+        matches!(&found[..], [(_, said)] if said.contains("`own` calls `outer`")),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn where_force_has_moved_the_robot_is_not_known() {
     let moves = "movej([0,0,0,0,1.2,0])\nforce_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,9,0,0,0],2,\
         [1,1,1,1,1,1])\nsleep(1)\nend_force_mode()\nmovel(p[0.33,0.01,0.42,0,3.14159,0])\n";

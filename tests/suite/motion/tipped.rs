@@ -104,6 +104,66 @@ fn a_path_that_the_correction_takes_the_other_way_round_is_refused() {
     );
 }
 
+/// Of a straight move between two postures: the joints at its end, and what is said of others.
+fn passed([from, to]: [[f64; 6]; 2], data: &str) -> ([f64; 6], Option<String>) {
+    let text = rapid(from, "MoveL", &pose_at(to)).replace("[0,0,0,0]", data);
+    let text = match data {
+        "[0,0,0,0]" => text,
+        _ => text.replace("ConfL\\Off;\n", ""),
+    };
+    let effect = "{effect: link_geometry, link: 3, theta_deg: 0.01}";
+    let done = try_with(given(), &[effect], &[("t.mod", &text)]).expect("read");
+    assert_eq!(errors(&done), Vec::<&str>::new(), "{:?}", done.findings);
+    let about = done.findings.iter().find(|f| f.id == "several-postures");
+    let q = done
+        .targets
+        .last()
+        .and_then(|target| target.q)
+        .expect("solved");
+    (q.map(|q| q / DEG), about.map(|f| f.message.clone()))
+}
+
+#[test]
+fn a_path_that_passes_the_singularity_of_the_wrist_says_which_posture_is_taken() {
+    let arm = |q4: f64, q5: f64, q6: f64| [10.0, 15.0, 10.0, q4, q5, q6];
+    // the sine of the distance is that of joint 5 times that of what joint 4 stands beside the
+    // shortest path over the singularity
+    let ends = |distance: f64, aside: f64| {
+        let q5 = (distance.to_radians().sin() / aside.to_radians().sin()).asin() / DEG;
+        let sweep = 180.0 - 2.0 * aside;
+        [arm(aside - 90.0, q5, 0.0), arm(90.0 - aside, q5, -sweep)]
+    };
+    let none = "[0,0,0,0]";
+    // where joint 4 would have to move much on the other way, too, nothing is said
+    let (q, said) = passed(ends(3.0, 40.0), none);
+    assert!(
+        q[4] > 4.0 && q[3] > 45.0 && said.is_none(),
+        "{q:?} {said:?}"
+    );
+    for distance in [0.6, 0.7, 0.8] {
+        let (q, said) = passed(ends(distance, 8.0), none);
+        let said = said.expect("a finding");
+        assert!(q[4] > 0.5 && q[3] > 75.0, "{distance}: {q:?}");
+        assert!(
+            said.contains(&format!("by {distance:.1} deg")) && said.contains("taken to sweep"),
+            "{said}"
+        );
+    }
+    let (q, said) = passed(ends(0.3, 8.0), none);
+    let said = said.expect("a finding");
+    assert!(q[4] < -0.2 && q[3] < -90.0, "{q:?}");
+    assert!(
+        said.contains("by 0.3 deg") && said.contains("taken to go through"),
+        "{said}"
+    );
+    // through the middle there is no other
+    let (q, said) = passed([arm(20.0, 4.0, 0.0), arm(20.0, -4.0, 0.0)], none);
+    assert!(q[4] < -3.9 && said.is_none(), "{q:?} {said:?}");
+    // where the data are gone by, they say
+    let (q, said) = passed(ends(0.8, 8.0), "[0,0,-2,0]");
+    assert!(q[4] > 0.5 && said.is_none(), "{q:?} {said:?}");
+}
+
 #[test]
 fn a_coupled_joint_comes_from_the_side_of_the_angle_that_turns_it() {
     let fanuc = "robots/fanuc_lrmate200ic.yaml";

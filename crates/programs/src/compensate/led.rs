@@ -13,6 +13,7 @@ use crate::model::Conditions;
 use crate::motion::posture;
 use crate::motion::walk::Arrivals;
 use crate::program::{Called, Configuration, Interrupt, Motion, Value};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// A tool that the other sides of its joints, or another posture, put less off is not reported,
@@ -59,6 +60,9 @@ impl Led {
     pub(super) fn of(job: &Job, arrivals: &Arrivals) -> Self {
         let program = job.ground.program;
         let left_in = |of: &Interrupt| {
+            if of.foreign.is_some() {
+                return Branch::ALL.to_vec();
+            }
             let all = of.moves.iter();
             let all = all.flat_map(|motion| arrivals.at(*motion as usize));
             let mut branches = BTreeSet::new();
@@ -156,18 +160,21 @@ impl Led {
                 By::Call(call) => {
                     let of = &ground.program.calls[call as usize];
                     let does = "may leave the robot elsewhere than the text says";
-                    (&of.place, &of.name, does)
+                    (&of.place, &of.name, Cow::from(does))
                 }
                 By::Interrupt(at) => {
                     let of = &ground.program.interrupts[at];
-                    let does = "moves the robot, and may run between any two moves of the others";
-                    (&of.place, &of.name, does)
+                    (&of.place, &of.name, Cow::from(at_any_time(of)))
                 }
             };
             let hint = match (what, by) {
                 (What::Sides, By::Call(_)) => {
                     "give the files of the routine with --with, or go to a point of the text \
                      first, from which the joints come as they should"
+                }
+                (_, By::Interrupt(at)) if ground.program.interrupts[at].foreign.is_some() => {
+                    "give the files of the routine with --with; nothing is off where it ends in the \
+                     joints in which it began"
                 }
                 (What::Sides, By::Interrupt(_)) => {
                     "go back in it to where the program was, on a longer move, from where joints \
@@ -219,6 +226,21 @@ impl Led {
         };
         new.retain(|new| !is_said(new));
         findings.extend(new);
+    }
+}
+
+/// What an interrupt does to the others.
+fn at_any_time(of: &Interrupt) -> String {
+    match of.foreign.as_deref() {
+        None => "moves the robot, and may run between any two moves of the others".to_owned(),
+        Some(name) if name == &*of.name => {
+            "is not in the files, and may move the robot between any two moves of the others"
+                .to_owned()
+        }
+        Some(name) => format!(
+            "calls `{name}`, which is not in the files and may move the robot between any two moves \
+             of the others"
+        ),
     }
 }
 

@@ -81,7 +81,7 @@ pub(super) fn others(
         let found = if is_path {
             let end_of = |joints: &[[f64; 6]]| {
                 let path = Path::of(job, arrivals, walk_options, joints, at)?;
-                Some(follow::follow(path.equipped, &path.course, &path.start, &path.end)?.1)
+                Some(follow::follow(path.equipped, &path.course, &path.start, &path.end)?.q)
             };
             // a path that ends elsewhere without the correction, too, has a finding of its own
             let is_meant = || end_of(&nominal).is_some_and(|q| !differ(&q, &arrival.q));

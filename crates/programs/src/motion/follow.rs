@@ -8,7 +8,7 @@ use super::ride::Ride;
 use super::walk::WalkOptions;
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use crate::inverse::{Arm, Branch};
+use crate::inverse::Branch;
 use crate::model::{Conditions, Mechanism};
 use crate::program::{Motion, Move};
 use std::sync::Arc;
@@ -18,12 +18,19 @@ use std::sync::Arc;
 const STANDSTILL_RAD: f64 = 1e-6;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
 const MOST_STEP_RAD: f64 = 45.0 * DEG;
-/// Nearer to alignment than this joint 5 goes through, where the other joints then move less than
-/// the second angle.
+/// Nearer to alignment than this joint 5 may go through, where joint 4 sweeps by more than the
+/// second angle else, and no joint moves more than the third then.
 const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
+const LEAST_SWEEP_RAD: f64 = 90.0 * DEG;
 const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
+/// A path that passes the wrist's singularity nearer than this goes through it: a straight line
+/// between two points of a curve that does. Nearer than the second angle nothing else is meant.
+const THROUGH_WRIST_RAD: f64 = 0.5 * DEG;
+const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
+/// Times that the part is narrowed in which a path is nearest to it.
+const NARROWINGS: usize = 40;
 /// The shortest step of a path.
-const SHORTEST_STEP: f64 = 1.0 / 512.0;
+const SHORTEST_STEP: f64 = 1.0 / 2048.0;
 /// A path that rotates the tool by more, or is longer, is followed in several steps.
 const MANY_RAD: f64 = 30.0 * DEG;
 const MANY_M: f64 = 0.25;
@@ -74,16 +81,42 @@ pub(crate) fn course(
     Course::Tool(ToolCourse::of(&from, via, wanted, turning, ride))
 }
 
+/// Where a path of the tool ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Followed {
+    pub branch: Branch,
+    pub q: [f64; 6],
+    /// Where it passes the wrist's singularity so that it is not certain whether joint 5 goes
+    /// through.
+    pub passing: Option<Passing>,
+}
+
+/// How a path passes the wrist's singularity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passing {
+    /// How near, radians.
+    pub by_rad: f64,
+    /// Joint 5 is taken to go through; else the joints next to it sweep.
+    pub is_through: bool,
+}
+
 /// Follows a path of the tool on the branch where it begins: the joints at its end, whole rotations
 /// by continuity. `None` where it leaves the reach on its way.
 ///
+/// Where the path passes the wrist's singularity the joints next to it sweep, and the robot keeps to
+/// its side; but very near it goes through.
+///
 /// `end` is the pose at its end: on the path it is the same but for rounding.
+///
+/// # Source
+/// ABB, Technical reference manual RAPID Instructions, `SingArea`: with `\Off` axes may make a
+/// sweeping movement near a singular point, and the tool keeps its orientation.
 pub(crate) fn follow(
     equipped: &Equipped,
     course: &Course,
     start: &[f64; 6],
     end: &Pose,
-) -> Option<(Branch, [f64; 6])> {
+) -> Option<Followed> {
     let Course::Tool(path) = course else {
         return None;
     };
@@ -115,17 +148,12 @@ pub(crate) fn follow(
     };
     let longest = 1.0 / steps;
     let (mut s, mut step, mut q) = (0.0_f64, longest, *start);
+    let is_near = |q: &[f64; 6]| arm.posture(q).1.wrist_rad < NEAR_WRIST_RAD;
+    let (mut entry, mut passing): (Option<(f64, [f64; 6])>, Option<Passing>) = (None, None);
     while s < 1.0 {
         let next: f64 = (s + step).min(1.0);
         let there = at(next, branch, &q)?;
         let most = farthest(&there, &q);
-        if most > MOST_STEP_RAD
-            && let Some((other, there)) =
-                through_wrist(arm, branch, &q, |branch| at(next, branch, &q))
-        {
-            (s, q, branch) = (next, there, other);
-            continue;
-        }
         if most > MOST_STEP_RAD
             && step > SHORTEST_STEP
             && !(is_singular && s == 0.0 && step < BEYOND_SINGULAR)
@@ -133,23 +161,60 @@ pub(crate) fn follow(
             step *= 0.5;
             continue;
         }
+        // a path that is short and clear of it needs no second look
+        if next - s < 1.0 {
+            if is_near(&q) || is_near(&there) {
+                entry.get_or_insert((s, q));
+            }
+            let is_behind = next == 1.0 || !is_near(&there);
+            if let Some((from, before)) = entry.take_if(|_| is_behind)
+                && (there[3] - before[3]).abs() > LEAST_SWEEP_RAD
+                && let Some((other, behind)) =
+                    through_wrist(branch, &before, |branch| at(next, branch, &before))
+            {
+                let margin = |s: f64| Some(arm.posture(&at(s, branch, &before)?).1.wrist_rad);
+                let by_rad = least(margin, from, next)?;
+                let is_through = by_rad < THROUGH_WRIST_RAD;
+                if by_rad > SURELY_THROUGH_RAD {
+                    passing = Some(Passing { by_rad, is_through });
+                }
+                if is_through {
+                    (s, q, branch) = (next, behind, other);
+                    continue;
+                }
+            }
+        }
         (s, q) = (next, there);
         step = (2.0 * step).min(longest);
     }
-    Some((branch, q))
+    Some(Followed { branch, q, passing })
+}
+
+/// The least of what falls, and rises again, between two parts of a path.
+fn least(of: impl Fn(f64) -> Option<f64>, mut from: f64, mut to: f64) -> Option<f64> {
+    let mut least = of(from)?.min(of(to)?);
+    for _ in 0..NARROWINGS {
+        let third = (to - from) / 3.0;
+        let [a, b] = [of(from + third)?, of(to - third)?];
+        least = least.min(a).min(b);
+        if a < b {
+            to -= third;
+        } else {
+            from += third;
+        }
+    }
+    Some(least)
 }
 
 fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }
 
-/// A path that passes the wrist's singularity so near that the joints next to it would spin goes
-/// through it: joint 5 changes its sign and nothing else moves much. `there` gives the joints
-/// behind it on a branch.
+/// The joints behind the wrist's singularity where a path may go through it: joint 5 changes its sign
+/// and nothing else moves much. `there` gives those on a branch.
 fn through_wrist(
-    arm: &Arm,
     branch: Branch,
-    q: &[f64; 6],
+    before: &[f64; 6],
     there: impl Fn(Branch) -> Option<[f64; 6]>,
 ) -> Option<(Branch, [f64; 6])> {
     let other = Branch {
@@ -157,9 +222,7 @@ fn through_wrist(
         ..branch
     };
     let behind = there(other)?;
-    let near = |q: &[f64; 6]| arm.posture(q).1.wrist_rad < NEAR_WRIST_RAD;
-    let is_through = near(q) && near(&behind) && farthest(&behind, q) < MOST_THROUGH_RAD;
-    is_through.then_some((other, behind))
+    (farthest(&behind, before) < MOST_THROUGH_RAD).then_some((other, behind))
 }
 
 /// As [`arrival_direction`] for a move, on which the joints of the wrist may lead the tool: they then go

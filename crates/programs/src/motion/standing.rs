@@ -1,7 +1,7 @@
 //! The posture in which the robot stands at the end of a move: that of its path, compared with the
 //! configuration data, or the one that these name.
 
-use super::follow::{course, follow};
+use super::follow::{Followed, Passing, course, follow};
 use super::posture::{self, Asked, Posture};
 use super::ride::Ride;
 use super::walk::{CONFIGURATION_CHANGE, Walker};
@@ -44,8 +44,17 @@ impl Walker<'_, '_> {
                 ride,
                 self.walk_options,
             );
-            if let Some((branch, q)) = follow(equipped, &course, &start, wanted) {
-                return Some(self.compared(motion, target, wanted, configuration, branch, q));
+            if let Some(end) = follow(equipped, &course, &start, wanted) {
+                let Followed { branch, q, .. } = end;
+                let posture = self.compared(motion, target, wanted, configuration, branch, q);
+                let is_said = motion.configured && configuration.joint_5_negative.is_some();
+                if let Some(passing) = end.passing
+                    && !is_said
+                    && !self.walk_options.strict
+                {
+                    self.say_passing(motion, target, &passing, &posture);
+                }
+                return Some(posture);
             }
         }
         let asked = Asked {
@@ -63,6 +72,37 @@ impl Walker<'_, '_> {
             self.named.insert(target, posture.q);
         }
         self.carried(motion, target, wanted, posture)
+    }
+
+    /// The wrist's singularity is near a path: its posture at the end is not certain.
+    fn say_passing(
+        &mut self,
+        motion: &Move,
+        target: TargetId,
+        passing: &Passing,
+        posture: &Posture,
+    ) {
+        let ground = self.ground;
+        let joints = posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+        let message = format!(
+            "the path to {} passes the singularity of the wrist by {:.1} deg: {} comes in another posture",
+            ground.name_of(target),
+            passing.by_rad / DEG,
+            if passing.is_through {
+                format!(
+                    "joint 5 is taken to go through zero, to joints {joints} deg; a controller on which \
+                     joints 4 and 6 sweep"
+                )
+            } else {
+                format!(
+                    "joints 4 and 6 are taken to sweep, to joints {joints} deg; a controller whose joint \
+                     5 goes through zero"
+                )
+            }
+        );
+        let hint = "go through it on a joint move, or lead the path past it";
+        let finding = ground.at_move("several-postures", Severity::Warning, motion, message, hint);
+        self.findings.push(finding);
     }
 
     /// A wanted pose where the program has it: the part may stand elsewhere.

@@ -28,7 +28,7 @@ impl Walker<'_, '_> {
         if motion.motion != Motion::Joint {
             let options = self.walk_options;
             let path = course(motion, equipped, start, None, &wanted, start, None, options);
-            return follow(equipped, &path, start, &wanted).map(|(_, q)| q);
+            return follow(equipped, &path, start, &wanted).map(|end| end.q);
         }
         let near = ground.program.near(motion).unwrap_or(start);
         let any = Configuration::default();

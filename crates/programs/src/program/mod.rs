@@ -398,7 +398,7 @@ pub enum Before {
 }
 
 /// A routine that may run between any two moves of others (a trap, an interrupt, a thread), and
-/// moves the robot.
+/// moves the robot, or may.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interrupt {
     /// Where it stands.
@@ -407,6 +407,8 @@ pub struct Interrupt {
     pub name: Box<str>,
     /// Its moves, in order: indices in [`Program::moves`].
     pub moves: Vec<u32>,
+    /// The routine that it calls, or is, and that is not in the files: that one may move the robot.
+    pub foreign: Option<Box<str>>,
 }
 
 /// A call, or a search that stops.

@@ -121,6 +121,7 @@ impl Flow<'_> {
         self.last_modes = None;
         self.chosen.clear();
         self.instructions.clear();
+        self.at_any_time.clear();
         self.size = 0;
     }
 

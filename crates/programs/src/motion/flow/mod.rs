@@ -191,6 +191,10 @@ pub(super) struct Flow<'a> {
     chosen: HashMap<Stop, Rc<Vec<Holding>>>,
     /// Instruction of each stop.
     pub instructions: Vec<u32>,
+    /// Calls of routines that are not in the files, and may move the robot between any two moves of
+    /// others: index in [`Script::calls`], and the routine that calls them; none where what is not
+    /// in the files is run so itself.
+    pub at_any_time: BTreeSet<(u32, Option<RoutineId>)>,
     /// Targets that are given to routines that are not in the files, and the call's statement.
     pub given_away: Vec<(u32, Site)>,
     /// Where variables are written in routines that nothing in the files calls.
@@ -257,6 +261,7 @@ impl<'a> Flow<'a> {
             last_modes: None,
             chosen: HashMap::new(),
             instructions: Vec::new(),
+            at_any_time: BTreeSet::new(),
             given_away: Vec::new(),
             by_operator: Vec::new(),
             left: Vec::new(),

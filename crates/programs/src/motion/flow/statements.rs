@@ -253,6 +253,9 @@ impl<'a> Flow<'a> {
                     self.call(instance, call, at, &mut state);
                     if call.leads {
                         state.led = Some(number);
+                        if self.is_concurrent {
+                            self.at_any_time.insert((number, Some(routine)));
+                        }
                     }
                     let is_idle = |routine: &RoutineId| self.idle[*routine as usize];
                     if !call.callees.iter().all(is_idle) {
@@ -264,8 +267,12 @@ impl<'a> Flow<'a> {
                         }
                     }
                 }
-                Statement::Start(call) => {
-                    self.start(&script.calls[call as usize], at, &state);
+                Statement::Start(number) => {
+                    let call = &script.calls[number as usize];
+                    self.start(call, at, &state);
+                    if call.leads && self.dead.is_none() {
+                        self.at_any_time.insert((number, None));
+                    }
                 }
                 Statement::Label(label) => {
                     self.arrive(instance, label, &state);

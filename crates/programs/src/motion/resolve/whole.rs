@@ -7,7 +7,6 @@ use crate::motion::flow::Reached;
 use crate::program::script::{Expr, Held, Place, short};
 use crate::program::{Before, FrameId, Interrupt, Shape, TargetId, Tool, ToolId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
-use std::ops::Range;
 
 impl Resolver<'_, '_> {
     /// Puts moves in the place of stops.
@@ -31,32 +30,46 @@ impl Resolver<'_, '_> {
                 motion.before = before;
             }
             if reached.is_concurrent && first != end {
-                self.interrupt(stop, first..end);
+                let routine = &self.script.routines[self.flow.routine_of(stop) as usize];
+                let of = self.interrupt(routine.place, &routine.name);
+                of.moves.extend(first..end);
             }
             if let Some(call) = reached.led {
                 let called = (first..end).map(|motion| (motion, call));
                 self.report.program.led.extend(called);
             }
         }
+        for (call, routine) in std::mem::take(&mut self.flow.at_any_time) {
+            let call = &self.script.calls[call as usize];
+            let routine = routine.map(|routine| &self.script.routines[routine as usize]);
+            // what an interrupt does without a routine of its own has no name
+            let routine = routine.filter(|routine| !routine.name.is_empty());
+            let (place, name) = routine.map_or((call.place, &call.name), |routine| {
+                (routine.place, &routine.name)
+            });
+            self.interrupt(place, name)
+                .foreign
+                .get_or_insert_with(|| call.name.clone());
+        }
         for of in &mut self.report.program.interrupts {
             of.moves.sort_unstable();
         }
     }
 
-    /// Notes moves of a routine that runs between any two moves of others.
-    fn interrupt(&mut self, stop: usize, moves: Range<u32>) {
-        let routine = &self.script.routines[self.flow.routine_of(stop) as usize];
+    /// What is noted of a routine that runs between any two moves of others.
+    fn interrupt(&mut self, place: Place, name: &str) -> &mut Interrupt {
         let interrupts = &mut self.report.program.interrupts;
-        let at = interrupts.iter().position(|of| of.place == routine.place);
-        let at = at.unwrap_or_else(|| {
+        let is_same = |of: &Interrupt| (of.place, &*of.name) == (place, name);
+        let at = interrupts.iter().position(is_same).unwrap_or_else(|| {
             interrupts.push(Interrupt {
-                place: routine.place,
-                name: routine.name.clone(),
+                place,
+                name: name.into(),
                 moves: Vec::new(),
+                foreign: None,
             });
             interrupts.len() - 1
         });
-        interrupts[at].moves.extend(moves);
+        &mut interrupts[at]
     }
 
     /// The moves of the stops before one.

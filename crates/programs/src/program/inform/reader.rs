@@ -14,7 +14,7 @@ use super::variables::{Variables, always};
 use crate::program::kit::label_key;
 use crate::program::number::whole;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
+    Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
     VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
@@ -302,7 +302,11 @@ impl<'a> Reader<'a> {
                 for &routine in &*call.callees {
                     self.builder.script.routines[routine as usize].start = Start::Concurrent;
                 }
-                self.builder.start(call);
+                // it moves another control group
+                self.builder.start(Call {
+                    leads: false,
+                    ..call
+                });
             }
             _ if first.starts_with(b"SFTON") => self.shift(line, true),
             _ if first.starts_with(b"SFTOF") => self.shift(line, false),

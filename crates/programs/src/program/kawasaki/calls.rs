@@ -11,6 +11,17 @@ use crate::program::script::{
 };
 use crate::program::words::{Kind, Words, unquoted};
 
+/// How what is called runs.
+#[derive(Clone, Copy)]
+pub(super) enum Runs {
+    /// Here, and the program goes on behind it.
+    Now,
+    /// Between any two statements of the others.
+    AtAnyTime,
+    /// Likewise as a process, which may not move the robot.
+    WithoutMoves,
+}
+
 /// A name that a program hands to another, which may write it.
 pub(super) struct Handed {
     pub name: Name,
@@ -138,7 +149,7 @@ impl<'a> Reader<'a> {
     pub(super) fn calls(&mut self, statement: &Statement<'a, '_>) -> bool {
         let rest = statement.words.behind(1);
         match statement.keyword {
-            "CAll" | "JUMP" => self.call(rest, false),
+            "CAll" | "JUMP" => self.call(rest, Runs::Now),
             "SCAll" | "SJUMP" => self.call_text(rest),
             "EXtcall" => self.call_any(statement.words, Any::Selected),
             _ => return false,
@@ -151,7 +162,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `CALL name(a,b)`, `JUMP name`
-    pub(super) fn call(&mut self, part: Words<'a, '_>, concurrent: bool) {
+    pub(super) fn call(&mut self, part: Words<'a, '_>, runs: Runs) {
         if part.is_empty() {
             return;
         }
@@ -165,10 +176,13 @@ impl<'a> Reader<'a> {
             }
         }
         let call = self.call_of(part.text(0), callees, arguments);
-        if concurrent {
-            self.builder.start(call);
-        } else {
-            self.put_call(call);
+        match runs {
+            Runs::Now => self.put_call(call),
+            Runs::AtAnyTime => self.builder.start(call),
+            Runs::WithoutMoves => self.builder.start(Call {
+                leads: false,
+                ..call
+            }),
         }
         // what only the running program chooses is then what the parameter is
         for (table, parameter) in chosen {

@@ -1,7 +1,7 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
 use super::arrays::Given;
-use super::calls::{Any, Handed};
+use super::calls::{Any, Handed, Runs};
 use super::keywords::find;
 use super::moves::{Verb, is_joints};
 use super::numbers::Known;
@@ -415,12 +415,12 @@ impl<'a> Reader<'a> {
                 let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
                 let named = rest.behind(colon.map_or(0, |at| at + 1));
                 if named.is_name(0) {
-                    self.call(named, true);
+                    self.call(named, Runs::WithoutMoves);
                 }
             }
             "ON" | "ONI" => {
                 if let Some(at) = find(part, "CAll") {
-                    self.call(part.behind(at + 1), true);
+                    self.call(part.behind(at + 1), Runs::AtAnyTime);
                 }
             }
             "WEight" => self.weight(rest),

@@ -1,15 +1,14 @@
-//! Calls of routines and functions, and what runs concurrently with the program.
+//! Calls of routines and functions.
 
 use super::frames::{State, Table};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, FRAME_ASSIGNED, carried, conveyor};
-use super::statements::{action, is_kept};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
-use crate::program::names::{Context, Symbol};
+use crate::program::names::Symbol;
 use crate::program::number;
-use crate::program::script::{Argument, Call, Expr, How, Place, RoutineId, Start};
+use crate::program::script::{Argument, Call, Expr, How, Place};
 
 /// Calls in one expression; a line of the controller has no room for more.
 const MOST_CALLS: usize = 64;
@@ -17,17 +16,6 @@ const MOST_CALLS: usize = 64;
 /// How the routines of KUKA.ConveyorTech begin, which couple `$BASE` to a conveyor: not checked on
 /// files.
 const CONVEYORS: [&[u8]; 2] = [b"CONV_", b"CONVEYOR"];
-
-/// A routine of an interrupt or trigger.
-#[derive(Debug)]
-pub(super) struct Concurrent {
-    name: Symbol,
-    context: Context,
-    /// The number of the interrupt, as it is declared; `None` of a trigger.
-    interrupt: Option<Box<[u8]>>,
-    /// Once all are declared.
-    routine: Option<RoutineId>,
-}
 
 /// What a routine of the controller or of its packages does with what it is given.
 enum Known {
@@ -549,61 +537,6 @@ impl Reader {
                 Kind::Sign(sign) => sign,
                 _ => b' ',
             };
-        }
-    }
-
-    /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO n=1`: the routine runs, or the
-    /// variable is written, at any time. One with arguments is called where these are read.
-    pub(super) fn concurrent(&mut self, mut cursor: Cursor) {
-        let Some((name, mut rest)) = action(cursor) else {
-            return;
-        };
-        if rest.blanks() == b'(' && !is_kept(rest) {
-            let declares = cursor.next();
-            let declares = cursor.text(declares).eq_ignore_ascii_case(b"DECL");
-            let name = self.symbol(&rest, name);
-            self.concurrent.push(Concurrent {
-                name,
-                context: self.context(),
-                interrupt: declares.then(|| cursor.text(cursor.peek()).into()),
-                routine: None,
-            });
-        } else {
-            self.note_assignment(name, rest);
-        }
-    }
-
-    /// `INTERRUPT ON n`: from here on its routine may run at any time, without a number those of all.
-    /// `TRIGGER WHEN ... DO routine()`: its routine may.
-    pub(super) fn interrupts(&mut self, mut cursor: Cursor, action: Option<(Token, Cursor)>) {
-        let mut started = Vec::new();
-        let switch = cursor.next();
-        if let Some((name, rest)) = action {
-            let symbol = self.symbol(&rest, name);
-            started.extend(self.names.routine(symbol, self.context()));
-        } else if cursor.text(switch).eq_ignore_ascii_case(b"ON") {
-            let number = cursor.next();
-            let text = cursor.text(number);
-            let is_number = |text: &[u8]| text.first().is_some_and(u8::is_ascii_digit);
-            let is_meant =
-                |interrupt: &[u8]| !is_number(text) || !is_number(interrupt) || interrupt == text;
-            let all = self.concurrent.iter();
-            let meant = all.filter(|of| of.interrupt.as_deref().is_some_and(is_meant));
-            started.extend(meant.filter_map(|of| of.routine));
-        }
-        if !started.is_empty() {
-            let call = Call::of(self.here, started.into(), "INTERRUPT", 0..0);
-            self.builder.start(call);
-        }
-    }
-
-    /// Marks the routines that run at any time, once all are declared.
-    pub(super) fn mark_concurrent(&mut self) {
-        for of in &mut self.concurrent {
-            of.routine = self.names.routine(of.name, of.context);
-            if let Some(routine) = of.routine {
-                self.builder.script.routines[routine as usize].start = Start::Concurrent;
-            }
         }
     }
 }

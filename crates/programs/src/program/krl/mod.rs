@@ -32,6 +32,7 @@ mod fdat;
 mod frames;
 mod given;
 mod insert;
+mod interrupts;
 mod moves;
 mod names;
 mod numbers;

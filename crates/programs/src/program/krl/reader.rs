@@ -1,6 +1,7 @@
 //! Files into a [`Script`]: first what all of them declare, then their statements.
 
 use super::frames::{Declared, States};
+use super::interrupts::{Action, Concurrent};
 use super::moves::Last;
 use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
@@ -13,18 +14,6 @@ use crate::program::script::{Builder, Expr, Place, RemarkId, Start, TableId, Var
 use crate::program::{ExternalNames, Settings, Source};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
-/// What an interrupt or trigger assigns or hands to a routine.
-#[derive(Debug)]
-pub(super) struct Action {
-    /// The routine that its words stand in.
-    pub routine: Option<u32>,
-    /// Their bytes.
-    pub at: usize,
-    pub end: usize,
-    /// The call that starts it.
-    pub starts: usize,
-}
-
 /// Reads files into one script.
 pub(super) struct Reader {
     pub(super) builder: Builder,
@@ -35,7 +24,7 @@ pub(super) struct Reader {
     pub(super) declared: Declared,
     pub(super) file: u32,
     pub(super) module: u32,
-    routine: Option<u32>,
+    pub(super) routine: Option<u32>,
     pub(super) in_data: Option<u32>,
     /// Routines that were begun, in the second reading.
     begun: u32,
@@ -51,7 +40,7 @@ pub(super) struct Reader {
     pub(super) refused: HashSet<(u32, &'static str)>,
     pub(super) missing: HashMap<Symbol, RemarkId>,
     /// Routines of interrupts and triggers.
-    pub(super) concurrent: Vec<super::calls::Concurrent>,
+    pub(super) concurrent: Vec<Concurrent>,
     /// What interrupts and triggers assign or hand to routines.
     pub(super) actions: Vec<Action>,
     /// Calls that are given an array whose elements are not followed.
@@ -269,40 +258,6 @@ impl Reader {
         }
         self.builder.close();
         self.act_at_any_time(&source.bytes)
-    }
-
-    /// What interrupts and triggers of a file assign or hand to routines, each as a routine that
-    /// runs at any time.
-    fn act_at_any_time(&mut self, bytes: &[u8]) -> Read<()> {
-        for action in std::mem::take(&mut self.actions) {
-            let Action {
-                routine,
-                at,
-                end,
-                starts,
-            } = action;
-            let mut cursor = Cursor { bytes, at, end };
-            let name = cursor.next();
-            self.routine = routine;
-            let place = self.place(name);
-            let made = self.builder.declare("", place, Start::Concurrent);
-            self.builder.open(made);
-            if cursor.peek().is(b'(') {
-                self.here = place;
-                self.calls_in(Cursor { bytes, at, end });
-            } else {
-                self.statement(name, cursor)?;
-            }
-            self.builder.close();
-            let routines = &mut self.builder.script.routines;
-            // no move depends on it
-            if routines[made as usize].statements.is_empty() {
-                routines.pop();
-            } else {
-                self.builder.script.calls[starts].callees = [made].into();
-            }
-        }
-        Ok(())
     }
 
     fn begin(&mut self, source: &Source, file: u32) {

@@ -3,9 +3,10 @@
 use super::aggregate::{self, EXTERNAL};
 use super::calls::only_reads;
 use super::frames::Table;
+use super::interrupts::Action;
 use super::moves::{With, motion};
 use super::names::Index;
-use super::reader::{Action, Reader};
+use super::reader::Reader;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::script::{Call, Expr, Held, How, Written};
@@ -335,13 +336,18 @@ impl Reader {
                 match action(cursor) {
                     Some((name, rest)) if is_kept(rest) => {
                         let starts = self.builder.script.calls.len();
+                        // what it does is put in its place later
                         let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
-                        self.builder.start(call);
+                        self.builder.start(Call {
+                            leads: false,
+                            ..call
+                        });
                         self.actions.push(Action {
                             routine: self.context().routine,
                             at: name.start as usize,
                             end: rest.end,
                             starts,
+                            is_trigger: word == b"TRIGGER",
                         });
                     }
                     Some((name, rest)) if word == b"TRIGGER" && rest.peek().is(b'(') => {
