@@ -86,6 +86,23 @@ fn the_middle_of_an_arc_is_corrected_in_the_rotation_of_the_path() {
 }
 
 #[test]
+fn the_posture_at_a_middle_is_that_of_the_arc() {
+    // joint 5 does not come near zero on the arc; on the line to the middle it does
+    let text = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 54.01680,A2 19.15640,A3 -21.22010,A4 \
+        -80.50520,A5 -8.97790,A6 32.65710}\nCIRC {X 104.2547596,Y 471.6933625,Z 575.4539096,A -16.981665589,B \
+        31.569130469,C -96.272575686},{X 197.3878693,Y 472.9838764,Z 505.6393018,A -39.003123716,B \
+        36.824159438,C -108.460789838}\nEND\n";
+    let done = done(&[PLAIN], &[("t.src", text)]);
+    assert_eq!(errors(&done), Vec::<&str>::new());
+    let postures = done.findings.iter().filter(|f| f.id == "several-postures");
+    assert_eq!(postures.count(), 0, "{:?}", done.findings);
+    for target in &done.targets[1..] {
+        let q = target.q.expect("solved");
+        assert!(q[4] < -0.1, "{q:?}");
+    }
+}
+
+#[test]
 fn a_middle_that_is_a_target_too_is_judged_for_both() {
     let text = rapid_arc("[0.3420201433,0,0.9396926208,0]");
     let there = "tool0;\nENDPROC";

@@ -2,7 +2,9 @@
 //! joints with backlash come behind them, and the posture.
 
 use super::given::{CONFIG, DATA, START};
-use super::{P, PLAIN, done};
+use super::{P, PLAIN, done, given, profile};
+use poseshift::compensate::compensate;
+use poseshift::program::{Source, language_of};
 
 #[test]
 fn a_routine_that_may_lead_the_robot_elsewhere_makes_directions_uncertain() {
@@ -217,8 +219,55 @@ fn an_interrupt_whose_routine_is_not_in_the_files_may_leave_the_robot_in_another
         "{found:?}"
     );
     // a process may not move the robot
-    assert_eq!(postures("LMOVE p\nPCEXECUTE er\nLMOVE q", ""), []);
+    for more in ["", calls] {
+        assert_eq!(postures("LMOVE p\nPCEXECUTE er\nLMOVE q", more), []);
+    }
+    // which program a text names nobody knows
+    let any = ".PROGRAM er()\nSCALL $name\n.END\n";
+    assert_eq!(postures(lines, any).len(), 1);
     assert_eq!(postures(lines, ".PROGRAM er()\nSIGNAL 1\n.END\n"), []);
+}
+
+#[test]
+fn what_a_routine_of_context_may_do_is_said_of_the_program() {
+    let main = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 0,A2 0,A3 0,A4 0,A5 60,A6 0}\n\
+        INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO er()\nINTERRUPT ON 5\n\
+        LIN {X 430,Y 0,Z 400,A 90,B 150,C 0}\nEND\n";
+    let found = |er: &str, is_context: bool| {
+        let bytes = |text: &str| text.as_bytes().to_vec();
+        let er = format!("DEF er()\n{er}\nEND\n");
+        let er = if is_context {
+            Source::context("er.src", bytes(&er))
+        } else {
+            Source::new("er.src", bytes(&er))
+        };
+        let sources = [Source::new("t.src", bytes(main)), er];
+        let language = language_of(&sources[0]).expect("KRL");
+        let done = compensate(language, &sources, &profile(&[WRIST]), &given()).expect("read");
+        let found = done
+            .findings
+            .into_iter()
+            .filter(|f| f.id == "posture-assumed");
+        found
+            .map(|f| (f.file, f.line, f.message))
+            .collect::<Vec<_>>()
+    };
+    for (does, says) in [
+        ("outer()", "`er` calls `outer`"),
+        ("PTP {A4 90,A5 -60}", "`er` moves the robot"),
+    ] {
+        let alone = found(does, true);
+        assert!(
+            matches!(&alone[..], [(file, 7, said)] if file == "t.src" && said.contains(says)),
+            "{alone:?}"
+        );
+        let together = found(does, false);
+        assert!(
+            matches!(&together[..], [(file, 1, said)] if file == "er.src" && said.contains("line 7 of t.src")),
+            "{together:?}"
+        );
+    }
+    assert_eq!(found("$OUT[1]=TRUE", true), []);
 }
 
 /// What is said of postures that are not certain in a KRL program: line and message.
@@ -250,11 +299,22 @@ fn of_interrupts_and_triggers_of_krl_the_first_alone_may_move_the_robot() {
     assert_eq!(krl_postures(declared, ""), none, "never switched on");
     let stop = "INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM()\nINTERRUPT ON 3";
     assert_eq!(krl_postures(stop, ""), none);
-    for trigger in ["outer()", "outer(3)", "own()"] {
+    for trigger in ["outer()", "outer(3)", "own()", "given(2)"] {
         let head = format!("TRIGGER WHEN DISTANCE=0 DELAY=0 DO {trigger}");
-        let own = "DEF own()\nouter()\nEND\n";
+        let own = "DEF own()\ndeeper()\nEND\nDEF deeper()\nouter()\nEND\nDEF given(n:IN)\nINT n\nouter()\nEND\n";
         assert_eq!(krl_postures(&head, own), none, "{trigger}");
     }
+    // of a number that nothing in the files declares nobody knows what runs
+    let found = krl_postures("INTERRUPT ON 7", "");
+    assert!(
+        matches!(&found[..], [(4, said)] if said.contains("`INTERRUPT 7` is not in the files")),
+        "{found:?}"
+    );
+    // once, however often it is switched on
+    let often = format!("{declared}INTERRUPT ON 05\nINTERRUPT OFF 5\nINTERRUPT ON 5");
+    assert_eq!(krl_postures(&often, "").len(), 1);
+    let assigned = "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO $OUT[1]=TRUE\nINTERRUPT ON 5";
+    assert_eq!(krl_postures(assigned, ""), none);
     let own = "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO own()\nINTERRUPT ON 5";
     let found = krl_postures(own, "DEF own()\nouter()\nEND\n");
     assert!(

@@ -13,7 +13,7 @@ use crate::motion::arms::Equipped;
 use crate::motion::backlash::{self, Stretch, Within};
 use crate::motion::course::Course;
 use crate::motion::walk::{Arrival, Arrivals, NOWHERE, WalkOptions};
-use crate::motion::{follow, ride};
+use crate::motion::{follow, middle, ride};
 use crate::program::script::short;
 use crate::program::{Before, Displacement, Motion, Move, Program, TargetId};
 use std::collections::BTreeMap;
@@ -128,6 +128,11 @@ impl<'a> Path<'a> {
             ride::through(&pose, ground.ride(None, point).as_deref(), ride.as_deref())
         });
         let wanted = equipped.controller.forward(end, &Conditions::default());
+        let via = via.or_else(|| {
+            let from = equipped.controller.forward(&start, &Conditions::default());
+            let (turning, at) = (walk_options.turning, arrival.motion as usize);
+            middle::halfway(ground, turning, at, [&from, &wanted])
+        });
         let course = follow::course(
             motion,
             equipped,

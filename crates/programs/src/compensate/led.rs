@@ -172,22 +172,30 @@ impl Led {
                     "give the files of the routine with --with, or go to a point of the text \
                      first, from which the joints come as they should"
                 }
-                (_, By::Interrupt(at)) if ground.program.interrupts[at].foreign.is_some() => {
-                    "give the files of the routine with --with; nothing is off where it ends in the \
-                     joints in which it began"
-                }
                 (What::Sides, By::Interrupt(_)) => {
                     "go back in it to where the program was, on a longer move, from where joints \
-                     come as they did"
+                     come as they did; give the files of what it calls with --with"
                 }
                 (What::Posture, By::Call(_)) => {
                     "give the files of the routine with --with, or go to joints behind the call"
                 }
                 (What::Posture, By::Interrupt(_)) => {
-                    "nothing is off where it ends in the joints in which it began"
+                    "nothing is off where it ends in the joints in which it began; give the files of \
+                     what it calls with --with"
                 }
             };
-            let line = ground.line_of(&ground.program.moves[approach.motion as usize]);
+            let motion = &ground.program.moves[approach.motion as usize];
+            // of files that are read for their declarations nothing is reported
+            let is_context = ground.sources[place.file as usize].is_context;
+            let (file, offset) = if is_context {
+                (motion.file, motion.offset)
+            } else {
+                (place.file, place.offset)
+            };
+            let mut line = format!("line {}", ground.line_of(motion));
+            if file != motion.file {
+                line += &format!(" of {}", ground.sources[motion.file as usize].name);
+            }
             let to = ground.name_of(approach.target as usize);
             let otherwise = match what {
                 What::Sides => {
@@ -207,8 +215,8 @@ impl Led {
                 count => format!(", and at {} other moves", count - 1),
             };
             let message = format!(
-                "`{name}` {does}; if it does, {otherwise} in line {line}, and the tool be \
-                 {:.3} mm off{others}",
+                "{} {does}; if it does, {otherwise} in {line}, and the tool be {:.3} mm off{others}",
+                shown(name),
                 mm_from_m(off_m)
             );
             let id = match what {
@@ -216,7 +224,7 @@ impl Led {
                 What::Posture => "posture-assumed",
             };
             let severity = Severity::Warning;
-            new.push(ground.finding(id, severity, place.file, place.offset, message, hint));
+            new.push(ground.finding(id, severity, file, offset, message, hint));
         }
         // of a thread that moves joints its posture is reported already
         let is_said = |new: &Finding| {
@@ -229,6 +237,15 @@ impl Led {
     }
 }
 
+/// A name, or what stands for one.
+fn shown(name: &str) -> String {
+    if name.starts_with("a ") {
+        name.to_owned()
+    } else {
+        format!("`{name}`")
+    }
+}
+
 /// What an interrupt does to the others.
 fn at_any_time(of: &Interrupt) -> String {
     match of.foreign.as_deref() {
@@ -238,8 +255,9 @@ fn at_any_time(of: &Interrupt) -> String {
                 .to_owned()
         }
         Some(name) => format!(
-            "calls `{name}`, which is not in the files and may move the robot between any two moves \
-             of the others"
+            "calls {}, which is not in the files and may move the robot between any two moves of the \
+             others",
+            shown(name)
         ),
     }
 }

@@ -8,7 +8,7 @@ use super::ride::Ride;
 use super::walk::WalkOptions;
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
-use crate::inverse::Branch;
+use crate::inverse::{Arm, Branch};
 use crate::model::{Conditions, Mechanism};
 use crate::program::{Motion, Move};
 use std::sync::Arc;
@@ -18,16 +18,18 @@ use std::sync::Arc;
 const STANDSTILL_RAD: f64 = 1e-6;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
 const MOST_STEP_RAD: f64 = 45.0 * DEG;
-/// Nearer to alignment than this joint 5 may go through, where joint 4 sweeps by more than the
-/// second angle else, and no joint moves more than the third then.
+/// Nearer to alignment than this is near the wrist's singularity; a path passes it where joint 4 sweeps
+/// by more than the second angle there.
 const NEAR_WRIST_RAD: f64 = 5.0 * DEG;
 const LEAST_SWEEP_RAD: f64 = 90.0 * DEG;
-const MOST_THROUGH_RAD: f64 = 20.0 * DEG;
 /// A path that passes the wrist's singularity nearer than this goes through it: a straight line
-/// between two points of a curve that does. Nearer than the second angle nothing else is meant.
+/// between two points of a curve that does. Nearer than the second angle, or farther than the third,
+/// nothing else is meant.
 const THROUGH_WRIST_RAD: f64 = 0.5 * DEG;
 const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
-/// Times that the part is narrowed in which a path is nearest to it.
+const SURELY_PAST_RAD: f64 = 1.0 * DEG;
+/// Parts in which a path is looked at for where it is nearest to it, and how often that is narrowed.
+const SAMPLES: u32 = 16;
 const NARROWINGS: usize = 40;
 /// The shortest step of a path.
 const SHORTEST_STEP: f64 = 1.0 / 2048.0;
@@ -161,21 +163,19 @@ pub(crate) fn follow(
             step *= 0.5;
             continue;
         }
-        // a path that is short and clear of it needs no second look
-        if next - s < 1.0 {
-            if is_near(&q) || is_near(&there) {
-                entry.get_or_insert((s, q));
+        // a short path on which no joint sweeps needs no second look, nor an arm whose answers are
+        // followed on their track
+        if next - s < 1.0 && !arm.has_offset_wrist() {
+            if entry.is_none() && (is_near(&q) || is_near(&there)) {
+                entry = Some((s, q));
             }
             let is_behind = next == 1.0 || !is_near(&there);
             if let Some((from, before)) = entry.take_if(|_| is_behind)
-                && (there[3] - before[3]).abs() > LEAST_SWEEP_RAD
-                && let Some((other, behind)) =
-                    through_wrist(branch, &before, |branch| at(next, branch, &before))
+                && let Some((by_rad, other, behind)) =
+                    past_wrist(arm, branch, at, [(from, &before), (s, &q), (next, &there)])
             {
-                let margin = |s: f64| Some(arm.posture(&at(s, branch, &before)?).1.wrist_rad);
-                let by_rad = least(margin, from, next)?;
                 let is_through = by_rad < THROUGH_WRIST_RAD;
-                if by_rad > SURELY_THROUGH_RAD {
+                if (SURELY_THROUGH_RAD..SURELY_PAST_RAD).contains(&by_rad) {
                     passing = Some(Passing { by_rad, is_through });
                 }
                 if is_through {
@@ -190,39 +190,79 @@ pub(crate) fn follow(
     Some(Followed { branch, q, passing })
 }
 
-/// The least of what falls, and rises again, between two parts of a path.
-fn least(of: impl Fn(f64) -> Option<f64>, mut from: f64, mut to: f64) -> Option<f64> {
-    let mut least = of(from)?.min(of(to)?);
-    for _ in 0..NARROWINGS {
-        let third = (to - from) / 3.0;
-        let [a, b] = [of(from + third)?, of(to - third)?];
-        least = least.min(a).min(b);
-        if a < b {
-            to -= third;
-        } else {
-            from += third;
-        }
-    }
-    Some(least)
-}
-
 fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }
 
-/// The joints behind the wrist's singularity where a path may go through it: joint 5 changes its sign
-/// and nothing else moves much. `there` gives those on a branch.
-fn through_wrist(
+/// How near a path passes the wrist's singularity on whose other side joint 4 has swept, radians, and
+/// the joints there with joint 5 on its other side. `at` gives the joints of a part of the path on a
+/// branch; `samples` are the last one before the region around the singularity, the last one in it,
+/// and the first one behind.
+fn past_wrist(
+    arm: &Arm,
     branch: Branch,
-    before: &[f64; 6],
-    there: impl Fn(Branch) -> Option<[f64; 6]>,
-) -> Option<(Branch, [f64; 6])> {
+    at: impl Fn(f64, Branch, &[f64; 6]) -> Option<[f64; 6]>,
+    samples: [(f64, &[f64; 6]); 3],
+) -> Option<(f64, Branch, [f64; 6])> {
+    let [(from, before), (inside, q), (to, there)] = samples;
+    let margin = |s: f64| Some(arm.posture(&at(s, branch, before)?).1.wrist_rad);
+    let is_near = |s: f64| Some(margin(s)? < NEAR_WRIST_RAD);
+    // where the path comes into the region, and leaves it
+    let border = |mut outside: f64, mut inside: f64| {
+        if is_near(outside)? {
+            return Some(outside);
+        }
+        for _ in 0..NARROWINGS {
+            let middle = 0.5 * (outside + inside);
+            if is_near(middle)? {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        Some(inside)
+    };
+    let first = nearest(margin, from, to)?;
+    let (enters, leaves) = (border(from, first)?, border(to, first.max(inside))?);
+    let sweep = at(leaves, branch, if leaves > inside { there } else { q })?[3]
+        - at(enters, branch, before)?[3];
+    let by_rad = margin(first)?;
+    let is_inside = from < first && first < to;
+    if !is_inside || by_rad >= NEAR_WRIST_RAD || sweep.abs() < LEAST_SWEEP_RAD {
+        return None;
+    }
     let other = Branch {
         joint_5_negative: !branch.joint_5_negative,
         ..branch
     };
-    let behind = there(other)?;
-    (farthest(&behind, before) < MOST_THROUGH_RAD).then_some((other, behind))
+    let near = at(enters, branch, before)?;
+    let behind = at(to, other, &at(leaves, other, &near)?)?;
+    Some((by_rad, other, behind))
+}
+
+/// Where between two parts of a path something is least.
+fn nearest(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<f64> {
+    let part = (to - from) / f64::from(SAMPLES);
+    let mut least = (of(from)?, from);
+    for at in 1..=SAMPLES {
+        let s = from + part * f64::from(at);
+        let value = of(s)?;
+        if value < least.0 {
+            least = (value, s);
+        }
+    }
+    let (mut low, mut high) = ((least.1 - part).max(from), (least.1 + part).min(to));
+    for _ in 0..NARROWINGS {
+        let third = (high - low) / 3.0;
+        let [a, b] = [low + third, high - third];
+        if of(a)? < of(b)? {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    let s = 0.5 * (low + high);
+    Some(if of(s)? < least.0 { s } else { least.1 })
 }
 
 /// As [`arrival_direction`] for a move, on which the joints of the wrist may lead the tool: they then go

@@ -5,7 +5,7 @@
 //! passes it in the rotation that the path has there, and it must be corrected in that one.
 
 use super::arms::Equipped;
-use super::course::ToolCourse;
+use super::course::{ToolCourse, ToolRotation};
 use super::ground::Ground;
 use super::walk::{Arrival, WalkOptions};
 use crate::finding::{Finding, Severity};
@@ -58,6 +58,20 @@ pub(super) fn middle(
     }
     let same = middle.angle() < SAME_RAD;
     Some(if same { Rotation::identity() } else { middle })
+}
+
+/// The point halfway to the middle of the arc that a move begins; `None` where nobody knows the arc.
+pub(crate) fn halfway(
+    ground: &Ground,
+    turning: ToolRotation,
+    at: usize,
+    [from, via]: [&Pose; 2],
+) -> Option<Pose> {
+    if ground.program.moves[at].motion != Motion::ArcVia {
+        return None;
+    }
+    let course = ToolCourse::arc(from, via.translation, &end_pose(ground, at)?, turning);
+    Some(course.pose(0.5 * course.part_at(via.translation)))
 }
 
 /// By how much the tool may be rotated, on the way of an arc, away from where the shorter way from its

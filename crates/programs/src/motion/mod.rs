@@ -34,7 +34,7 @@ pub(crate) mod ground;
 mod holding;
 mod inherited;
 pub(crate) mod leg;
-mod middle;
+pub(crate) mod middle;
 mod passed;
 pub(crate) mod placed;
 pub(crate) mod plausibility;

@@ -191,9 +191,9 @@ pub(super) struct Flow<'a> {
     chosen: HashMap<Stop, Rc<Vec<Holding>>>,
     /// Instruction of each stop.
     pub instructions: Vec<u32>,
-    /// Calls of routines that are not in the files, and may move the robot between any two moves of
-    /// others: index in [`Script::calls`], and the routine that calls them; none where what is not
-    /// in the files is run so itself.
+    /// Calls of routines that are not in the files, and run between any two moves of others: index
+    /// in [`Script::calls`], and the routine that calls them; none where what is not in the files is
+    /// started so itself.
     pub at_any_time: BTreeSet<(u32, Option<RoutineId>)>,
     /// Targets that are given to routines that are not in the files, and the call's statement.
     pub given_away: Vec<(u32, Site)>,

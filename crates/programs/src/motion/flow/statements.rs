@@ -253,7 +253,7 @@ impl<'a> Flow<'a> {
                     self.call(instance, call, at, &mut state);
                     if call.leads {
                         state.led = Some(number);
-                        if self.is_concurrent {
+                        if self.is_concurrent && call.foreign {
                             self.at_any_time.insert((number, Some(routine)));
                         }
                     }
@@ -270,7 +270,7 @@ impl<'a> Flow<'a> {
                 Statement::Start(number) => {
                     let call = &script.calls[number as usize];
                     self.start(call, at, &state);
-                    if call.leads && self.dead.is_none() {
+                    if call.leads && call.callees.is_empty() && self.dead.is_none() {
                         self.at_any_time.insert((number, None));
                     }
                 }

@@ -4,13 +4,35 @@ use super::{MOST_ALTERNATIVES, Resolver};
 use crate::finding::Severity;
 use crate::motion::before::{ANYWHERE, START};
 use crate::motion::flow::Reached;
-use crate::program::script::{Expr, Held, Place, short};
+use crate::program::script::{Call, Expr, Held, Place, RoutineId, Start, Statement, short};
 use crate::program::{Before, FrameId, Interrupt, Shape, TargetId, Tool, ToolId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+
+/// The routines that run between any two moves of others.
+struct Roots {
+    /// Each, and all that it comes to.
+    all: Vec<(RoutineId, HashSet<RoutineId>)>,
+    /// Those that are started as what may move the robot.
+    moving: HashSet<RoutineId>,
+}
+
+impl Roots {
+    /// Those that come to a routine.
+    fn of(&self, routine: RoutineId) -> impl Iterator<Item = RoutineId> + '_ {
+        let all = self.all.iter();
+        all.filter(move |(_, reached)| reached.contains(&routine))
+            .map(|(root, _)| *root)
+    }
+
+    fn moves(&self, root: RoutineId) -> bool {
+        self.moving.contains(&root)
+    }
+}
 
 impl Resolver<'_, '_> {
     /// Puts moves in the place of stops.
     pub(super) fn link(&mut self) {
+        let roots = self.roots();
         let mut lists: HashMap<u32, Before> = HashMap::new();
         for stop in 0..self.flow.reached.len() {
             let Some(reached) = self.flow.reached[stop] else {
@@ -30,36 +52,79 @@ impl Resolver<'_, '_> {
                 motion.before = before;
             }
             if reached.is_concurrent && first != end {
-                let routine = &self.script.routines[self.flow.routine_of(stop) as usize];
-                let of = self.interrupt(routine.place, &routine.name);
-                of.moves.extend(first..end);
+                for root in roots.of(self.flow.routine_of(stop)) {
+                    self.interrupt(root).moves.extend(first..end);
+                }
             }
             if let Some(call) = reached.led {
                 let called = (first..end).map(|motion| (motion, call));
                 self.report.program.led.extend(called);
             }
         }
+        let script = self.script;
         for (call, routine) in std::mem::take(&mut self.flow.at_any_time) {
-            let call = &self.script.calls[call as usize];
-            let routine = routine.map(|routine| &self.script.routines[routine as usize]);
-            // what an interrupt does without a routine of its own has no name
-            let routine = routine.filter(|routine| !routine.name.is_empty());
-            let (place, name) = routine.map_or((call.place, &call.name), |routine| {
-                (routine.place, &routine.name)
-            });
-            self.interrupt(place, name)
-                .foreign
-                .get_or_insert_with(|| call.name.clone());
+            let call = &script.calls[call as usize];
+            let Some(routine) = routine else {
+                self.foreign_interrupt(call);
+                continue;
+            };
+            for root in roots.of(routine).filter(|root| roots.moves(*root)) {
+                // what an interrupt does without a routine of its own has no name
+                if script.routines[root as usize].name.is_empty() {
+                    self.foreign_interrupt(call);
+                } else {
+                    let foreign = &mut self.interrupt(root).foreign;
+                    foreign.get_or_insert_with(|| call.name.clone());
+                }
+            }
         }
         for of in &mut self.report.program.interrupts {
             of.moves.sort_unstable();
         }
     }
 
+    /// What runs at any time.
+    fn roots(&self) -> Roots {
+        let script = self.script;
+        let of = (0..).zip(&script.routines);
+        let roots = of.filter(|(_, of)| of.start == Start::Concurrent);
+        let all = roots.map(|(root, _)| (root, script.reached_from(&[root])));
+        let starts = script.statements.iter().filter_map(|statement| {
+            let Statement::Start(call) = statement else {
+                return None;
+            };
+            let call = &script.calls[*call as usize];
+            call.leads.then_some(&*call.callees)
+        });
+        Roots {
+            all: all.collect(),
+            moving: starts.flatten().copied().collect(),
+        }
+    }
+
     /// What is noted of a routine that runs between any two moves of others.
-    fn interrupt(&mut self, place: Place, name: &str) -> &mut Interrupt {
+    fn interrupt(&mut self, routine: RoutineId) -> &mut Interrupt {
+        let of = &self.script.routines[routine as usize];
+        let is_same = |other: &Interrupt| (other.place, &other.name) == (of.place, &of.name);
+        self.interrupt_where(is_same, of.place, &of.name)
+    }
+
+    /// Likewise of one that is not in the files; once, wherever it is started.
+    fn foreign_interrupt(&mut self, call: &Call) {
+        let is_same = |other: &Interrupt| {
+            other.name == call.name && other.foreign.as_ref() == Some(&call.name)
+        };
+        let of = self.interrupt_where(is_same, call.place, &call.name);
+        of.foreign = Some(call.name.clone());
+    }
+
+    fn interrupt_where(
+        &mut self,
+        is_same: impl Fn(&Interrupt) -> bool,
+        place: Place,
+        name: &str,
+    ) -> &mut Interrupt {
         let interrupts = &mut self.report.program.interrupts;
-        let is_same = |of: &Interrupt| (of.place, &*of.name) == (place, name);
         let at = interrupts.iter().position(is_same).unwrap_or_else(|| {
             interrupts.push(Interrupt {
                 place,

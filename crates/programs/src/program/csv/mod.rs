@@ -41,6 +41,7 @@ use crate::geometry::{Pose, Quaternion};
 use foldhash::HashMap;
 use header::{Header, Wrong};
 use records::{Cell, Records};
+use std::borrow::Cow;
 
 /// Poses or joints as CSV.
 #[derive(Debug)]
@@ -143,8 +144,8 @@ fn script(sources: &[Source], axes: &ExternalNames) -> Result<Script, ReadError>
 struct Reader {
     builder: Builder,
     tools: HashMap<String, ValueId>,
-    /// By name and whether a cell gives it.
-    frames: HashMap<(String, bool), ValueId>,
+    /// By what the cells say; empty where none does.
+    frames: HashMap<String, ValueId>,
     /// Branches are honoured where there are any.
     honoured: ValueId,
     /// External axes that the profile describes.
@@ -244,13 +245,13 @@ impl Reader {
         };
         let text = |column: Option<usize>| column.map(|column| cell_text(source, cells[column]));
         let name = text(header.id).filter(|name| !name.is_empty());
-        let tool = self.tool(text(header.tool).unwrap_or_default());
-        let frame = self.frame(text(header.frame).unwrap_or_default());
+        let tool = self.tool(&text(header.tool).unwrap_or_default());
+        let frame = self.frame(&text(header.frame).unwrap_or_default());
         let end = short(cells.last().expect("a record has a cell").end);
         let script = &mut self.builder.script;
         let place = Place::new(file, offset);
         script.targets.push(Target {
-            name: name.map(Into::into),
+            name: name.map(|name| (&*name).into()),
             numbers: start..short(script.numbers.len()),
             ..Target::new(place, end, header.layout(branch.transpose()?))
         });
@@ -321,27 +322,25 @@ impl Reader {
         Ok(())
     }
 
-    fn tool(&mut self, name: String) -> ValueId {
-        let script = &mut self.builder.script;
-        *self
-            .tools
-            .entry(name)
-            .or_insert_with_key(|name| script.frame(name.as_str(), None))
+    fn tool(&mut self, name: &str) -> ValueId {
+        if let Some(&known) = self.tools.get(name) {
+            return known;
+        }
+        let tool = self.builder.script.frame(name, None);
+        self.tools.insert(name.to_owned(), tool);
+        tool
     }
 
-    fn frame(&mut self, name: String) -> ValueId {
-        let is_named = !name.is_empty();
-        let name = if is_named { name } else { WORLD.to_owned() };
-        let script = &mut self.builder.script;
-        *self
-            .frames
-            .entry((name, is_named))
-            .or_insert_with_key(|(name, is_named)| {
-                script.frame(
-                    name.as_str(),
-                    (*is_named && name == WORLD).then(Pose::identity),
-                )
-            })
+    /// A frame by its name; without one it is the world, wherever that is said to be.
+    fn frame(&mut self, name: &str) -> ValueId {
+        if let Some(&known) = self.frames.get(name) {
+            return known;
+        }
+        let shown = if name.is_empty() { WORLD } else { name };
+        let is_world = (name == WORLD).then(Pose::identity);
+        let frame = self.builder.script.frame(shown, is_world);
+        self.frames.insert(name.to_owned(), frame);
+        frame
     }
 }
 
@@ -438,12 +437,12 @@ fn shown(text: &[u8]) -> String {
 }
 
 /// The text that a cell stands for.
-fn cell_text(source: &Source, cell: Cell) -> String {
+fn cell_text(source: &Source, cell: Cell) -> Cow<'_, str> {
     let text = Source::text(&source.bytes[cell.start..cell.end]);
     if cell.quoted {
-        text.replace("\"\"", "\"")
+        text.replace("\"\"", "\"").into()
     } else {
-        text.into_owned()
+        text
     }
 }
 

@@ -54,6 +54,7 @@ pub mod mark;
 mod moves;
 mod numbers;
 mod offsets;
+mod parts;
 mod points;
 mod posreg;
 mod reader;

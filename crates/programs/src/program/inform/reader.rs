@@ -14,7 +14,7 @@ use super::variables::{Variables, always};
 use crate::program::kit::label_key;
 use crate::program::number::whole;
 use crate::program::script::{
-    Builder, Call, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
+    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
     VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
@@ -303,10 +303,7 @@ impl<'a> Reader<'a> {
                     self.builder.script.routines[routine as usize].start = Start::Concurrent;
                 }
                 // it moves another control group
-                self.builder.start(Call {
-                    leads: false,
-                    ..call
-                });
+                self.builder.start(call, false);
             }
             _ if first.starts_with(b"SFTON") => self.shift(line, true),
             _ if first.starts_with(b"SFTOF") => self.shift(line, false),

@@ -178,11 +178,8 @@ impl<'a> Reader<'a> {
         let call = self.call_of(part.text(0), callees, arguments);
         match runs {
             Runs::Now => self.put_call(call),
-            Runs::AtAnyTime => self.builder.start(call),
-            Runs::WithoutMoves => self.builder.start(Call {
-                leads: false,
-                ..call
-            }),
+            Runs::AtAnyTime => self.builder.start(call, true),
+            Runs::WithoutMoves => self.builder.start(call, false),
         }
         // what only the running program chooses is then what the parameter is
         for (table, parameter) in chosen {
@@ -219,6 +216,7 @@ impl<'a> Reader<'a> {
         };
         self.put_call(Call {
             foreign: true,
+            leads: true,
             ..Call::of(place, [routine].into(), Source::text(part.whole()), 0..0)
         });
     }

@@ -338,16 +338,12 @@ impl Reader {
                         let starts = self.builder.script.calls.len();
                         // what it does is put in its place later
                         let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
-                        self.builder.start(Call {
-                            leads: false,
-                            ..call
-                        });
+                        self.builder.start(call, word == b"INTERRUPT");
                         self.actions.push(Action {
                             routine: self.context().routine,
                             at: name.start as usize,
                             end: rest.end,
                             starts,
-                            is_trigger: word == b"TRIGGER",
                         });
                     }
                     Some((name, rest)) if word == b"TRIGGER" && rest.peek().is(b'(') => {

@@ -1,7 +1,6 @@
 //! Variables that hold positions, and which targets the script has in the end.
 
 use super::data::root_differs;
-use super::interrupts::leave_triggered;
 use super::names::{DataKind, Index, Stored};
 use super::reader::Reader;
 use super::remarks::{ACCURATE, AMBIGUOUS, COMPUTED, PASSED, UNFOLLOWED, home};
@@ -281,7 +280,6 @@ impl Reader {
     pub(super) fn finish(self, sources: &[Source], settings: &Settings) -> Script {
         let names = self.names;
         let mut script = self.builder.finish();
-        leave_triggered(&mut script, &self.concurrent);
         for place in self.stays {
             let message = "this move goes to where the robot is: it stays there";
             script.say(

@@ -249,7 +249,7 @@ impl Translator<'_> {
             .callees(callee, (0, 0), self.context, self.here.file);
         let name = self.resolved.spelling(trap);
         let call = Call::of(self.here, callees.routines.into(), name, 0..0);
-        self.builder.start(call);
+        self.builder.start(call, true);
     }
 
     /// A call of routines with arguments.

@@ -142,13 +142,16 @@ impl Builder {
         self.script.statements.push(Statement::Call(at));
     }
 
-    /// A start of routines that then run concurrently with this one.
-    pub fn start(&mut self, call: Call) {
+    /// A start of routines that then run concurrently with this one, and may move the robot or not.
+    pub fn start(&mut self, call: Call, moves: bool) {
         for routine in &*call.callees {
             self.script.routines[*routine as usize].start = Start::Concurrent;
         }
         let at = short(self.script.calls.len());
-        self.script.calls.push(call);
+        self.script.calls.push(Call {
+            leads: moves,
+            ..call
+        });
         self.script.statements.push(Statement::Start(at));
     }
 

@@ -328,7 +328,8 @@ pub struct Call {
     /// It may also be one that is not in the files, which then may write what it is given, and
     /// what is shared.
     pub foreign: bool,
-    /// It may leave the robot elsewhere than the text says.
+    /// It may leave the robot elsewhere than the text says; of a start: what runs then may move the
+    /// robot.
     pub leads: bool,
     /// What is called, for messages.
     pub name: Box<str>,

@@ -493,7 +493,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         let call = Call::of(place, routines, parsed.spelling(call.name), arguments);
         let is_thread = |callee: &FunctionId| parsed.functions[*callee as usize].thread;
         if callees.iter().any(is_thread) {
-            builder.start(call);
+            builder.start(call, true);
         } else {
             builder.call(call);
         }

@@ -521,7 +521,7 @@ impl<'a> Reader<'a> {
         if line.text(0) == b"call" {
             self.builder.call(call);
         } else {
-            self.builder.start(call);
+            self.builder.start(call, true);
         }
         // an element that only the running program chooses is then what the parameter is
         for (target, parameter) in chosen {
