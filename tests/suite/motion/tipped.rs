@@ -171,6 +171,15 @@ fn a_path_that_passes_the_singularity_of_the_wrist_says_which_posture_is_taken()
     }
     let (q, said) = passed([arm(20.0, 4.0, 0.0), arm(20.0, -4.0, 0.0)], none);
     assert!(q[4] < -3.9 && said.is_none(), "{q:?} {said:?}");
+    // a path that ends, or begins, there does not pass it
+    for (from, to) in [(20.0, 0.0), (2.0, 0.0), (0.0, 20.0), (0.0, -3.0)] {
+        let near = |q5: f64| [10.0, 15.0, 10.0, 20.0, q5, 30.0];
+        let (q, said) = passed([near(from), near(to)], none);
+        assert!(
+            (q[4] - to).abs() < 0.2 && said.is_none(),
+            "{from} {to}: {q:?} {said:?}"
+        );
+    }
     // where the data are gone by, they say
     let (q, said) = passed(ends(0.8, 8.0), "[0,0,-2,0]");
     assert!(q[4] > 0.5 && said.is_none(), "{q:?} {said:?}");

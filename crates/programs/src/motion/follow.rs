@@ -29,7 +29,7 @@ const THROUGH_WRIST_RAD: f64 = 0.5 * DEG;
 const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
 const SURELY_PAST_RAD: f64 = 1.0 * DEG;
 /// Parts in which a path is looked at for where it is nearest to it, and how often that is narrowed.
-const SAMPLES: u32 = 16;
+const SAMPLES: u32 = 64;
 const NARROWINGS: usize = 40;
 /// The shortest step of a path.
 const SHORTEST_STEP: f64 = 1.0 / 2048.0;
@@ -222,13 +222,11 @@ fn past_wrist(
         }
         Some(inside)
     };
-    let first = nearest(margin, from, to)?;
+    let (first, by_rad) = passage(margin, from, to)?;
     let (enters, leaves) = (border(from, first)?, border(to, first.max(inside))?);
     let sweep = at(leaves, branch, if leaves > inside { there } else { q })?[3]
         - at(enters, branch, before)?[3];
-    let by_rad = margin(first)?;
-    let is_inside = from < first && first < to;
-    if !is_inside || by_rad >= NEAR_WRIST_RAD || sweep.abs() < LEAST_SWEEP_RAD {
+    if by_rad >= NEAR_WRIST_RAD || sweep.abs() < LEAST_SWEEP_RAD {
         return None;
     }
     let other = Branch {
@@ -240,18 +238,26 @@ fn past_wrist(
     Some((by_rad, other, behind))
 }
 
-/// Where between two parts of a path something is least.
-fn nearest(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<f64> {
+/// Where between two parts of a path something is least that is more on both sides, and how much it
+/// is there.
+fn passage(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<(f64, f64)> {
     let part = (to - from) / f64::from(SAMPLES);
-    let mut least = (of(from)?, from);
-    for at in 1..=SAMPLES {
-        let s = from + part * f64::from(at);
-        let value = of(s)?;
-        if value < least.0 {
-            least = (value, s);
-        }
-    }
-    let (mut low, mut high) = ((least.1 - part).max(from), (least.1 + part).min(to));
+    let values: Option<Vec<f64>> = (0..=SAMPLES)
+        .map(|at| of(from + part * f64::from(at)))
+        .collect();
+    let values = values?;
+    let rises = |values: &[f64], from: f64| values.iter().any(|value| *value > from + SINGULAR_RAD);
+    let is_passage = |&at: &usize| {
+        let value = values[at];
+        value <= values[at - 1]
+            && value <= values[at + 1]
+            && rises(&values[..at], value)
+            && rises(&values[at + 1..], value)
+    };
+    let all = (1..values.len() - 1).filter(is_passage);
+    let least = all.min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+    let s = from + part * least as f64;
+    let (mut low, mut high) = (s - part, s + part);
     for _ in 0..NARROWINGS {
         let third = (high - low) / 3.0;
         let [a, b] = [low + third, high - third];
@@ -262,7 +268,7 @@ fn nearest(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<f64> {
         }
     }
     let s = 0.5 * (low + high);
-    Some(if of(s)? < least.0 { s } else { least.1 })
+    Some((s, of(s)?))
 }
 
 /// As [`arrival_direction`] for a move, on which the joints of the wrist may lead the tool: they then go
