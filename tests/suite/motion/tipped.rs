@@ -186,6 +186,22 @@ fn a_path_that_passes_the_singularity_of_the_wrist_says_which_posture_is_taken()
 }
 
 #[test]
+fn a_path_that_ends_nearer_to_the_singularity_of_the_wrist_than_it_passes_it_passes_it() {
+    // it passes by 0.261 deg and ends at 0.233 deg, on the other side
+    let text = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nPTP {A1 41.42485,A2 -23.93208,A3 -47.34124,A4 \
+        -90.55770,A5 -10.14360,A6 35.14089}\nLIN {X 23.8919018,Y 18.7130341,Z 913.6101353,A \
+        -16.975914116,B 16.287426204,C -21.890734337}\nEND\n";
+    let effect = "{effect: link_geometry, link: 3, theta_deg: 0.01}";
+    let done = try_with(given(), &[effect], &[("t.src", text)]).expect("read");
+    assert_eq!(errors(&done), Vec::<&str>::new(), "{:?}", done.findings);
+    let q = done.targets[1].q.expect("solved").map(|q| q / DEG);
+    assert!((q[3] + 90.6).abs() < 1.0 && q[4] > 0.1, "{q:?}");
+    let said = done.findings.iter().find(|f| f.id == "several-postures");
+    let said = &said.expect("a finding").message;
+    assert!(said.contains("by 0.3 deg"), "{said}");
+}
+
+#[test]
 fn a_coupled_joint_comes_from_the_side_of_the_angle_that_turns_it() {
     let fanuc = "robots/fanuc_lrmate200ic.yaml";
     // J3 falls on the pendant and rises with J2

@@ -128,11 +128,8 @@ impl<'a> Path<'a> {
             ride::through(&pose, ground.ride(None, point).as_deref(), ride.as_deref())
         });
         let wanted = equipped.controller.forward(end, &Conditions::default());
-        let via = via.or_else(|| {
-            let from = equipped.controller.forward(&start, &Conditions::default());
-            let (turning, at) = (walk_options.turning, arrival.motion as usize);
-            middle::halfway(ground, turning, at, [&from, &wanted])
-        });
+        let (turning, at) = (walk_options.turning, arrival.motion as usize);
+        let via = via.or_else(|| middle::halfway(ground, turning, at, (&start, &wanted)));
         let course = follow::course(
             motion,
             equipped,

@@ -224,15 +224,15 @@ impl Led {
                 What::Posture => "posture-assumed",
             };
             let severity = Severity::Warning;
-            new.push(ground.finding(id, severity, file, offset, message, hint));
+            let found = ground.finding(id, severity, file, offset, message, hint);
+            // of a thread that moves joints its posture is reported already
+            let is_same = |of: &Finding| {
+                of.id == "posture-assumed" && (&of.file, of.line) == (&found.file, found.line)
+            };
+            if what == What::Sides || is_context || !findings.iter().any(is_same) {
+                new.push(found);
+            }
         }
-        // of a thread that moves joints its posture is reported already
-        let is_said = |new: &Finding| {
-            let has_place = |of: &&Finding| (&of.file, of.line) == (&new.file, new.line);
-            let mut there = findings.iter().filter(has_place);
-            there.any(|of| of.id == "posture-assumed" && of.id == new.id)
-        };
-        new.retain(|new| !is_said(new));
         findings.extend(new);
     }
 }

@@ -28,6 +28,8 @@ const LEAST_SWEEP_RAD: f64 = 90.0 * DEG;
 const THROUGH_WRIST_RAD: f64 = 0.5 * DEG;
 const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
 const SURELY_PAST_RAD: f64 = 1.0 * DEG;
+/// What is farther from it by less is as near.
+const AS_NEAR_RAD: f64 = 0.001 * DEG;
 /// Parts in which a path is looked at for where it is nearest to it, and how often that is narrowed.
 const SAMPLES: u32 = 64;
 const NARROWINGS: usize = 40;
@@ -246,7 +248,7 @@ fn passage(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<(f64, 
         .map(|at| of(from + part * f64::from(at)))
         .collect();
     let values = values?;
-    let rises = |values: &[f64], from: f64| values.iter().any(|value| *value > from + SINGULAR_RAD);
+    let rises = |values: &[f64], from: f64| values.iter().any(|value| *value > from + AS_NEAR_RAD);
     let is_passage = |&at: &usize| {
         let value = values[at];
         value <= values[at - 1]

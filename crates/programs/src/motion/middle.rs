@@ -60,17 +60,22 @@ pub(super) fn middle(
     Some(if same { Rotation::identity() } else { middle })
 }
 
-/// The point halfway to the middle of the arc that a move begins; `None` where nobody knows the arc.
+/// The point halfway to the middle of the arc that a move begins, from joints where it begins and the
+/// pose of its middle; `None` where nobody knows the arc, or it begins none.
 pub(crate) fn halfway(
     ground: &Ground,
     turning: ToolRotation,
     at: usize,
-    [from, via]: [&Pose; 2],
+    (start, via): (&[f64; 6], &Pose),
 ) -> Option<Pose> {
-    if ground.program.moves[at].motion != Motion::ArcVia {
+    let motion = &ground.program.moves[at];
+    if motion.motion != Motion::ArcVia {
         return None;
     }
-    let course = ToolCourse::arc(from, via.translation, &end_pose(ground, at)?, turning);
+    let end = end_pose(ground, at)?;
+    let controller = &ground.equipped(motion.tool)?.controller;
+    let from = controller.forward(start, &Conditions::default());
+    let course = ToolCourse::arc(&from, via.translation, &end, turning);
     Some(course.pose(0.5 * course.part_at(via.translation)))
 }
 

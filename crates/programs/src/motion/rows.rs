@@ -54,19 +54,18 @@ impl Walker<'_, '_> {
         let (ground, walk_options) = (self.ground, self.walk_options);
         let walked = (0..parts).into_par_iter().map(|part| {
             let first = at + part * length;
-            let behind = if part + 1 == parts {
-                end
+            let is_last = part + 1 == parts;
+            let moves = first..if is_last { end } else { first + length };
+            let found = if part == 0 {
+                scout(ground, walk_options, start.clone(), moves.clone())
             } else {
-                first + length
-            };
-            let moves = first..behind;
-            let found = match part {
-                0 => scout(ground, walk_options, start.clone(), moves.clone()),
-                _ => suppose(ground, &start, first - WARM_UP - 1).map_or_else(Vec::new, |start| {
-                    let mut found = scout(ground, walk_options, start, first - WARM_UP..behind);
-                    found.drain(..found.len().min(WARM_UP as usize));
-                    found
-                }),
+                let start = suppose(ground, &start, first - WARM_UP - 1);
+                let walked = start.map(|start| {
+                    let moves = first - WARM_UP..moves.end;
+                    scout(ground, walk_options, start, moves)
+                });
+                let walked = walked.into_iter().flatten();
+                walked.skip(WARM_UP as usize).collect()
             };
             Part { moves, found }
         });
@@ -79,16 +78,15 @@ impl Walker<'_, '_> {
             if !found.next().is_some_and(|supposed| is_met(&supposed)) {
                 break;
             }
-            let mut is_whole = part.moves;
+            let is_whole = found.len() == part.moves.len();
             for arrival in found {
                 self.arrivals.add(Arrival {
                     from: last,
                     ..arrival
                 });
                 last = short(self.arrivals.all.len() - 1);
-                is_whole.next();
             }
-            if !is_whole.is_empty() {
+            if !is_whole {
                 break;
             }
         }

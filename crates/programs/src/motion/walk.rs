@@ -464,12 +464,8 @@ impl Walker<'_, '_> {
             let point = ground.ride(None, &ground.program.moves[at.motion as usize]);
             ride::through(&pose, point.as_deref(), ride.as_deref())
         });
-        let via = via.or_else(|| {
-            let equipped = ground.arm_with(motion.tool);
-            let from = equipped.controller.forward(&start?, &Conditions::default());
-            let turning = self.walk_options.turning;
-            middle::halfway(ground, turning, at as usize, [&from, &wanted])
-        });
+        let turning = self.walk_options.turning;
+        let via = via.or_else(|| middle::halfway(ground, turning, at as usize, (&start?, &wanted)));
         let said = self.findings.len();
         let Some(posture) = self.posture(
             motion,

@@ -54,7 +54,6 @@ pub mod mark;
 mod moves;
 mod numbers;
 mod offsets;
-mod parts;
 mod points;
 mod posreg;
 mod reader;

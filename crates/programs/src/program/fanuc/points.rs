@@ -1,7 +1,6 @@
 //! `/POS`: the points of a program.
 
 use super::controller::Why;
-use super::parts::Part;
 use super::sections::line_end;
 use crate::program::kit::Fault;
 use crate::program::script::short;
@@ -78,29 +77,6 @@ impl<'a> Points<'a> {
         }
     }
 
-    /// Where it is.
-    pub(super) fn at(&self) -> usize {
-        self.at
-    }
-
-    /// Goes on behind a part that was read ahead, if that begins here: its points.
-    pub(super) fn take(&mut self, part: Part) -> Option<Vec<Point>> {
-        if part.start != self.at {
-            return None;
-        }
-        let before = self.numbers.len();
-        self.numbers.extend(part.numbers);
-        self.at = part.end;
-        let mut points = part.points;
-        // of a point without numbers none are anywhere
-        let with = |point: &&mut Point| !point.numbers.is_empty();
-        for point in points.iter_mut().filter(with) {
-            let Range { start, end } = point.numbers;
-            point.numbers = start + before..end + before;
-        }
-        Some(points)
-    }
-
     fn byte(&self) -> Option<u8> {
         self.bytes.get(self.at).copied()
     }
@@ -139,16 +115,10 @@ impl<'a> Points<'a> {
 
     /// The next point; `None` at the end of the section.
     pub(super) fn next(&mut self) -> Result<Option<Point>, Fault> {
-        self.next_before(usize::MAX)
-    }
-
-    /// Likewise; `None`, too, where that is at a byte or behind it.
-    pub(super) fn next_before(&mut self, limit: usize) -> Result<Option<Point>, Fault> {
         loop {
             self.skip_blanks();
             match self.byte() {
                 None | Some(b'/' | 0x1a) => return Ok(None),
-                Some(_) if self.at >= limit => return Ok(None),
                 Some(b';') => self.at += 1,
                 Some(b'!') => self.at = line_end(self.bytes, self.at),
                 Some(_) => return self.point().map(Some),

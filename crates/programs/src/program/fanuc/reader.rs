@@ -6,7 +6,6 @@ use super::frames;
 use super::lines::Lines;
 use super::numbers::Known;
 use super::offsets::{Condition, Copied, Offset};
-use super::parts;
 use super::points::{Axis, Content, Point, Points, bad_value};
 use super::registers::{Part, Sum};
 use super::sections::Sections;
@@ -327,23 +326,6 @@ fn listing(
     let script = &mut builder.script;
     let mut points = Points::new(bytes, sections.points.start);
     points.numbers = std::mem::take(&mut script.numbers);
-    let parts = parts::parts(bytes, sections.points.start);
-    let limit = parts.first().map_or(usize::MAX, |part| part.start);
-    let (first, ahead) = rayon::join(
-        || -> Result<(), Fault> {
-            while let Some(point) = points.next_before(limit)? {
-                add(script, &mut listing, &point, names);
-            }
-            Ok(())
-        },
-        || parts::read(bytes, &parts),
-    );
-    first?;
-    for points in ahead.into_iter().map_while(|part| points.take(part)) {
-        for point in &points {
-            add(script, &mut listing, point, names);
-        }
-    }
     while let Some(point) = points.next()? {
         add(script, &mut listing, &point, names);
     }
