@@ -244,33 +244,37 @@ fn past_wrist(
 /// is there.
 fn passage(of: impl Fn(f64) -> Option<f64>, from: f64, to: f64) -> Option<(f64, f64)> {
     let part = (to - from) / f64::from(SAMPLES);
-    let values: Option<Vec<f64>> = (0..=SAMPLES)
-        .map(|at| of(from + part * f64::from(at)))
-        .collect();
-    let values = values?;
-    let rises = |values: &[f64], from: f64| values.iter().any(|value| *value > from + AS_NEAR_RAD);
-    let is_passage = |&at: &usize| {
-        let value = values[at];
-        value <= values[at - 1]
-            && value <= values[at + 1]
-            && rises(&values[..at], value)
-            && rises(&values[at + 1..], value)
-    };
-    let all = (1..values.len() - 1).filter(is_passage);
-    let least = all.min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
-    let s = from + part * least as f64;
-    let (mut low, mut high) = (s - part, s + part);
-    for _ in 0..NARROWINGS {
-        let third = (high - low) / 3.0;
-        let [a, b] = [low + third, high - third];
-        if of(a)? < of(b)? {
-            high = b;
-        } else {
-            low = a;
+    let samples = (0..=SAMPLES).map(|at| {
+        let s = from + part * f64::from(at);
+        Some((s, of(s)?))
+    });
+    let samples: Vec<(f64, f64)> = samples.collect::<Option<_>>()?;
+    let mut passage: Option<(f64, f64)> = None;
+    for (at, (s, value)) in samples.iter().enumerate() {
+        let around = &samples[at.saturating_sub(1)..samples.len().min(at + 2)];
+        if around.iter().any(|(_, other)| other < value) {
+            continue;
+        }
+        let (mut low, mut high) = ((s - part).max(from), (s + part).min(to));
+        for _ in 0..NARROWINGS {
+            let third = (high - low) / 3.0;
+            let [a, b] = [low + third, high - third];
+            if of(a)? < of(b)? {
+                high = b;
+            } else {
+                low = a;
+            }
+        }
+        let s = 0.5 * (low + high);
+        let least = of(s)?;
+        let rises = |of: &(f64, f64)| of.1 > least + AS_NEAR_RAD;
+        let before = samples.iter().filter(|of| of.0 < s).any(rises);
+        let behind = samples.iter().filter(|of| of.0 > s).any(rises);
+        if before && behind && passage.is_none_or(|other| least < other.1) {
+            passage = Some((s, least));
         }
     }
-    let s = 0.5 * (low + high);
-    Some((s, of(s)?))
+    passage
 }
 
 /// As [`arrival_direction`] for a move, on which the joints of the wrist may lead the tool: they then go
