@@ -51,23 +51,17 @@ const EXACT_POWERS: [f64; 23] = [
 #[must_use]
 pub fn parse_start(text: &[u8]) -> Option<(f64, usize)> {
     let first = text.first()?;
-    let mut at = usize::from(matches!(first, b'+' | b'-'));
-    let (mut whole, mut digits, mut power) = (0_u64, 0_u32, 0_i32);
-    let mut point = false;
-    while let Some(&byte) = text.get(at) {
-        match byte {
-            b'0'..=b'9' => {
-                whole = whole.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
-                digits += 1;
-                power -= i32::from(point);
-            }
-            b'.' if !point => point = true,
-            _ => break,
-        }
-        at += 1;
+    let sign = usize::from(matches!(first, b'+' | b'-'));
+    let (mut whole, mut at) = digits(text, sign, 0);
+    let (mut count, mut power) = (at - sign, 0);
+    if text.get(at) == Some(&b'.') {
+        let point = at + 1;
+        (whole, at) = digits(text, point, whole);
+        count += at - point;
+        power = i32::try_from(point).ok()? - i32::try_from(at).ok()?;
     }
     // 18 digits cannot overflow
-    if !(1..=18).contains(&digits) || whole >= 1 << 53 {
+    if !(1..=18).contains(&count) || whole >= 1 << 53 {
         return None;
     }
     if let Some(b'e' | b'E') = text.get(at) {
@@ -95,6 +89,18 @@ pub fn parse_start(text: &[u8]) -> Option<(f64, usize)> {
         whole * scale
     };
     Some((if *first == b'-' { -value } else { value }, at))
+}
+
+/// The digits from `at` on behind those of `whole`, and where they end; more than 19 overflow.
+#[inline]
+fn digits(text: &[u8], mut at: usize, mut whole: u64) -> (u64, usize) {
+    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0'))
+        && digit < 10
+    {
+        whole = whole.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    (whole, at)
 }
 
 /// The whole number without sign that `text` starts with, and how many digits it has: nine at most.
@@ -220,15 +226,15 @@ fn exponent_at(text: &[u8]) -> Option<usize> {
 
 /// The decimals of a number in fixed notation; `None` where it has an exponent.
 pub(crate) fn fixed_decimals(text: &[u8]) -> Option<usize> {
-    let mut decimals = None;
-    for byte in trimmed(text) {
+    // an exponent stands behind the point
+    for (behind, byte) in text.iter().rev().enumerate() {
         match byte {
             b'e' | b'E' => return None,
-            b'.' if decimals.is_none() => decimals = Some(0),
-            _ => decimals = decimals.map(|count| count + 1),
+            b'.' => return Some(behind),
+            _ => {}
         }
     }
-    Some(decimals.unwrap_or(0))
+    Some(0)
 }
 
 fn decimals(text: &[u8]) -> usize {

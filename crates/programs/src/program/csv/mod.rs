@@ -144,8 +144,10 @@ fn script(sources: &[Source], axes: &ExternalNames) -> Result<Script, ReadError>
 struct Reader {
     builder: Builder,
     tools: HashMap<String, ValueId>,
-    /// By what the cells say; empty where none does.
+    /// By what the cells say.
     frames: HashMap<String, ValueId>,
+    /// Tool and frame of rows that name none: to find empty names among others takes longer.
+    nameless: (Option<ValueId>, Option<ValueId>),
     /// Branches are honoured where there are any.
     honoured: ValueId,
     /// External axes that the profile describes.
@@ -323,6 +325,13 @@ impl Reader {
     }
 
     fn tool(&mut self, name: &str) -> ValueId {
+        if name.is_empty() {
+            let script = &mut self.builder.script;
+            return *self
+                .nameless
+                .0
+                .get_or_insert_with(|| script.frame(name, None));
+        }
         if let Some(&known) = self.tools.get(name) {
             return known;
         }
@@ -333,12 +342,18 @@ impl Reader {
 
     /// A frame by its name; without one it is the world, wherever that is said to be.
     fn frame(&mut self, name: &str) -> ValueId {
+        if name.is_empty() {
+            let script = &mut self.builder.script;
+            return *self
+                .nameless
+                .1
+                .get_or_insert_with(|| script.frame(WORLD, None));
+        }
         if let Some(&known) = self.frames.get(name) {
             return known;
         }
-        let shown = if name.is_empty() { WORLD } else { name };
         let is_world = (name == WORLD).then(Pose::identity);
-        let frame = self.builder.script.frame(shown, is_world);
+        let frame = self.builder.script.frame(name, is_world);
         self.frames.insert(name.to_owned(), frame);
         frame
     }

@@ -18,6 +18,9 @@ use std::ops::Range;
 /// rear belong.
 const POST: &[u8] = b"RoboDK";
 
+/// Bytes of a position's line at least: its name and six numbers.
+const SHORTEST_POSITION: usize = 16;
+
 /// What the numbers of a position are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coordinates {
@@ -329,6 +332,10 @@ impl<'a> Positions<'a> {
             let at = line.start + line.text.len() - counts.len();
             let span = Span::of(at..at + first.len());
             job.announced = number::whole(first).map(|count| (count, span));
+            // no more than the file can hold
+            let most = source.bytes.len() / SHORTEST_POSITION;
+            let announced = job.announced.map_or(0, |(count, _)| count as usize);
+            job.named.reserve(announced.min(most));
             return Ok(());
         }
         let present = self.headers.pop().expect("a job begins with a header");

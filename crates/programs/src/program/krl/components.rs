@@ -95,6 +95,9 @@ impl Reader {
         for at in memchr::memchr_iter(b'.', line) {
             let is_part = part_of(&line[at + 1..line.len().min(at + 2)]).is_some()
                 && !line.get(at + 2).copied().is_some_and(is_letter);
+            if !is_part {
+                continue;
+            }
             let before = line[..at].trim_ascii_end();
             let before = match before.strip_suffix(b"]") {
                 Some(inside) => {
@@ -106,7 +109,7 @@ impl Reader {
             };
             let length = before.iter().rev().take_while(|b| is_letter(**b)).count();
             let name = &before[before.len() - length..];
-            if is_part && name.first().is_some_and(|b| !b.is_ascii_digit()) {
+            if name.first().is_some_and(|b| !b.is_ascii_digit()) {
                 let name = self.names.symbols.intern(name);
                 self.names.known.displacing.push(name);
             }

@@ -233,9 +233,14 @@ impl<'a> Cursor<'a> {
     /// # Errors
     /// Where it is not closed.
     pub(super) fn brackets(&mut self) -> Result<Option<(usize, usize)>, Fault> {
-        if self.blanks() != b'[' {
-            return Ok(None);
+        if self.blanks() == b'[' {
+            self.bracketed().map(Some)
+        } else {
+            Ok(None)
         }
+    }
+
+    fn bracketed(&mut self) -> Result<(usize, usize), Fault> {
         let open = self.at;
         let mut depth = 0_u32;
         loop {
@@ -243,7 +248,7 @@ impl<'a> Cursor<'a> {
             match token.kind {
                 Kind::Sign(b'[') => depth += 1,
                 Kind::Sign(b']') if depth == 1 => {
-                    return Ok(Some((open + 1, token.start as usize)));
+                    return Ok((open + 1, token.start as usize));
                 }
                 Kind::Sign(b']') => depth -= 1,
                 Kind::End => {
@@ -259,8 +264,10 @@ impl<'a> Cursor<'a> {
 pub(super) fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
     match buffer.get_mut(..word.len()) {
         Some(copy) => {
-            copy.copy_from_slice(word);
-            copy.make_ascii_uppercase();
+            // words are short: letter by letter is faster than a copy of any length
+            for (to, from) in copy.iter_mut().zip(word) {
+                *to = from.to_ascii_uppercase();
+            }
             copy
         }
         None => &[],
