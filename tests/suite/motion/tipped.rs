@@ -254,3 +254,31 @@ fn the_first_move_comes_from_where_start_joints_say_with_the_numbers_that_are_wr
     close(shift_deg(14.85), -0.1);
     close(shift_deg(15.15), 0.1);
 }
+
+#[test]
+fn a_path_that_winds_a_joint_beyond_its_limit_says_so() {
+    let arm = |q6: f64| [10.0, 15.0, 10.0, 20.0, 40.0, q6];
+    let beyond = |to: f64| {
+        let program = rapid(arm(385.0), "MoveL", &pose_at(arm(to)));
+        let effect = "{effect: link_geometry, link: 3, theta_deg: 0.01}";
+        let done = try_with(given(), &[effect], &[("t.mod", &program)]).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+        let q = done.targets.last().and_then(|target| target.q);
+        let said = done.findings.iter().find(|f| f.id == "beyond-limit");
+        (
+            q.expect("solved")[5] / DEG,
+            said.map(|f| (f.message.clone(), f.line)),
+        )
+    };
+    // joint 6 goes to 400 degrees
+    let (q6, said) = beyond(395.0);
+    assert!((q6 - 395.0).abs() < 0.1 && said.is_none(), "{q6} {said:?}");
+    let (q6, said) = beyond(420.0);
+    let (message, line) = said.expect("a finding");
+    assert!((q6 - 60.0).abs() < 0.1, "{q6}");
+    assert!(
+        message.contains("turns joint 6 to 420.0 deg") && message.contains("-400.0 to 400.0"),
+        "{message}"
+    );
+    assert_eq!(line, 6);
+}

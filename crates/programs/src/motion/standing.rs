@@ -213,11 +213,39 @@ impl Walker<'_, '_> {
             q[i] - back + on
         });
         let any = Configuration::default();
-        let inside = posture::on_branch(arm, wanted, branch, &near, &any);
+        let inside = posture::on_branch(arm, wanted, branch, &near, &any)
+            .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none());
+        if inside.is_some() && !self.walk_options.strict {
+            self.say_beyond(motion, target, &q);
+        }
         inside
-            .filter(|inside| mechanism.beyond_limit(&inside.q, 0.0).is_none())
             .or_else(|| posture::on_branch(arm, wanted, branch, &q, &any))
             .unwrap_or(as_it_is)
+    }
+
+    /// A path winds a joint beyond its limit, and within the limits the posture at its end is reached
+    /// by a whole rotation only.
+    fn say_beyond(&mut self, motion: &Move, target: TargetId, q: &[f64; 6]) {
+        let ground = self.ground;
+        let joints = &ground.profile.mechanism.joints;
+        let limits = |i: usize| (joints[i].min_rad, joints[i].max_rad);
+        let Some(joint) = (0..6).find(|i| q[*i] < limits(*i).0 || q[*i] > limits(*i).1) else {
+            return;
+        };
+        let (least, most) = limits(joint);
+        let message = format!(
+            "the path to {} turns joint {} to {:.1} deg; its limits are {:.1} to {:.1} deg, and the \
+             controller stops there: the joint is taken to stand a whole rotation from that",
+            ground.name_of(target),
+            joint + 1,
+            q[joint] / DEG,
+            least / DEG,
+            most / DEG
+        );
+        let hint = "go to the target on a joint move, or begin the path with the joint wound the other \
+            way; --start-joints says where the robot stands when the program starts";
+        let finding = ground.at_move("beyond-limit", Severity::Warning, motion, message, hint);
+        self.findings.push(finding);
     }
 
     /// The posture that the configuration data of a path's end name; `None` where there is none, or
