@@ -6,9 +6,14 @@ use crate::finding::Finding;
 use foldhash::HashMap;
 use std::collections::BTreeSet;
 
-/// The findings about a posture that nothing tells, and of one that the file gives and no solution
-/// has.
-const ASSUMED: [&str; 2] = ["posture-assumed", "configuration-mismatch"];
+/// The findings about a posture that nothing tells, of one that the file gives and no solution has,
+/// and of paths that other controllers end in another one, or stop on.
+const ASSUMED: [&str; 4] = [
+    "posture-assumed",
+    "configuration-mismatch",
+    "several-postures",
+    "beyond-limit",
+];
 
 /// The postures that were assumed.
 #[derive(Default)]
