@@ -11,7 +11,8 @@ use clap::Args;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashSet};
-use std::path::{Path, PathBuf};
+use std::ffi::{OsStr, OsString};
+use std::path::{Component, Path, PathBuf};
 
 /// Bytes that tell whether a file is text.
 const LOOKED_AT: usize = 1 << 16;
@@ -369,16 +370,19 @@ pub(super) fn gather(
     Ok(reading.found)
 }
 
-/// Which of the program files `--only` means: all where it names none.
+/// Which of the program files `--only` means: all where it names none. A name is that of a file, with
+/// or without its extension and the folders above it, or leads to the file.
 pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<bool>, Failure> {
-    let is = |path: &Path, name: &String| {
-        let same = |part: Option<&std::ffi::OsStr>| {
-            part.is_some_and(|part| part.to_string_lossy().eq_ignore_ascii_case(name))
-        };
-        same(path.file_name()) || same(path.file_stem())
+    let named: Vec<Option<Identity>> = only
+        .iter()
+        .map(|name| Identity::of(Path::new(name)))
+        .collect();
+    let is = |path: &Path, at: usize| {
+        let of_file = || Identity::of(path);
+        ends_as(path, Path::new(&only[at])) || named[at].is_some() && named[at] == of_file()
     };
-    for name in only {
-        if !programs.iter().any(|program| is(&program.path, name)) {
+    for (at, name) in only.iter().enumerate() {
+        if !programs.iter().any(|program| is(&program.path, at)) {
             let names = programs.iter().map(|program| name_of(&program.below));
             let names: Vec<String> = names.collect();
             return Err(Failure::with_hint(
@@ -388,8 +392,34 @@ pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<boo
         }
     }
     let meant =
-        |program: &ProgramFile| only.is_empty() || only.iter().any(|name| is(&program.path, name));
+        |program: &ProgramFile| only.is_empty() || (0..only.len()).any(|at| is(&program.path, at));
     Ok(programs.iter().map(meant).collect())
+}
+
+/// Whether a path ends as another one, in letters of any case, that may leave out the extension.
+fn ends_as(path: &Path, end: &Path) -> bool {
+    let same = |part: Option<&OsStr>, other: &OsStr| {
+        part.is_some_and(|part| part.eq_ignore_ascii_case(other))
+    };
+    let Some(name) = end.file_name() else {
+        return false;
+    };
+    if !same(path.file_name(), name) && !same(path.file_stem(), name) {
+        return false;
+    }
+    let folders = |path: &Path| -> Vec<OsString> {
+        let parents = path.parent().into_iter().flat_map(Path::components);
+        let named = parents.filter(|part| *part != Component::CurDir);
+        named.map(|part| part.as_os_str().to_owned()).collect()
+    };
+    let (above, asked) = (folders(path), folders(end));
+    let from = above.len().checked_sub(asked.len());
+    from.is_some_and(|from| {
+        let pairs = above[from..].iter().zip(&asked);
+        pairs
+            .into_iter()
+            .all(|(part, asked)| part.eq_ignore_ascii_case(asked))
+    })
 }
 
 /// Files that are read for what they declare only, those left out that are programs of the run.

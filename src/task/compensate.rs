@@ -227,10 +227,10 @@ pub struct Target {
     pub fake: Option<Pose>,
     /// The controller's joint angles at the fake target.
     pub joints_deg: Option<[f64; 6]>,
-    /// Distance of the real tool from the wanted pose with the target as it was.
-    pub before_mm: f64,
+    /// Distance of the real tool from the wanted pose with the target as it was, where that is known.
+    pub before_mm: Option<f64>,
     /// Their angle.
-    pub before_deg: f64,
+    pub before_deg: Option<f64>,
     /// Distance of the fake target from the wanted pose.
     pub shift_mm: f64,
     /// Their angle.
@@ -239,10 +239,11 @@ pub struct Target {
     pub residual_mm: f64,
     /// Their angle.
     pub residual_deg: f64,
-    /// Distance of the real tool from the wanted pose with the numbers as they are written.
-    pub rounding_mm: f64,
+    /// Distance of the real tool from the wanted pose with the numbers as they are written, where that
+    /// is known.
+    pub rounding_mm: Option<f64>,
     /// Their angle.
-    pub rounding_deg: f64,
+    pub rounding_deg: Option<f64>,
     /// Evaluations of the real model.
     pub iterations: u32,
     /// Which method found it: `pose-shift` or `newton`.
@@ -313,14 +314,14 @@ impl Targets<'_> {
             wanted_joints_deg,
             fake: t.fake.as_ref().map(Into::into),
             joints_deg: t.q.map(|q| q.map(|q| q / DEG)),
-            before_mm: mm_from_m(t.before.distance_m),
-            before_deg: t.before.angle_rad / DEG,
+            before_mm: t.before.map(|before| mm_from_m(before.distance_m)),
+            before_deg: t.before.map(|before| before.angle_rad / DEG),
             shift_mm: mm_from_m(t.shift.distance_m),
             shift_deg: t.shift.angle_rad / DEG,
             residual_mm: mm_from_m(t.residual.distance_m),
             residual_deg: t.residual.angle_rad / DEG,
-            rounding_mm: mm_from_m(t.rounding.distance_m),
-            rounding_deg: t.rounding.angle_rad / DEG,
+            rounding_mm: t.rounding.map(|after| mm_from_m(after.distance_m)),
+            rounding_deg: t.rounding.map(|after| after.angle_rad / DEG),
             iterations: t.iterations,
             method: t.method.map(Method::id),
             shift_evaluations: t.shift_evaluations,
@@ -399,7 +400,7 @@ pub struct Files {
 }
 
 impl Files {
-    fn of(header: &Header) -> Self {
+    pub(crate) fn of(header: &Header) -> Self {
         let (mut written, mut refused) = (Vec::new(), Vec::new());
         for (source, is_written) in header.sources.iter().zip(&header.written) {
             if source.is_context {

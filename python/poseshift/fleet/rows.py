@@ -67,12 +67,13 @@ def _programs(unit: Unit, status: str, documents: Mapping[str, Any]) -> list[dic
     rows = []
     for program in unit.named("program"):
         mine = [target for target in targets if target["file"] == program]
+        before = [target["before_mm"] for target in mine if target["before_mm"] is not None]
         driven = [move["max_path_error_mm"] for move in moves if move["file"] == program]
         rows.append({
             "program": program,
             "status": status,
             "targets": len(mine),
-            "mean_before_mm": sum(t["before_mm"] for t in mine) / len(mine) if mine else None,
+            "mean_before_mm": sum(before) / len(before) if before else None,
             "max_shift_mm": max((t["shift_mm"] for t in mine), default=None),
             "max_path_error_mm": max((error for error in driven if error is not None), default=None),
         })  # fmt: skip

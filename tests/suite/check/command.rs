@@ -265,8 +265,18 @@ fn only_some_programs_of_a_folder_are_checked_and_the_others_declare() {
     };
     let (_, all) = check(&[]);
     assert_eq!(files(&all).len(), 2, "{all}");
-    for (only, file) in [("A_MAIN", "a_main.mod"), ("b_data.mod", "b_data.mod")] {
-        let (_, some) = check(&["--only", only]);
+    let folder = programs.file_name().expect("a folder").to_string_lossy();
+    for (only, file) in [
+        ("A_MAIN".to_owned(), "a_main.mod"),
+        ("b_data.mod".to_owned(), "b_data.mod"),
+        (format!("{folder}/a_main"), "a_main.mod"),
+        (format!("./{folder}/B_data.mod"), "b_data.mod"),
+        (
+            programs.join("b_data.mod").display().to_string(),
+            "b_data.mod",
+        ),
+    ] {
+        let (_, some) = check(&["--only", &only]);
         let path = programs.join(file).display().to_string();
         assert_eq!(files(&some), std::slice::from_ref(&path), "{some}");
         assert_eq!(some["input"], path);

@@ -97,6 +97,39 @@ fn a_shared_target_is_split_into_one_for_each_move() {
 }
 
 #[test]
+fn what_can_be_split_is_split_whatever_is_accepted() {
+    for (name, text) in from_both_sides() {
+        let files = [(name, text.as_str())];
+        let options = Options {
+            split_targets: true,
+            accepted: vec!["target-shared".parse().expect("an acceptance")],
+            ..given()
+        };
+        let done = try_with(options, &[BACKLASH], &files).expect("read");
+        assert_eq!(done.added.targets.len(), 2, "{name}");
+        assert!(done.findings.iter().all(|f| f.id != "target-shared"));
+        assert_eq!(done.decided, [""; 0], "{name}");
+    }
+}
+
+#[test]
+fn a_target_that_points_are_derived_from_is_not_split_and_says_why() {
+    let (name, text) = from_both_sides().swap_remove(0);
+    let last = "MoveJ p,v100,fine,tool0;\n";
+    let behind = text.rfind(last).expect("a move") + last.len();
+    let derived = "MoveJ Offs(p,0,0,10),v100,fine,tool0;\n";
+    let text = format!("{}{derived}{}", &text[..behind], &text[behind..]);
+    let options = Options {
+        split_targets: true,
+        ..given()
+    };
+    let done = try_with(options, &[BACKLASH], &[(name, text.as_str())]).expect("read");
+    let refused = done.findings.iter().find(|f| f.id == "target-shared");
+    let hint = &refused.expect("a finding").hint;
+    assert!(hint.contains("derives points from this one"), "{hint}");
+}
+
+#[test]
 fn a_point_that_is_split_off_has_the_frame_that_is_selected_at_the_move() {
     let at = "CONFIG : 'N U T, 0, 0, 0',\n    X = 430.000 mm, Y = 0.000 mm, Z = 400.000 mm,\n    W = \
               180.000 deg, P = 0.000 deg, R = 0.000 deg\n};\n";
@@ -394,6 +427,13 @@ fn the_correction_has_a_limit_and_the_displacement_of_the_part_has_none() {
         ..given()
     });
     assert_eq!(errors(&limited), ["shift-too-large"]);
+    // it stays as far off as it was
+    let off = |done: &Compensation| -> Vec<Option<Separation>> {
+        done.targets.iter().map(|target| target.before).collect()
+    };
+    assert!(off(&limited).iter().any(Option::is_some));
+    assert_eq!(off(&limited), off(&with(given())));
+    assert!(limited.targets.iter().all(|t| t.rounding == t.before));
     assert!(message(&limited, "shift-too-large").contains("--max-shift"));
     assert_eq!(limited.summary.compensated, 0);
     let decided = &limited.decided;

@@ -126,7 +126,7 @@ fn sagging(set: &str) -> (f64, Vec<(Severity, usize)>) {
     let done = done(&[SOFT], &[("t.src", &text), ("$config.dat", config)]);
     assert_eq!(errors(&done), [""; 0], "{set}");
     (
-        done.targets[1].before.distance_m * 1e3,
+        done.targets[1].before.expect("known").distance_m * 1e3,
         found(&done, "load-chosen-at-run-time"),
     )
 }

@@ -282,3 +282,34 @@ fn a_path_that_winds_a_joint_beyond_its_limit_says_so() {
     );
     assert_eq!(line, 6);
 }
+
+#[test]
+fn a_path_through_the_singularity_of_the_wrist_says_so() {
+    // in the plane of the arm: joint 5 goes through zero
+    let straight = |q5: f64| [0.0, 10.0, 5.0, 0.0, q5, 0.0];
+    let found = |from: f64, to: f64| {
+        let text = rapid(straight(from), "MoveL", &pose_at(straight(to)));
+        let effect = "{effect: link_geometry, link: 3, theta_deg: 0.01}";
+        let done = try_with(given(), &[effect], &[("t.mod", &text)]).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+        let said = |f: &&poseshift::finding::Finding| f.message.contains("goes through the sing");
+        done.findings.iter().find(said).map(|f| (f.id, f.line))
+    };
+    assert_eq!(found(10.0, -8.0), Some(("near-singularity", 6)));
+    assert_eq!(found(10.0, 4.0), None);
+}
+
+#[test]
+fn at_a_singularity_configuration_data_of_both_sides_hold() {
+    // all joints at zero; joint 5 comes from either side
+    let zero = "[374,0,630],[0.7071067811865476,0,0.7071067811865476,0]";
+    for from in [20.0, -20.0] {
+        let text = rapid([0.0, 0.0, 0.0, 0.0, from, 0.0], "MoveL", zero);
+        let text = text.replace("ConfL\\Off;\n", "");
+        let effect = "{effect: link_geometry, link: 3, theta_deg: 0.01}";
+        let done = try_with(given(), &[effect], &[("t.mod", &text)]).expect("read");
+        let id = "configuration-mismatch";
+        let mismatch = done.findings.iter().find(|f| f.id == id);
+        assert!(mismatch.is_none(), "{mismatch:?}");
+    }
+}

@@ -117,12 +117,13 @@ pub struct TargetReport {
     pub q: Option<[f64; 6]>,
     /// From wanted to fake.
     pub shift: Separation,
-    /// How far from the wanted pose the real tool lands with the target as it was.
-    pub before: Separation,
+    /// How far from the wanted pose the real tool lands with the target as it was; `None` where that is
+    /// not known.
+    pub before: Option<Separation>,
     /// The residual of the search.
     pub residual: Separation,
-    /// How far from the wanted pose the real tool lands with the numbers as written.
-    pub rounding: Separation,
+    /// Likewise with the numbers as written.
+    pub rounding: Option<Separation>,
     /// Evaluations of the real model.
     pub iterations: u32,
     /// Those of the pose shift.
@@ -149,9 +150,9 @@ impl TargetReport {
             fake: None,
             q: outcome.map(|outcome| outcome.q),
             shift: none,
-            before: none,
+            before: None,
             residual: outcome.map_or(none, |outcome| outcome.residual),
-            rounding: none,
+            rounding: None,
             iterations: outcome.map_or(0, |outcome| outcome.iterations),
             shift_evaluations: outcome.map_or(0, |outcome| outcome.shift_evaluations),
             newton_evaluations: outcome.map_or(0, |outcome| outcome.newton_evaluations),
@@ -212,14 +213,15 @@ impl Tally {
                 Some(Method::Newton) => summary.by_newton += 1,
                 None => {}
             }
-            self.before_m += report.before.distance_m;
-            self.after_m += report.rounding.distance_m;
-            summary.max_before_m = summary.max_before_m.max(report.before.distance_m);
+            let [before, after] = [report.before, report.rounding].map(Option::unwrap_or_default);
+            self.before_m += before.distance_m;
+            self.after_m += after.distance_m;
+            summary.max_before_m = summary.max_before_m.max(before.distance_m);
             self.compensated[target.file as usize] = true;
             summary.max_shift_m = summary.max_shift_m.max(report.shift.distance_m);
             summary.max_residual_m = summary.max_residual_m.max(report.residual.distance_m);
-            summary.max_rounding_m = summary.max_rounding_m.max(report.rounding.distance_m);
-            summary.max_rounding_rad = summary.max_rounding_rad.max(report.rounding.angle_rad);
+            summary.max_rounding_m = summary.max_rounding_m.max(after.distance_m);
+            summary.max_rounding_rad = summary.max_rounding_rad.max(after.angle_rad);
         }
     }
 

@@ -111,21 +111,47 @@ impl<'a> Portion<'a> {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
                 Err((finding, mean)) => {
-                    let takes = |acceptance: &Acceptance| acceptance.takes(&finding);
-                    if job.options.accepted.iter().any(takes) {
-                        // the numbers that miss least in all approaches
-                        self.add_converged(job, group, &mean, fractions, &mut report);
-                        self.findings
-                            .retain(|other| other.id != "rounding" || other.line != finding.line);
-                        self.findings.push(finding);
-                    } else if !self.split(job, group, fractions, &finding, &mut report) {
-                        report.status = None;
-                        self.findings.push(finding);
+                    if !self.split(job, group, fractions, &finding, &mut report) {
+                        self.refuse_shared(job, group, fractions, (finding, &mean), &mut report);
                     }
                 }
             }
         }
+        let is_reached = |solved: &Solved| solved.outcome.status == Status::Converged;
+        if report.before.is_none() && group.iter().all(is_reached) {
+            // it stays as it is
+            report.before = Some(worst(group.iter().map(|solved| uncorrected(job, solved))));
+            report.rounding = report.before;
+        }
         self.reports.push((approach.target as usize, report));
+    }
+
+    /// No numbers serve all approaches, and none of them gets a target of its own: the numbers that miss
+    /// least where that is accepted, else the target stays.
+    fn refuse_shared(
+        &mut self,
+        job: &Job,
+        group: &[Solved],
+        fractions: &[Fraction],
+        (mut finding, mean): (Finding, &Fake),
+        report: &mut TargetReport,
+    ) {
+        let takes = |acceptance: &Acceptance| acceptance.takes(&finding);
+        if job.options.accepted.iter().any(takes) {
+            self.add_converged(job, group, mean, fractions, report);
+            self.findings
+                .retain(|other| other.id != "rounding" || other.line != finding.line);
+        } else {
+            report.status = None;
+        }
+        let target = group[0].approach.target as usize;
+        if job.options.split_targets && self.bases.contains(&target) {
+            finding.hint =
+                "give each use a target of its own: the program derives points from this \
+                            one, and --split-targets leaves such a target whole"
+                    .to_owned();
+        }
+        self.findings.push(finding);
     }
 
     /// Gives each of the moves a target of its own; false where one of them cannot be served alone.
@@ -179,8 +205,8 @@ impl<'a> Portion<'a> {
                 return false;
             }
             let before = worst(alone.iter().map(|solved| uncorrected(job, solved)));
-            report.before = largest(report.before, before);
-            report.rounding = largest(report.rounding, landed);
+            report.before = Some(largest(report.before.unwrap_or_default(), before));
+            report.rounding = Some(largest(report.rounding.unwrap_or_default(), landed));
             let target = &job.ground.program.targets[target];
             let mut texts: Vec<Vec<u8>> = numbers
                 .iter()
@@ -233,7 +259,8 @@ impl<'a> Portion<'a> {
             return;
         }
         (report.fake, report.shift) = (Some(fake.frame_from_tool), shift);
-        report.before = worst(group.iter().map(|solved| uncorrected(job, solved)));
+        let before = worst(group.iter().map(|solved| uncorrected(job, solved)));
+        (report.before, report.rounding) = (Some(before), Some(before));
         self.findings
             .extend(remarks::singularity(job, approach, outcome));
         self.findings
@@ -248,16 +275,17 @@ impl<'a> Portion<'a> {
         }
         let Some(written) = self.written(job, approach, fake, fractions) else {
             (report.fake, report.shift) = (None, Separation::default());
+            report.status = None;
             return;
         };
         let numbers = Fake::meant(job, approach, &written.numbers);
         let [landed, passed] = shared::landings(job, group, &numbers);
         self.findings.extend(shared::passed(job, approach, &passed));
-        report.rounding = landed;
-        let (left, before) = (report.rounding, report.before);
-        let no_better = left.distance_m >= before.distance_m && left.angle_rad >= before.angle_rad;
+        let no_better =
+            landed.distance_m >= before.distance_m && landed.angle_rad >= before.angle_rad;
+        let left = if no_better { before } else { landed };
+        report.rounding = Some(left);
         if no_better {
-            report.rounding = before;
             report.fake = None;
         } else {
             report.changed = written.changed;
@@ -273,7 +301,6 @@ impl<'a> Portion<'a> {
                 });
             }
         }
-        let left = report.rounding;
         // what the search itself could not reach is reported on its own
         if left.distance_m > report.residual.distance_m + ROUNDING_LIMIT.distance_m
             || left.angle_rad > report.residual.angle_rad + ROUNDING_LIMIT.angle_rad

@@ -53,7 +53,10 @@ impl FromStr for Acceptance {
         };
         Ok(Self {
             kind,
-            file: file.filter(|file| !file.is_empty()).map(str::to_owned),
+            file: file
+                .map(|file| file.trim_start_matches("./"))
+                .filter(|file| !file.is_empty())
+                .map(str::to_owned),
             line,
         })
     }
@@ -88,7 +91,10 @@ impl Acceptance {
     /// Whether it takes a finding; a file is named by its path as the user gave it, or by its end.
     #[must_use]
     pub fn takes(&self, finding: &Finding) -> bool {
-        let in_file = |file: &String| Path::new(&finding.file).ends_with(file);
+        let in_file = |file: &String| {
+            let (asked, found) = (Path::new(file), Path::new(&finding.file));
+            found.ends_with(asked) || asked.is_absolute() && asked.ends_with(found)
+        };
         finding.id == self.kind.id
             && finding.severity == Severity::Error
             && self.file.as_ref().is_none_or(in_file)
@@ -153,6 +159,13 @@ mod tests {
         assert!(!one.takes(&finding("target-shared", "x/cell/a.mod", 13)));
         assert!(!one.takes(&finding("target-shared", "cell/ba.mod", 12)));
         assert_eq!(one.to_string(), "target-shared:cell/a.mod:12");
+        let found = finding("target-shared", "cell/a.mod", 12);
+        for whole in ["./cell/a.mod", "/home/cell/a.mod", "a.mod"] {
+            let one = accept(&format!("target-shared:{whole}:12")).expect("one");
+            assert!(one.takes(&found), "{whole}");
+        }
+        let other = accept("target-shared:other/cell/a.mod").expect("one");
+        assert!(!other.takes(&found));
         // a name of an earlier version
         let old = accept("target-passed-to-function").expect("an earlier name");
         assert!(old.takes(&finding("target-passed-to-routine", "a", 1)));

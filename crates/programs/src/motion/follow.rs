@@ -26,7 +26,7 @@ const LEAST_SWEEP_RAD: f64 = 90.0 * DEG;
 /// between two points of a curve that does. Nearer than the second angle, or farther than the third,
 /// nothing else is meant.
 const THROUGH_WRIST_RAD: f64 = 0.5 * DEG;
-const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
+pub(super) const SURELY_THROUGH_RAD: f64 = 0.1 * DEG;
 const SURELY_PAST_RAD: f64 = 1.0 * DEG;
 /// What is farther from it by less is as near.
 const AS_NEAR_RAD: f64 = 0.001 * DEG;
@@ -90,8 +90,8 @@ pub(crate) fn course(
 pub(crate) struct Followed {
     pub branch: Branch,
     pub q: [f64; 6],
-    /// Where it passes the wrist's singularity so that it is not certain whether joint 5 goes
-    /// through.
+    /// Where it goes through the wrist's singularity, or passes it so that it is not certain whether
+    /// joint 5 does.
     pub passing: Option<Passing>,
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn follow(
                     past_wrist(arm, branch, at, [(from, &before), (s, &q), (next, &there)])
             {
                 let is_through = by_rad < THROUGH_WRIST_RAD;
-                if (SURELY_THROUGH_RAD..SURELY_PAST_RAD).contains(&by_rad) {
+                if by_rad < SURELY_PAST_RAD {
                     passing = Some(Passing { by_rad, is_through });
                 }
                 if is_through {

@@ -14,6 +14,8 @@ use crate::program::{Configuration, TargetId};
 const BORDER_RAD: f64 = 0.05 * DEG;
 /// Likewise where another posture is on the side that is asked for: the controller takes that one.
 const ROUNDED_RAD: f64 = 0.01 * DEG;
+/// Likewise of the wrist centre at axis 1.
+const BORDER_M: f64 = 1e-5;
 /// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
 pub(super) const LIMIT_RAD: f64 = 2.0 * DEG;
 /// Name of the finding about a target that the nominal arm does not reach.
@@ -311,13 +313,36 @@ fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
     (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
 }
 
-/// Whether a posture is the one that configuration data ask for.
-pub(super) fn holds(configuration: &Configuration, branch: Branch, q: &[f64; 6]) -> bool {
-    let agrees = |flag: Option<bool>, is: bool| flag.is_none_or(|flag| flag == is);
-    agrees(configuration.behind_axis_1, branch.behind_axis_1)
-        && agrees(configuration.behind_lower_arm, branch.behind_lower_arm)
-        && agrees(configuration.joint_5_negative, branch.joint_5_negative)
-        && (0..6).all(|i| configuration.has_joint(i, q[i], BORDER_RAD))
+/// Whether a posture is the one that configuration data ask for; at a singularity it is on both of
+/// its sides.
+pub(super) fn holds(
+    arm: &Arm,
+    configuration: &Configuration,
+    branch: Branch,
+    q: &[f64; 6],
+) -> bool {
+    let margins = arm.posture(q).1;
+    let agrees = |flag: Option<bool>, is: bool, margin: f64, border: f64| {
+        flag.is_none_or(|flag| flag == is || margin < border)
+    };
+    let (shoulder, elbow, wrist) = (margins.shoulder_m, margins.elbow_rad, margins.wrist_rad);
+    let sides = configuration;
+    agrees(
+        sides.behind_axis_1,
+        branch.behind_axis_1,
+        shoulder,
+        BORDER_M,
+    ) && agrees(
+        sides.behind_lower_arm,
+        branch.behind_lower_arm,
+        elbow,
+        ROUNDED_RAD,
+    ) && agrees(
+        sides.joint_5_negative,
+        branch.joint_5_negative,
+        wrist,
+        ROUNDED_RAD,
+    ) && (0..6).all(|i| configuration.has_joint(i, q[i], BORDER_RAD))
 }
 
 /// On how many sides a branch is not where configuration data ask for; and whether joint 5 is one

@@ -1,7 +1,7 @@
 //! The posture in which the robot stands at the end of a move: that of its path, compared with the
 //! configuration data, or the one that these name.
 
-use super::follow::{Followed, Passing, course, follow};
+use super::follow::{Followed, Passing, SURELY_THROUGH_RAD, course, follow};
 use super::posture::{self, Asked, Posture};
 use super::ride::Ride;
 use super::walk::{CONFIGURATION_CHANGE, Walker};
@@ -47,12 +47,11 @@ impl Walker<'_, '_> {
             if let Some(end) = follow(equipped, &course, &start, wanted) {
                 let Followed { branch, q, .. } = end;
                 let posture = self.compared(motion, target, wanted, configuration, branch, q);
-                let is_said = motion.configured && configuration.joint_5_negative.is_some();
                 if let Some(passing) = end.passing
-                    && !is_said
                     && !self.walk_options.strict
                 {
-                    self.say_passing(motion, target, &passing, &posture);
+                    let is_said = motion.configured && configuration.joint_5_negative.is_some();
+                    self.say_passing(motion, target, &passing, &posture, is_said);
                 }
                 return Some(posture);
             }
@@ -74,15 +73,33 @@ impl Walker<'_, '_> {
         self.carried(motion, target, wanted, posture)
     }
 
-    /// The wrist's singularity is near a path: its posture at the end is not certain.
+    /// The wrist's singularity is near a path: its posture at the end is not certain, unless
+    /// configuration data say it; or the path goes through it.
     fn say_passing(
         &mut self,
         motion: &Move,
         target: TargetId,
         passing: &Passing,
         posture: &Posture,
+        is_said: bool,
     ) {
         let ground = self.ground;
+        if passing.by_rad < SURELY_THROUGH_RAD {
+            let message = format!(
+                "the path to {} goes through the singularity of the wrist: the corrected one passes it \
+                 by a little, and a controller on which joints 4 and 6 sweep there slows down or stops",
+                ground.name_of(target)
+            );
+            let hint = "check it (`poseshift check`), go through it on a joint move, or lead the path \
+                past it";
+            let finding =
+                ground.at_move("near-singularity", Severity::Warning, motion, message, hint);
+            self.findings.push(finding);
+            return;
+        }
+        if is_said {
+            return;
+        }
         let joints = posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
         let message = format!(
             "the path to {} passes the singularity of the wrist by {:.1} deg: {} comes in another posture",
@@ -167,7 +184,8 @@ impl Walker<'_, '_> {
         } else {
             q
         };
-        if motion.configured && !posture::holds(configuration, branch, &as_programmed) {
+        let arm = &ground.arm_with(motion.tool).arm;
+        if motion.configured && !posture::holds(arm, configuration, branch, &as_programmed) {
             let shown = q.map(|q| format!("{:.1}", q / DEG)).join(", ");
             let mut message = format!(
                 "the path to {} ends in another configuration than the file gives (joints {shown} \

@@ -5,15 +5,15 @@ use super::{
     title_of, tools_of, wanted,
 };
 use crate::check::trace::Traced;
-use crate::compensate::Compensation;
-use crate::geometry::Pose;
+use crate::compensate::{Compensation, TargetReport};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::{Pose, Separation};
 use crate::inverse::Method;
 use crate::report::html::cell::{Along, Cell, Path, Points, Robot, bodies};
 use crate::report::html::chart::Tone;
 use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Section};
-use crate::task::compensate::Header;
+use crate::task::compensate::{Files, Header};
 
 /// What the page of `compensate` is made of.
 pub(crate) struct Compensated<'a> {
@@ -37,12 +37,17 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let reports = &compensation.targets;
     let written = !header.outputs.is_empty();
     let good = if written { "Written" } else { "Computed" };
-    let bad = if written {
-        "Written with targets that stay as they were: "
-    } else {
-        "Nothing is written: "
+    let files = Files::of(header);
+    let bad = match (written, files.refused.len()) {
+        (false, _) => "Nothing is written: ".to_owned(),
+        (true, 0) => "Written with targets that stay as they were: ".to_owned(),
+        (true, refused) => format!(
+            "{} of {} programs are written, {refused} refused: ",
+            files.written.len(),
+            files.written.len() + refused
+        ),
     };
-    let (level, text) = answer(&compensation.findings, good, bad);
+    let (level, text) = answer(&compensation.findings, good, &bad);
     let mut page = Page::new(
         format!("Compensation of {}", title_of(&header.inputs)),
         level,
@@ -55,6 +60,9 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         of.scenery.profile,
         header.profile_sha256,
     );
+    if written && !files.refused.is_empty() {
+        page.fact("programs refused, not written", files.refused.join(", "));
+    }
     let s = &compensation.summary;
     if s.compensated > 0 {
         let to = |before: f64, after: f64| {
@@ -118,6 +126,10 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
             .map(|row| significant(of(row), digits))
             .collect()
     };
+    let off = |of: &dyn Fn(&TargetReport) -> Option<Separation>, digits| {
+        let distance_m = |row: &usize| of(&reports[*row]).map_or(f64::NAN, |off| off.distance_m);
+        number(&|row| mm_from_m(distance_m(row)), digits)
+    };
     let branches: Vec<Option<String>> = rows
         .iter()
         .map(|row| reports[*row].branch.map(|b| b.to_string()))
@@ -146,18 +158,8 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         Column::counts("line", rows.iter().map(line_of)),
         Column::names("tool", rows.iter().map(tools)),
         Column::names("frame", rows.iter().map(frames)),
-        Column::numbers(
-            "error before",
-            "mm",
-            number(&|r| mm_from_m(reports[*r].before.distance_m), 5),
-        )
-        .to(4),
-        Column::numbers(
-            "error after",
-            "mm",
-            number(&|r| mm_from_m(reports[*r].rounding.distance_m), 3),
-        )
-        .to(4),
+        Column::numbers("error before", "mm", off(&|report| report.before, 5)).to(4),
+        Column::numbers("error after", "mm", off(&|report| report.rounding, 3)).to(4),
         Column::numbers(
             "shift",
             "mm",
@@ -286,7 +288,7 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     let roundings: Vec<f64> = reports
         .iter()
         .filter(|report| report.changed)
-        .map(|report| 1000.0 * mm_from_m(report.rounding.distance_m))
+        .filter_map(|report| Some(1000.0 * mm_from_m(report.rounding?.distance_m)))
         .collect();
     page.histogram(
         "roundings",
