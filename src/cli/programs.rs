@@ -361,6 +361,20 @@ pub(super) fn gather(
             "`poseshift languages` lists what is recognised",
         ));
     }
+    let mut known = HashSet::new();
+    for program in &reading.found.programs {
+        // a hard link is a file of its own
+        let place = std::fs::canonicalize(&program.path).ok();
+        if place.is_some_and(|place| !known.insert(place)) {
+            return Err(Failure::with_hint(
+                format!(
+                    "{} is given twice: it would be read, or written, twice",
+                    name_of(&program.path)
+                ),
+                "give each file once; a folder gives all files below it",
+            ));
+        }
+    }
     if paths.len() > 1 && paths.iter().any(|path| is_stream(path)) {
         return Err(Failure::with_hint(
             "`-` is one program, without others next to it",

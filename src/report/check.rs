@@ -32,7 +32,11 @@ pub(crate) fn text(found: &Checked) -> String {
     let shown = |size_mm: Option<f64>, of: &Move| {
         let sigma = of.uncertainty_mm;
         let sigma = sigma.map_or(String::new(), |s| format!(" \u{b1} {s:.3}"));
-        format!("{}{sigma} mm (line {})", fixed(size_mm, 3), of.line)
+        let file = match found.input.list() {
+            [_] => String::new(),
+            _ => format!("{} ", of.file),
+        };
+        format!("{}{sigma} mm ({file}line {})", fixed(size_mm, 3), of.line)
     };
     let most = |bound: Option<f64>| bound.map(|bound| at_most(bound, 3));
     let [mut at_poses, mut at_joints, mut along] = [const { None::<Move> }; 3];

@@ -329,7 +329,7 @@ impl Files {
             {
                 return Err(Failure::with_hint(
                     format!("two outputs would be written to {}", name_of(output)),
-                    "name another file for one of them",
+                    "name another file for one of them, or give the folder above both inputs",
                 ));
             }
         }

@@ -383,3 +383,50 @@ fn what_is_left_out_stands_in_the_summary() {
     );
     assert_eq!(output.status.code(), Some(0), "{}", reported(&output));
 }
+
+#[test]
+fn a_file_that_is_given_twice_is_refused() {
+    let folder = world();
+    let path = folder.path();
+    let below = path.join("in/below");
+    std::fs::create_dir(&below).expect("scratch");
+    std::fs::hard_link(path.join("in/Deburr.mod"), below.join("Deburr.mod")).expect("scratch");
+    for twice in [["in", "in/below"], ["in/Deburr.mod", "./in/Deburr.mod"]] {
+        let output = run(path, &["compensate", twice[0], twice[1], "-o", "out"]);
+        let said = reported(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("Deburr.mod is given twice"), "{said}");
+        assert!(!path.join("out").exists());
+    }
+    // another name of the same bytes is a file of its own
+    let output = run(path, &["check", "in", "--only", "below/Deburr"]);
+    let said = reported(&output);
+    assert!(!said.contains("given twice"), "{said}");
+}
+
+#[test]
+fn of_several_files_the_text_of_check_names_the_one_that_is_worst() {
+    let folder = world();
+    let path = folder.path();
+    let said = |folder: &str| reported(&run(path, &["check", folder]));
+    let one = said("in");
+    assert!(one.contains("mm (line "), "{one}");
+    let text = std::fs::read_to_string(path.join("in/Deburr.mod")).expect("scratch");
+    let other = text.replace("MODULE Deburr", "MODULE Other");
+    std::fs::create_dir(path.join("in/next")).expect("scratch");
+    std::fs::write(path.join("in/next/Other.mod"), other).expect("scratch");
+    let both = run(path, &["check", "in", "--json"]);
+    let report: Value = serde_json::from_slice(&both.stdout).expect("JSON");
+    let files: Vec<&str> = report["moves"]
+        .as_array()
+        .expect("moves")
+        .iter()
+        .map(|one| one["file"].as_str().expect("a name"))
+        .collect();
+    assert!(files.contains(&"in/next/Other.mod"), "{files:?}");
+    let both = said("in").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        both.contains("mm (in/next/Other.mod line ") || both.contains("mm (in/Deburr.mod line "),
+        "{both}"
+    );
+}
