@@ -146,10 +146,10 @@ impl<'a> Portion<'a> {
         }
         let target = group[0].approach.target as usize;
         if job.options.split_targets && self.bases.contains(&target) {
-            finding.hint =
-                "give each use a target of its own: the program derives points from this \
-                            one, and --split-targets leaves such a target whole"
-                    .to_owned();
+            finding = finding.hint(
+                "give each use a target of its own: the program derives points from this one, and \
+                 --split-targets leaves such a target whole",
+            );
         }
         self.findings.push(finding);
     }
