@@ -390,6 +390,12 @@ impl Compensate {
             text += &layout::fitted(&report::compensation::text(&found, header.language));
         }
         match header.outputs.as_slice() {
+            [] if self.write_good => {
+                text += &layout::fitted(
+                    "nothing is written: each program has an error, or shares targets or calls with \
+                     one that has",
+                );
+            }
             [] => {
                 text += &layout::fitted(
                     "nothing is written: not every target could be compensated (--keep-going \

@@ -1,6 +1,7 @@
 //! The text of `compensate`.
 
 use super::text::left_out as left_out_lines;
+use crate::finding::{Finding, Severity};
 use crate::program::Language;
 use crate::task::compensate::{Compensated, MethodCounts, Summary};
 
@@ -35,6 +36,10 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
             "  {joint_targets} joint targets stay as they are (--joint-targets correct shifts them)"
         ));
     }
+    let is_shared = found
+        .findings
+        .iter()
+        .any(|f| f.accepted && f.id == "target-shared");
     if compensated > 0 {
         lines.push(format!(
             "  real tool off by  mean {before_mm:.3} mm, largest {max_before_mm:.3} mm before; \
@@ -48,7 +53,12 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         ));
         lines.push(format!(
             "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the \
-             file's decimals cost)"
+             file's decimals cost{})",
+            if is_shared {
+                ", and targets that serve several moves"
+            } else {
+                ""
+            }
         ));
     }
     let MethodCounts { pose_shift, newton } = methods;
@@ -64,7 +74,16 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
     }
     if !files.written.is_empty() && !files.refused.is_empty() {
         lines.push(format!("  written   {}", files.written.join(", ")));
-        lines.push(format!("  refused   {}", files.refused.join(", ")));
+        let shown = |name: &String| {
+            let is_own = |f: &Finding| f.severity == Severity::Error && f.file == *name;
+            if found.findings.iter().any(is_own) {
+                name.clone()
+            } else {
+                format!("{name} (shares targets or calls with a refused one)")
+            }
+        };
+        let refused: Vec<String> = files.refused.iter().map(shown).collect();
+        lines.push(format!("  refused   {}", refused.join(", ")));
     }
     lines.extend(left_out_lines(left_out));
     lines.join("\n") + "\n"

@@ -430,3 +430,48 @@ fn of_several_files_the_text_of_check_names_the_one_that_is_worst() {
         "{both}"
     );
 }
+
+#[test]
+fn what_is_refused_next_to_good_programs_is_named_with_the_reason() {
+    let folder = world();
+    let path = folder.path();
+    let module = |name: &str, data: &str, target: &str| {
+        let text = format!(
+            "MODULE {name}\n{data}PROC p{name}()\nMoveJ {target},v100,fine,artifact;\nENDPROC\nENDMODULE\n"
+        );
+        std::fs::write(path.join(format!("in/{name}.mod")), text).expect("scratch");
+    };
+    let data = |name: &str, x: f64| {
+        format!(
+            "PERS robtarget {name} := [[{x},50,420],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        )
+    };
+    module("Bad", &(data("far", 1400.0) + &data("near", 400.0)), "far");
+    module("Shares", "", "near");
+    std::fs::remove_file(path.join("in/Deburr.mod")).expect("scratch");
+    let command = [
+        "compensate",
+        "in",
+        "--write-good",
+        "-o",
+        "out",
+        "--report",
+        "r.html",
+    ];
+    let output = run(path, &command);
+    let flat = |output: &Output| {
+        let said = reported(output);
+        said.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(output.status.code(), Some(1));
+    assert!(flat(&output).contains("nothing is written: each program has an error"));
+    module("Good", &data("own", 410.0), "own");
+    let output = run(path, &command);
+    let said = flat(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    let lists = "written in/Good.mod refused in/Bad.mod, in/Shares.mod (shares targets or calls with a refused one)";
+    assert!(said.contains(lists), "{said}");
+    let page = std::fs::read_to_string(path.join("r.html")).expect("a page");
+    assert!(page.contains("1 of 3 programs are written, 2 refused: 1 error"));
+    assert!(page.contains("in/Bad.mod, in/Shares.mod"));
+}
