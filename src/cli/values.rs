@@ -190,9 +190,12 @@ pub(super) fn start(text: Option<&str>, profile: &Profile) -> Result<Start, Fail
     })
 }
 
-/// `[NAME=]VALUE`: the name, if there is one, and the value's text.
+/// `[NAME=]VALUE`: the name, if there is one, and the value's text. A name in front of a pose may have
+/// a `=` in it.
 pub(super) fn named(text: &str) -> (Option<String>, &str) {
-    match text.split_once('=') {
+    let last = text.rsplit_once('=');
+    let before_pose = last.filter(|(_, value)| pose(value).is_some());
+    match before_pose.or_else(|| text.split_once('=')) {
         Some((name, value)) => (Some(name.trim().to_owned()), value.trim()),
         None => (None, text.trim()),
     }
@@ -294,4 +297,23 @@ pub(super) fn point(text: &str) -> Option<Vector> {
     let near = |point: &[f64; 3]| point.iter().all(|x| x.abs() <= MOST_POINT_MM);
     let point = list::<3>(text).filter(near)?;
     Some(point.map(m_from_mm))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+
+    #[test]
+    fn a_name_in_front_of_a_pose_may_have_an_equals_sign() {
+        let split = |text: &'static str| {
+            let (name, value) = named(text);
+            (name.unwrap_or_default(), value)
+        };
+        let pose = "1,2,3,0,0,90";
+        assert_eq!(split("nest=2=1,2,3,0,0,90"), ("nest=2".to_owned(), pose));
+        assert_eq!(split("a = 1,2,3,0,0,90"), ("a".to_owned(), pose));
+        assert_eq!(split("1,2,3,0,0,90"), (String::new(), pose));
+        // a tool of the profile
+        assert_eq!(split("a=b=2"), ("a".to_owned(), "b=2"));
+    }
 }
