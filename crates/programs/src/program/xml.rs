@@ -46,21 +46,38 @@ impl<'a> Tag<'a> {
     /// Its attributes in their order; `xsi:type` is another than `type`.
     pub(super) fn attributes(&self) -> impl Iterator<Item = Result<Attribute<'a>, Fault>> {
         let content = self.at + 1;
+        let mut seen = 0_u64;
         let part = move |part: &[u8]| {
             let at = content + (part.as_ptr() as usize - self.start.as_ptr() as usize);
             (at, &self.bytes[at..at + part.len()])
         };
-        self.start.attributes().map(move |attribute| {
-            let fault = |_| Fault::unexpected(self.at..self.end, "a tag with name=\"value\"");
-            let attribute = attribute.map_err(fault)?;
+        // whether a name stands twice is asked where letters and length are those of another
+        let mut all = self.start.attributes();
+        all.with_checks(false);
+        all.map(move |attribute| {
+            let fault = || Fault::unexpected(self.at..self.end, "a tag with name=\"value\"");
+            let attribute = attribute.map_err(|_| fault())?;
             let (start, value) = part(&attribute.value);
+            let name = part(attribute.key.as_ref()).1;
+            let bit = 1_u64 << (mixed(name) & 63);
+            if seen & bit != 0 && self.count(name) > 1 {
+                return Err(fault());
+            }
+            seen |= bit;
             Ok(Attribute {
-                name: part(attribute.key.as_ref()).1,
+                name,
                 value,
                 start,
                 end: start + value.len() + 1,
             })
         })
+    }
+
+    /// How many of its attributes have this name.
+    fn count(&self, name: &[u8]) -> usize {
+        let mut all = self.start.attributes();
+        let named = all.with_checks(false).flatten();
+        named.filter(|one| one.key.as_ref() == name).count()
     }
 
     /// One of them.
@@ -82,6 +99,12 @@ impl<'a> Tag<'a> {
     pub(super) fn behind_name(&self) -> usize {
         self.at + 1 + self.start.name().as_ref().len()
     }
+}
+
+/// A number that differs for most names of one tag.
+fn mixed(name: &[u8]) -> usize {
+    let letter = |at: usize| name.get(at).map_or(0, |byte| usize::from(*byte));
+    letter(0) + 5 * letter(1) + 17 * name.len()
 }
 
 /// What stands in a file.

@@ -110,6 +110,10 @@ impl<'a> Reader<'a> {
             Some(known) if known.kind == Kind::Tool => self.named(&name),
             Some(_) => self.unknown(FRAME_CHOSEN),
             None => {
+                let words = (self.here.project, (name.alias, name.name, name.key));
+                if let Some(known) = self.variables.tools_by_words.get(&words) {
+                    return *known;
+                }
                 let is_flange = name.name == b"flange";
                 let asked = match name.key {
                     _ if is_flange => "flange".to_owned(),
@@ -118,15 +122,17 @@ impl<'a> Reader<'a> {
                 };
                 let meant = self.world.meant_by(self.here.project, name.alias);
                 let asked = (asked, meant);
-                if let Some(known) = self.variables.tools.get(&asked) {
-                    return *known;
-                }
-                let made = self.frame_value(&asked.0, is_flange.then(Pose::identity));
-                if !is_flange {
-                    self.asked.push((made, asked.clone(), self.here.project));
-                }
-                self.variables.tools.insert(asked, made);
-                made
+                let known = self.variables.tools.get(&asked).copied();
+                let tool = known.unwrap_or_else(|| {
+                    let made = self.frame_value(&asked.0, is_flange.then(Pose::identity));
+                    if !is_flange {
+                        self.asked.push((made, asked.clone(), self.here.project));
+                    }
+                    self.variables.tools.insert(asked, made);
+                    made
+                });
+                self.variables.tools_by_words.insert(words, tool);
+                tool
             }
         }
     }

@@ -45,6 +45,9 @@ struct Value {
     variable: Option<VariableId>,
 }
 
+/// How a program names a tool: alias, name, index.
+type Asked<'a> = (&'a [u8], &'a [u8], Option<&'a [u8]>);
+
 /// Variables of the script.
 #[derive(Debug, Default)]
 pub(super) struct Variables<'a> {
@@ -67,6 +70,8 @@ pub(super) struct Variables<'a> {
     pub frames: Vec<Option<Expr>>,
     /// Tools that the files do not have, by the name that is asked for and what has it.
     pub tools: HashMap<(String, String), Expr>,
+    /// The same by project and the words of the program: alias, name, index.
+    pub tools_by_words: HashMap<(u32, Asked<'a>), Expr>,
     /// Configuration data count.
     pub honoured: ValueId,
     /// Index in the script's guards: the path is altered.

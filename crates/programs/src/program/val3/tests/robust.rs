@@ -30,6 +30,26 @@ const MUTATIONS: [(usize, &str); 22] = [
 ];
 
 #[test]
+fn an_attribute_that_stands_twice_is_refused() {
+    for twice in [
+        "x=\"1\" y=\"2\" x=\"1\"",
+        "x=\"1\" note=\"\" y=\"2\" note=\"\"",
+    ] {
+        let value = format!("<Value key=\"0\" {twice} />");
+        let text = dtx(&format!(
+            "<Data name=\"pA\" type=\"pointRx\">{value}</Data>"
+        ));
+        assert!(data_of(text.as_bytes(), 0, 0).is_err(), "{twice}");
+    }
+    // letters that are alike are no names that are
+    let value = "<Value key=\"0\" x=\"1\" ab=\"\" fW=\"\" ba=\"\" />";
+    let text = dtx(&format!(
+        "<Data name=\"pA\" type=\"pointRx\">{value}</Data>"
+    ));
+    assert!(data_of(text.as_bytes(), 0, 0).is_ok());
+}
+
+#[test]
 fn numbers_of_one_value_in_two_tags_are_refused() {
     // the second tag has no y: that of the first would be written where the second ends
     let values =
