@@ -50,7 +50,26 @@ pub(super) struct Row {
     is_first: bool,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// What stands behind a move's positions, from a byte of its text on: mostly the same as behind
+    /// the last one.
+    fn words(&mut self, text: &'a [u8], behind: usize) -> Words {
+        let tail = &text[behind..];
+        if let Some((_, speed_zone)) = self.plain_words.filter(|(known, _)| *known == tail) {
+            return Words {
+                speed_zone,
+                is_plain: true,
+                is_harmless: true,
+                ..Words::default()
+            };
+        }
+        let words = Words::of(text, behind);
+        if words.is_only_plain() {
+            self.plain_words = Some((tail, words.speed_zone));
+        }
+        words
+    }
+
     /// A move; its position starts at `at` of its text.
     pub(super) fn go(&mut self, line: &Line, letter: u8, at: usize) {
         let text = &self.bytes[line.text.clone()];
@@ -68,7 +87,7 @@ impl Reader<'_> {
             behind = span.end;
             points.push((end, span));
         }
-        let mut words = Words::of(text, behind);
+        let mut words = self.words(text, behind);
         let of_middle = middle.map(|middle| words.add(middle)).unwrap_or_default();
         words.against[Why::LineTracking as usize] = self.listing.tracks_line;
         let coordinated = words.against[Why::Coordinated as usize];
@@ -381,6 +400,12 @@ impl Words {
         words
     }
 
+    /// Whether it says how fast and how near to go, and nothing else.
+    fn is_only_plain(&self) -> bool {
+        let says_more = self.wrist_joint || self.may_stop || self.against.contains(&true);
+        self.is_plain && !says_more && self.offsets.is_empty() && self.then.is_empty()
+    }
+
     /// With what stands behind the middle of an arc, but for its offsets, which come back.
     fn add(&mut self, middle: Self) -> Vec<(Axes, Option<Range<usize>>)> {
         for (of, more) in self.against.iter_mut().zip(middle.against) {
@@ -511,6 +536,26 @@ mod tests {
         assert_eq!(words("100mm/sec CR10").speed_zone.zone_m, Some(10.0 * MM));
         let joint = words("50% CNT0").speed_zone;
         assert_eq!((joint.speed_m_s, joint.zone_m), (None, Some(0.0)));
+    }
+
+    #[test]
+    fn only_what_says_no_more_than_speed_and_corner_is_plain() {
+        for plain in ["250mm/sec CNT50", "20% FINE ACC80", "R[3: a b]% CNT0"] {
+            assert!(words(plain).is_only_plain(), "{plain}");
+        }
+        for more in [
+            "FINE Wjnt",
+            "FINE INC",
+            "FINE Skip,LBL[1]",
+            "FINE Offset,PR[1]",
+            "FINE RTCP",
+        ] {
+            assert!(
+                !words(&format!("250mm/sec {more}")).is_only_plain(),
+                "{more}"
+            );
+        }
+        assert!(!words("250mm/sec FINE TB .10sec,CALL A").is_only_plain());
     }
 
     #[test]

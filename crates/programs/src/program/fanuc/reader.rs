@@ -17,7 +17,8 @@ use crate::program::script::{
     Builder, Expr, How, Place, Remark, RoutineId, Script, Start, Variable, VariableId, short,
 };
 use crate::program::{
-    External, ExternalNames, ExternalUse, Layout, ReadError, Shape, Source, Target, TargetId,
+    External, ExternalNames, ExternalUse, Layout, ReadError, Shape, Source, SpeedZone, Target,
+    TargetId,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::BTreeSet;
@@ -76,6 +77,9 @@ pub(super) struct Reader<'a> {
     /// The present program, its file, where it is while it is read, and the present instruction.
     pub listing: Listing,
     pub bytes: &'a [u8],
+    /// What stands behind the positions of the last move that is no more than plain, and how fast and
+    /// how near that goes.
+    pub plain_words: Option<(&'a [u8], SpeedZone)>,
     pub state: State,
     pub place: Place,
     pub controller: Controller,
@@ -224,6 +228,7 @@ fn of_controller(
         builder,
         sources,
         listing: Listing::default(),
+        plain_words: None,
         bytes: &[],
         state: State::default(),
         place: Place::NOWHERE,

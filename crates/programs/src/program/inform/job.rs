@@ -5,7 +5,7 @@
 //! last of PULSE, RECTAN and ANGLE; POSTYPE tells the frame of rectangular ones. (Some posts write
 //! `POSTYPE BASE` behind pulse positions.)
 
-use super::lines::{Line, Lines, add_numbers, after, unexpected, words};
+use super::lines::{Line, Lines, add_numbers, after, other_than_moves, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
 use crate::program::kit::Fault;
 use crate::program::script::{Place, Span, short};
@@ -234,6 +234,15 @@ impl<'a> Positions<'a> {
         &self.headers[self.points[target].header as usize]
     }
 
+    /// The lines of each job's instructions but for plain moves to `C` positions.
+    pub(super) fn other_lines(&self, sources: &'a [Source]) -> Vec<Vec<Line<'a>>> {
+        let of = |job: &Job| {
+            let bytes = &sources[job.file as usize].bytes;
+            other_than_moves(bytes, job.instructions.clone()).collect()
+        };
+        self.jobs.iter().map(of).collect()
+    }
+
     /// Adds the jobs of a file; `false` where it has none.
     pub(super) fn read(&mut self, source: &'a Source, file: u32) -> Result<bool, ReadError> {
         let first = self.jobs.len();
@@ -394,16 +403,23 @@ impl<'a> Positions<'a> {
         if job.named.insert((letter, number), target).is_some() {
             job.twice.insert((letter, number));
         }
-        let name = match letter {
-            Letter::C => format!("C{number:05}"),
-            Letter::P => format!("P{number:03}"),
+        let (width, first) = match letter {
+            Letter::C => (5, 'C'),
+            Letter::P => (3, 'P'),
+        };
+        // mostly it stands there as it is shown
+        let is_shown = digits.len() == width || digits.len() > width && digits[0] != b'0';
+        let name: Box<str> = if is_shown {
+            Source::text(name).into()
+        } else {
+            format!("{first}{number:0width$}").into()
         };
         let numbers = short(start);
         let place = Place::new(job.file, short(line.start));
         let (shape, variant) = layout;
         let layout = Layout { shape, variant };
         self.targets.push(Target {
-            name: Some(name.into()),
+            name: Some(name),
             numbers: numbers..numbers + if has_six { 6 } else { 0 },
             blocked: !has_six,
             ..Target::new(place, short(to), layout)

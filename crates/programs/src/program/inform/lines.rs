@@ -2,6 +2,7 @@
 
 use crate::program::kit::{self, Fault};
 use crate::program::{Number, ReadError, Source, number};
+use std::ops::Range;
 
 /// A line without its end and the blanks around it, and its first byte's place.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +46,16 @@ impl<'a> Iterator for Lines<'a> {
         let text = &text[before..length - behind];
         Some(Line { start, text })
     }
+}
+
+/// The lines between these bytes but for plain moves to `C` positions, which most of a long job are:
+/// what else a job does is looked for several times.
+pub(super) fn other_than_moves(
+    bytes: &[u8],
+    between: Range<usize>,
+) -> impl Iterator<Item = Line<'_>> {
+    let is_move = |line: &Line| matches!(line.text, [b'M', b'O', b'V', _, b' ', b'C', ..]);
+    Lines::from(&bytes[..between.end], between.start).filter(move |line| !is_move(line))
 }
 
 /// Blanks, tabs, and the Ctrl-Z that some editors put at the end.

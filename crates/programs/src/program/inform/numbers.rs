@@ -5,14 +5,14 @@
 //! number is any of what the text writes into it; where a job may read it before it has set it, also
 //! what only the running program knows.
 
-use super::job::Positions;
-use super::lines::{Lines, words};
+use super::job::Job;
+use super::lines::{Line, words};
+use crate::program::number;
 use crate::program::numbers::{
     Blocks, Numbers, Operand as Part, Site, bounds_in, counted, evaluated, rounds,
 };
 use crate::program::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use crate::program::script::VariableId;
-use crate::program::{Source, number};
 use foldhash::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -574,20 +574,17 @@ pub(super) fn place(word: &[u8]) -> Option<usize> {
 
 /// Whether jobs call some that the files do not have, which may write numbers; and whether some run
 /// at the same time.
-pub(super) fn shared(sources: &[Source], positions: &Positions) -> [bool; 2] {
+pub(super) fn shared(jobs: &[Job], lines: &[Vec<Line>]) -> [bool; 2] {
     let mut shared = [false; 2];
-    for job in &positions.jobs {
-        let bytes = &sources[job.file as usize].bytes[..job.instructions.end];
-        for line in Lines::from(bytes, job.instructions.start) {
-            let mut words = words(line.text);
-            let first = words.next().unwrap_or_default();
-            let name = words.next().and_then(|name| name.strip_prefix(b"JOB:"));
-            let is_here = name.is_some_and(|name| positions.jobs.iter().any(|of| of.name == name));
-            match first {
-                b"CALL" => shared[0] |= !is_here,
-                b"PSTART" => shared = [true; 2],
-                _ => shared[0] |= first.starts_with(b"MACRO"),
-            }
+    for line in lines.iter().flatten() {
+        let mut words = words(line.text);
+        let first = words.next().unwrap_or_default();
+        let name = words.next().and_then(|name| name.strip_prefix(b"JOB:"));
+        let is_here = name.is_some_and(|name| jobs.iter().any(|of| of.name == name));
+        match first {
+            b"CALL" => shared[0] |= !is_here,
+            b"PSTART" => shared = [true; 2],
+            _ => shared[0] |= first.starts_with(b"MACRO"),
         }
     }
     shared

@@ -5,7 +5,7 @@
 //! whatever else the text tells is not followed, and has no bound.
 
 use super::instruction::{Effect, Operand, is_actual, is_move, numbered};
-use super::job::{Coordinates, Positions};
+use super::job::Coordinates;
 use super::lines::{Line, Lines, words};
 use super::numbers::{self, Amounts, OF_POSITION};
 use super::reader::Reader;
@@ -16,7 +16,7 @@ use crate::program::quantity::Quantity;
 use crate::program::script::{
     DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, UNBOUNDED, VariableId, Written,
 };
-use crate::program::{Number, Source, TargetId, number};
+use crate::program::{Number, TargetId, number};
 use foldhash::{HashSet, HashSetExt};
 
 /// Angles in variables count in ten-thousandths of a degree.
@@ -43,18 +43,15 @@ pub(super) struct Computed {
 }
 
 /// The variables with numbers (`D005`) that the text of all jobs writes.
-pub(super) fn known_numbers<'a>(sources: &'a [Source], positions: &Positions) -> HashSet<&'a [u8]> {
+pub(super) fn known_numbers<'a>(lines: &[Vec<Line<'a>>]) -> HashSet<&'a [u8]> {
     let mut written_parts = HashSet::new();
-    for job in &positions.jobs {
-        let bytes = &sources[job.file as usize].bytes[..job.instructions.end];
-        for line in Lines::from(bytes, job.instructions.start) {
-            let mut words = words(line.text);
-            let (first, second) = (words.next(), words.next());
-            if let Some((first, second)) = first.zip(second)
-                && !OF_ROBOT.contains(&first)
-            {
-                written_parts.insert(second);
-            }
+    for line in lines.iter().flatten() {
+        let mut words = words(line.text);
+        let (first, second) = (words.next(), words.next());
+        if let Some((first, second)) = first.zip(second)
+            && !OF_ROBOT.contains(&first)
+        {
+            written_parts.insert(second);
         }
     }
     written_parts

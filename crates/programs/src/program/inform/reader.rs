@@ -27,6 +27,7 @@ pub(super) fn script<'a>(
     conditions: &Conditions,
     external_names: &'a ExternalNames,
 ) -> Script {
+    let lines = positions.other_lines(sources);
     let mut builder = Builder::default();
     let variables = Variables::of(&mut builder, &positions, conditions);
     let named = vec![false; positions.targets.len()];
@@ -50,10 +51,10 @@ pub(super) fn script<'a>(
         shifts: false,
         here: Here::default(),
         external_names,
-        several_robots: are_of_several_robots(sources, &positions.jobs),
-        written_external: written_external(sources, &positions),
-        given_frames: given(sources, &positions),
-        known_numbers: known_numbers(sources, &positions),
+        several_robots: are_of_several_robots(sources, &positions.jobs, &lines),
+        written_external: written_external(&lines),
+        given_frames: given(&positions.jobs, &lines),
+        known_numbers: known_numbers(&lines),
         written_parts: HashSet::new(),
         written_any: HashSet::new(),
         added: Vec::new(),
@@ -72,10 +73,10 @@ pub(super) fn script<'a>(
         reader.names.entry(job.name).or_default().push(routine);
     }
     [reader.numbers.calls_others, reader.numbers.is_concurrent] =
-        shared(sources, &reader.positions);
+        shared(&reader.positions.jobs, &lines);
     reader.declare_numbers();
     for job in 0..reader.positions.jobs.len() {
-        reader.job(job);
+        reader.job(job, &lines[job]);
     }
     reader.finish()
 }
@@ -161,12 +162,9 @@ pub(super) struct Reader<'a> {
 type WrittenExternal = ([u8; 2], Option<u32>);
 
 /// The variables with axes of a base or a station that the instructions of all jobs write.
-fn written_external(sources: &[Source], positions: &Positions) -> HashSet<WrittenExternal> {
-    let lines = positions.jobs.iter().flat_map(|job| {
-        let bytes = &sources[job.file as usize].bytes;
-        Lines::from(&bytes[..job.instructions.end], job.instructions.start)
-    });
-    let is_comment = |line: &Line| matches!(line.text, [b'\'' | b'/', ..]);
+fn written_external(lines: &[Vec<Line>]) -> HashSet<WrittenExternal> {
+    let lines = lines.iter().flatten();
+    let is_comment = |line: &&Line| matches!(line.text, [b'\'' | b'/', ..]);
     let written = lines.filter(|line| !is_comment(line)).filter_map(|line| {
         let mut words = words(line.text);
         let (first, second) = (words.next()?, words.next()?);
@@ -181,11 +179,11 @@ fn written_external(sources: &[Source], positions: &Positions) -> HashSet<Writte
 }
 
 impl<'a> Reader<'a> {
-    fn job(&mut self, job: usize) {
+    fn job(&mut self, job: usize, others: &[Line]) {
         let (sources, of) = (self.sources, &self.positions.jobs[job]);
         let source = &sources[of.file as usize];
         let range = of.instructions.clone();
-        let (relative, of_station) = is_relative(&source.bytes[range.clone()]);
+        let (relative, of_station) = is_relative(others);
         let (builder, given) = (&mut self.builder, &self.given_frames);
         self.here = Here {
             job,

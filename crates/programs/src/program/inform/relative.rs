@@ -2,8 +2,8 @@
 //! stations, and those to which a call gives a frame.
 
 use super::instruction::numbered;
-use super::job::{Header, Job, Origin, Positions};
-use super::lines::{Lines, words};
+use super::job::{Header, Job, Origin};
+use super::lines::{Line, words};
 use super::variables::always;
 use crate::program::Source;
 use crate::program::script::{Builder, Place, Remark, VariableId, short};
@@ -19,11 +19,10 @@ pub(super) struct Given<'a> {
 }
 
 /// Those calls of all jobs.
-pub(super) fn given<'a>(sources: &'a [Source], positions: &Positions) -> Vec<Given<'a>> {
+pub(super) fn given<'a>(jobs: &[Job], lines: &[Vec<Line<'a>>]) -> Vec<Given<'a>> {
     let mut found = Vec::new();
-    for job in &positions.jobs {
-        let bytes = &sources[job.file as usize].bytes[..job.instructions.end];
-        for line in Lines::from(bytes, job.instructions.start) {
+    for (job, lines) in jobs.iter().zip(lines) {
+        for line in lines {
             let mut words = words(line.text);
             let is_call = matches!(words.next(), Some(b"CALL" | b"JUMP" | b"PSTART"));
             let name = words.next().filter(|_| is_call);
@@ -89,16 +88,10 @@ impl Frames {
 
 /// Whether jobs move more than one robot: `///GROUP1 RB1` and `///GROUP1 RB2`. Jobs that are given
 /// for what they declare count for nothing.
-pub(super) fn are_of_several_robots(sources: &[Source], jobs: &[Job]) -> bool {
-    let jobs = jobs.iter().map(|job| (&sources[job.file as usize], job));
-    let heads = jobs
-        .filter(|(source, _)| !source.is_context)
-        .flat_map(|(source, job)| {
-            Lines::from(
-                &source.bytes[..job.instructions.end],
-                job.instructions.start,
-            )
-        });
+pub(super) fn are_of_several_robots(sources: &[Source], jobs: &[Job], lines: &[Vec<Line>]) -> bool {
+    let is_own = |(job, _): &(&Job, _)| !sources[job.file as usize].is_context;
+    let own = jobs.iter().zip(lines).filter(is_own);
+    let heads = own.flat_map(|(_, lines)| lines);
     let groups = heads.filter_map(|line| line.text.strip_prefix(b"///GROUP1"));
     let robots = groups.flat_map(|group| group.split(|b| b.is_ascii_whitespace() || *b == b','));
     let mut robots = robots.filter(|word| word.starts_with(b"RB"));
@@ -108,8 +101,12 @@ pub(super) fn are_of_several_robots(sources: &[Source], jobs: &[Job]) -> bool {
 
 /// Whether the head of a job says that it is relative: `///ATTR SC,RW,RJ`; and whether it is to a
 /// station: there is a group `ST1`.
-pub(super) fn is_relative(job: &[u8]) -> (bool, bool) {
-    let head = || Lines::from(job, 0).filter_map(|line| line.text.strip_prefix(b"///"));
+pub(super) fn is_relative(lines: &[Line]) -> (bool, bool) {
+    let head = || {
+        lines
+            .iter()
+            .filter_map(|line| line.text.strip_prefix(b"///"))
+    };
     let has = |line: &[u8], is: &dyn Fn(&[u8]) -> bool| {
         let mut words = line.split(|b| b.is_ascii_whitespace() || *b == b',');
         words.any(is)
