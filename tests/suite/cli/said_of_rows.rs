@@ -21,6 +21,22 @@ fn run(folder: &Path, command: &str) -> (Option<i32>, String, String) {
     )
 }
 
+/// A folder with the thesis's robot, and measurements of 60 of its postures, with these options.
+fn measured(options: &str) -> tempfile::TempDir {
+    let folder = scratch();
+    std::fs::copy(repository(THESIS), folder.path().join("p.yaml")).expect("scratch");
+    for command in [
+        "plan --profile p.yaml --count 60 -o j.csv".to_owned(),
+        format!(
+            "simulate --profile p.yaml --joints j.csv --noise-mm 0.02 --seed 3{options} -o m.csv"
+        ),
+    ] {
+        let (status, _, reported) = run(folder.path(), &command);
+        assert_eq!(status, Some(0), "{command}: {reported}");
+    }
+    folder
+}
+
 /// The profile with another text in it.
 fn with(folder: &Path, from: &str, to: &str) {
     let text = std::fs::read_to_string(repository(THESIS)).expect("the profile");
@@ -61,4 +77,33 @@ fn a_coupling_is_given_once_and_shown() {
         reported.contains("the coupling of joint 3 on joint 2 stands twice"),
         "{reported}"
     );
+}
+
+#[test]
+fn rows_that_stand_six_times_count_six_times() {
+    let folder = measured("");
+    let text = std::fs::read_to_string(folder.path().join("m.csv")).expect("rows");
+    let (header, rows) = text.split_once('\n').expect("a header");
+    std::fs::write(
+        folder.path().join("m.csv"),
+        format!("{header}\n{}", rows.repeat(6)),
+    )
+    .expect("scratch");
+    let (_, _, reported) = run(
+        folder.path(),
+        "validate --profile p.yaml --measurements m.csv",
+    );
+    assert!(reported.contains("they count up to 6 times"), "{reported}");
+}
+
+#[test]
+fn an_angle_that_is_too_large_is_said_as_it_was_given() {
+    let folder = scratch();
+    std::fs::copy(repository(THESIS), folder.path().join("p.yaml")).expect("scratch");
+    let (status, _, reported) = run(
+        folder.path(),
+        "plan --profile p.yaml --count 60 --margin-deg 500",
+    );
+    assert_eq!(status, Some(2), "{reported}");
+    assert!(reported.contains("--margin-deg is 500;"), "{reported}");
 }
