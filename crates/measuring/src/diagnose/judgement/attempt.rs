@@ -1,6 +1,7 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be
 //! questioned.
 
+use super::in_a_row::{InARow, beyond, in_a_row};
 use super::instead::{Instead, instead};
 use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
@@ -18,7 +19,6 @@ use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
-use crate::identify::robust::limit;
 use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::profile::Profile;
 
@@ -66,6 +66,8 @@ pub(crate) struct Attempt {
     pub outdone: Vec<(usize, Unknown)>,
     /// What is no effect and may be in the place of one found.
     pub instead: Vec<Instead>,
+    /// Rows one after another that fit no model.
+    pub in_a_row: Vec<InARow>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
     /// Effects of the profile that were fitted again and are not what they were.
@@ -188,14 +190,7 @@ fn louder(
 fn without_outliers(session: &Session, (refit, fit): (&Refit, &Fit), used: &[bool]) -> (f64, f64) {
     let layout = &session.layout;
     let in_use: Vec<usize> = (0..layout.rows()).filter(|row| used[*row]).collect();
-    let is_outlier = |row: &&usize| {
-        let range = layout.row(**row);
-        let squared = dot(
-            &refit.residual[range.clone()],
-            &refit.residual[range.clone()],
-        );
-        squared.sqrt() > OUTLIER * limit(range.len()) * refit.scale
-    };
+    let is_outlier = |row: &&usize| beyond(layout, refit, **row).is_some();
     let outliers: Vec<usize> = in_use.iter().filter(is_outlier).copied().collect();
     if outliers.is_empty() || outliers.len() as f64 > MOST_OUTLIERS * in_use.len() as f64 {
         return (refit.scale, refit.freedom);
@@ -295,6 +290,7 @@ pub(crate) fn attempt(
     let loudness = without_outliers(&session, (&refit, &fit), &used);
     let outdone = outdone((&session, &used), &library, &chosen, &refit);
     let instead = instead(&session, &used, &chosen);
+    let in_a_row = in_a_row(&session, &refit, measurements);
     let strained = strain(trust, &refit);
     let changed = changed(session.start(), profile, (&refit, &fit));
     // with what was found: it may have changed from one repetition to the next
@@ -313,6 +309,7 @@ pub(crate) fn attempt(
             unknown,
             outdone,
             instead,
+            in_a_row,
             likeness,
             strained,
             changed,

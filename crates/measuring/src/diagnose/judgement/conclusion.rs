@@ -1,7 +1,9 @@
 //! What an attempt's outcome means: effects with their evidence, alternatives, objections, the
 //! verdict, and the improved profile.
 
-use super::attempt::{Attempt, OUTLIER};
+use super::accepted::not_taken;
+use super::attempt::Attempt;
+use super::in_a_row::beyond;
 use super::poses::{Telling, telling};
 use super::whereabouts::spots;
 use super::{Judged, Standing, is_seldom, judge, stand};
@@ -9,7 +11,7 @@ use crate::diagnose::diagnosis::{
     Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
 use crate::diagnose::estimator::refit::refit;
-use crate::diagnose::estimator::table::lengths_m;
+use crate::diagnose::estimator::table::{dot, lengths_m};
 use crate::diagnose::outside::chance;
 use crate::diagnose::proof::improved::improved;
 use crate::diagnose::proof::{Proof, held_out};
@@ -21,9 +23,9 @@ use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
+use crate::identify::off::Off;
 use crate::identify::pick::Pick;
-use crate::identify::problem::Estimate;
-use crate::identify::robust::limit;
+use crate::identify::problem::{Estimate, Row};
 use crate::identify::statistics::Spread;
 use crate::model::effects::{Effect, Kind, Seen, of_arm};
 use crate::profile::Profile;
@@ -87,6 +89,12 @@ pub(crate) fn conclude(
     });
     let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
     let (noise_m, noise_source, residual_m) = noise(attempt);
+    let together: Vec<_> = attempt
+        .in_a_row
+        .iter()
+        .map(|own| own.rows.clone())
+        .collect();
+    let offs = offs(attempt);
     let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
     Ok(Diagnosis {
@@ -116,6 +124,7 @@ pub(crate) fn conclude(
             &used,
             &session.present,
             attempt.refit.scale,
+            &together,
         ),
         cannot_test: session.candidates.cannot_test.clone(),
         absorbed: attempt.trust == Trust::Nothing,
@@ -133,9 +142,12 @@ pub(crate) fn conclude(
             &used,
             &attempt.refit.residual,
             attempt.refit.scale,
+            &together,
         ),
         judged: proof.judged().filter(|_| !attempt.chosen.is_empty()),
-        outliers: outliers(attempt, measurements, &residual_lengths),
+        not_taken: not_taken(attempt, &world),
+        outliers: outliers(attempt, measurements, &offs),
+        offs,
         remarks,
         lengths: (present_lengths, residual_lengths),
         profile: improved(profile, session, &written.0, &written.1),
@@ -273,20 +285,30 @@ fn alternatives(attempt: &Attempt) -> Vec<Alternative> {
     alternatives
 }
 
+/// How far each row is off with what was found.
+fn offs(attempt: &Attempt) -> Vec<Off> {
+    let (problem, layout) = (&attempt.session.problem, &attempt.session.layout);
+    let of = |(row, own): (usize, &Row)| {
+        let residual = &attempt.refit.residual[layout.row(row)];
+        let (place, turned) = residual.split_at(residual.len().min(3));
+        let length = |part: &[f64]| dot(part, part).sqrt();
+        let angle = (!turned.is_empty()).then(|| length(turned) * own.sigma_rad);
+        Off::new(own, length(place) * own.sigma_m, angle)
+    };
+    problem.rows.iter().enumerate().map(of).collect()
+}
+
 /// Rows that what was found does not explain, the farthest first.
-fn outliers(attempt: &Attempt, measurements: &Measurements, residual_m: &[f64]) -> Vec<OutlierRow> {
+fn outliers(attempt: &Attempt, measurements: &Measurements, offs: &[Off]) -> Vec<OutlierRow> {
     let (layout, refit) = (&attempt.session.layout, &attempt.refit);
     let mut outliers = Vec::new();
     for (row, m) in measurements.rows.iter().enumerate() {
-        let range = layout.row(row);
-        let squares = refit.residual[range.clone()].iter().map(|r| r * r);
-        let length = squares.sum::<f64>().sqrt();
-        if length > OUTLIER * limit(range.len()) * refit.scale {
+        if let Some(times) = beyond(layout, refit, row) {
             outliers.push(OutlierRow {
                 line: m.line.clone(),
                 id: m.id.clone(),
-                length_m: residual_m[row],
-                times: length / refit.scale,
+                off: offs[row],
+                times,
             });
         }
     }
