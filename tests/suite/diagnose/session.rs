@@ -6,6 +6,7 @@ use super::group;
 use super::standing::{found, moved};
 use crate::trial::{Case, case};
 use poseshift::diagnose::{Diagnosis, Options, Standing, Verdict};
+use poseshift::geometry::Pose;
 use poseshift::model::Conditions;
 
 /// A session of nothing but noise in which a joint is elsewhere, by this angle in radians from the
@@ -215,4 +216,54 @@ fn the_command_ends_with_one_where_rows_in_a_row_fit_no_model() {
     let (status, out, error) = by_command(&case, &[]);
     assert_eq!(status, 1, "{error}");
     assert!(out.contains("lines 142 to 151"), "{out}");
+}
+
+/// A session of nothing but noise whose rows from this one on a device sees that was moved so.
+fn stepped(elsewhere: Pose, step: Pose, first: usize) -> Case {
+    let base = case(group("clean"), 0, 4, 150);
+    let name = base.profile.tools.keys().next().expect("its tool").clone();
+    let tool = base.profile.tool(&name).expect("its tool");
+    let model = base.profile.real_model(&tool, &Conditions::default());
+    moved(base, |row, degrees| {
+        let q = degrees.map(f64::to_radians);
+        let place = model.forward(&q, &Conditions::default()).translation;
+        let mut seen = elsewhere.transform(place);
+        if row + 1 >= first {
+            seen = step.transform(seen);
+        }
+        std::array::from_fn(|k| 1e3 * (seen[k] - place[k]))
+    })
+}
+
+#[test]
+fn a_large_step_of_the_device_is_solved_until_it_rests() {
+    let here = Pose::identity();
+    let elsewhere = Pose::from_xyz_rxryrz([2.1, -0.7, 0.3, 0.0, 0.0, 0.9]);
+    let turned = Pose::from_xyz_rxryrz([0.3, 0.2, 0.0, 0.0, 0.0, 10_f64.to_radians()]);
+    let far = Pose::from_xyz_rxryrz([0.06, 0.03, 0.0, 0.0, 0.0, 0.0]);
+    let farther = Pose::from_xyz_rxryrz([0.3, -0.15, 0.0, 0.0, 0.0, 0.0]);
+    for (at, step, first) in [
+        (here, turned, 76),
+        (here, far, 76),
+        (elsewhere, turned, 76),
+        (elsewhere, far, 76),
+        // of few rows, and of most
+        (here, farther, 111),
+        (here, farther, 51),
+    ] {
+        let case = stepped(at, step, first);
+        let d = diagnosed(&case);
+        let labels: Vec<String> = d.found.iter().map(|f| f.effect.label()).collect();
+        assert_eq!(labels, [format!("frame_shift row {first}")], "{step:?}");
+        // the noise, and nothing of the step
+        assert!(d.residual_m < 1.1 * d.noise_m, "{}", d.residual_m);
+        assert!(d.reasons.iter().all(|r| !r.contains("no arm has")));
+        // the arm and its tool are as they were
+        for effect in &d.profile.effects {
+            let before = case.profile.effects.iter().find(|e| e.same_place(effect));
+            let before = before.map_or([0.0; 6], |e| e.parameters);
+            let off = (effect.parameters.iter().zip(before)).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 2e-5, "{}", effect.label());
+        }
+    }
 }

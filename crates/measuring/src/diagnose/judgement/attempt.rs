@@ -12,6 +12,7 @@ use crate::diagnose::estimator::refit::{Changed, Last, Refit, changed, moved, re
 use crate::diagnose::estimator::table::{Column, dot};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
+use crate::diagnose::question::shifts::Shifts;
 use crate::diagnose::question::{Session, Trust, for_choice, session};
 use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
@@ -28,6 +29,8 @@ const UNKNOWN_BETTER: f64 = 14.0;
 const UNKNOWN_PART: f64 = 0.01;
 /// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
+/// Turns in which a large step of the device settles.
+const SETTLING: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
 pub(crate) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
@@ -241,6 +244,28 @@ fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refi
     refit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
 }
 
+/// The effects found in a session, with values of lists nearer to them and waves of the residual.
+fn searched(session: &mut Session, used: &[bool], options: &Options) -> Vec<Chosen> {
+    let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
+    let has_order = |pick: &&Pick| {
+        let kind = pick.kind.map(Kind::definition);
+        kind.is_some_and(|definition| definition.site.contains(&SiteKey::Order))
+    };
+    let is_new = |effect: &Effect| session.candidates.is_new(effect);
+    let asked = options.accept.iter().filter(has_order);
+    let asked: Vec<Effect> = asked.flat_map(Pick::effects).filter(is_new).collect();
+    (session.candidates).add_waves(&session.problem, &session.about, asked);
+    let mut chosen = session.first(&session.world(used, &options.accept));
+    for round in 0..ROUNDS {
+        let world = session.world(used, &options.accept);
+        chosen = world.search(chosen);
+        if round + 1 == ROUNDS || !session.refine(&chosen, used, &leave) {
+            break;
+        }
+    }
+    by_gain(chosen)
+}
+
 /// Searches on one set of assumptions, and asks what of the outcome must be questioned.
 ///
 /// # Errors
@@ -254,30 +279,31 @@ pub(crate) fn attempt(
 ) -> Result<(Attempt, Vec<Remark>), IdentifyError> {
     let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
     progress("fitting frames and geometry");
-    let (mut session, remarks) = session(profile, measurements, trust, &leave)?;
     let used = for_choice(measurements);
-    progress("trying every effect");
-    let has_order = |pick: &&Pick| {
-        let kind = pick.kind.map(Kind::definition);
-        kind.is_some_and(|definition| definition.site.contains(&SiteKey::Order))
+    let mut anew = |shifts: &Shifts| {
+        let (mut session, remarks) = session(profile, measurements, trust, &leave, shifts)?;
+        progress("trying every effect");
+        let chosen = searched(&mut session, &used, options);
+        Ok::<_, IdentifyError>((session, remarks, chosen))
     };
-    let is_new = |effect: &Effect| session.candidates.is_new(effect);
-    let asked = options.accept.iter().filter(has_order);
-    let asked: Vec<Effect> = asked.flat_map(Pick::effects).filter(is_new).collect();
-    (session.candidates).add_waves(&session.problem, &session.estimate, asked);
-    let mut chosen = Vec::new();
-    for round in 0..ROUNDS {
-        let world = session.world(&used, &options.accept);
-        chosen = world.search(chosen);
-        if round + 1 == ROUNDS || !session.refine(&chosen, &used, &leave) {
+    let mut shifts = Shifts::default();
+    let (mut session, mut remarks, mut chosen) = anew(&shifts)?;
+    // a large step is solved before others are sought
+    for _ in 0..SETTLING {
+        let own = (profile, measurements);
+        let Some(next) = shifts.next(own, &session, &chosen, &used) else {
             break;
+        };
+        match anew(&next) {
+            Ok(found) if next.are_among(&found.2) => (session, remarks, chosen) = found,
+            _ => break,
         }
+        shifts = next;
     }
-    let chosen = by_gain(chosen);
     progress("fitting what was found");
     let (refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");
-    let library = Library::of(&session.problem, &session.estimate);
+    let library = Library::of(&session.problem, &session.about);
     let Last { fit, columns } = last;
     let given = Given::of((&fit, &columns), &fit, &[]);
     let kept = [given.kept(&[])];

@@ -15,7 +15,7 @@ use crate::diagnose::estimator::table::{dot, lengths_m};
 use crate::diagnose::outside::chance;
 use crate::diagnose::proof::improved::improved;
 use crate::diagnose::proof::{Proof, held_out};
-use crate::diagnose::question::{Trust, for_choice};
+use crate::diagnose::question::{Session, Trust, for_choice};
 use crate::diagnose::search::candidates::{Candidate, range};
 use crate::diagnose::search::stand_ins::{StandIn, impossible, stand_ins};
 use crate::diagnose::search::{Chosen, Scored};
@@ -36,6 +36,8 @@ use rayon::prelude::*;
 const NEARLY: f64 = 6.0;
 /// Or where its gain is this part of that of the effect found.
 const NEARLY_PART: f64 = 0.95;
+/// Metres or radians below this are roundings.
+const ROUNDING: f64 = 1e-12;
 /// Configurations that tell alternatives apart.
 const TELLING: usize = 12;
 /// A row is followed where so much of its own numbers is in its expectation.
@@ -226,7 +228,7 @@ fn effects(
     };
     let of = |(i, chosen): (usize, &Chosen)| {
         let place = &refit.estimate.effects[refit.places[i]];
-        let mut effect = since(place, &refit.estimate, &attempt.session.present_estimate);
+        let mut effect = since(place, &refit.estimate, &attempt.session);
         effect.site = chosen.candidate.effect.site.clone();
         let parameters = chosen.values.len() + chosen.candidate.chosen;
         let asked_for = |p: &Pick| p.means(&chosen.candidate.effect);
@@ -251,7 +253,8 @@ fn effects(
 }
 
 /// An effect as it is reported: of a frame how it stands in `now` from where it stood before.
-fn since(effect: &Effect, now: &Estimate, before: &Estimate) -> Effect {
+fn since(effect: &Effect, now: &Estimate, session: &Session) -> Effect {
+    let before = &session.present_estimate;
     let mut moved = effect.clone();
     let stood = |of: &Estimate, own: Option<&Effect>| {
         let deviation =
@@ -262,9 +265,17 @@ fn since(effect: &Effect, now: &Estimate, before: &Estimate) -> Effect {
         }
     };
     if matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame) {
-        let known = before.effects.iter().find(|e| e.same_place(effect));
+        // a tool that was fitted before is still where the profile has it
+        let mut known = if effect.kind == Kind::ToolFrame {
+            session.problem.profile.effects.iter()
+        } else {
+            before.effects.iter()
+        };
+        let known = known.find(|e| e.same_place(effect));
         let by = stood(before, known).inverse() * stood(now, Some(effect));
-        moved.parameters = by.xyz_rxryrz();
+        // a part that did not move is zero, without roundings
+        let part = |x: f64| if x.abs() < ROUNDING { 0.0 } else { x };
+        moved.parameters = by.xyz_rxryrz().map(part);
     }
     moved
 }
