@@ -267,3 +267,23 @@ fn a_large_step_of_the_device_is_solved_until_it_rests() {
         }
     }
 }
+
+#[test]
+fn the_uncertainty_of_a_drift_counts_its_constant() {
+    // a row in 45 s, and up to 5 s more
+    let (angle, constant) = (3e-4, 2250.0);
+    let (mut of_angle, mut of_constant, mut count) = (0.0, 0.0, 0.0);
+    for seed in 1..17 {
+        let drift = |row: usize| angle * (1.0 - (-(45.0 * row as f64 + 2.5) / constant).exp());
+        let d = diagnosed(&turning(seed, 2, drift));
+        let one = d.found.iter().find(|f| is_drift(f)).expect("a drift");
+        assert_eq!((one.effect.site.index, &one.sought[..]), (2, &[0][..]));
+        let (number, sigma) = one.listed.expect("a constant that was chosen");
+        of_angle += ((one.effect.parameters[0] - angle) / one.sigmas[0]).powi(2);
+        of_constant += ((one.effect.parameters[number] - constant) / sigma).powi(2);
+        count += 1.0;
+    }
+    let [angle, constant] = [of_angle, of_constant].map(|sum: f64| (sum / count).sqrt());
+    assert!((0.5..1.6).contains(&angle), "{angle} {constant}");
+    assert!((0.5..1.6).contains(&constant), "{angle} {constant}");
+}

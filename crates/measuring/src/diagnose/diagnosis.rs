@@ -110,6 +110,8 @@ pub struct Found {
     pub sought: Vec<usize>,
     /// Standard deviations of those, SI.
     pub sigmas: Vec<f64>,
+    /// The parameter that was chosen from a list, and its standard deviation, SI.
+    pub listed: Option<(usize, f64)>,
     /// Fall of chi-squared when it is added to the others.
     pub gain: f64,
     /// Probability of that by chance, times the number of tests made.

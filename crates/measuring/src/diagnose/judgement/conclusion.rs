@@ -233,9 +233,13 @@ fn effects(
         let parameters = chosen.values.len() + chosen.candidate.chosen;
         let asked_for = |p: &Pick| p.means(&chosen.candidate.effect);
         Found {
-            effect,
             sought: chosen.candidate.sought.clone(),
             sigmas: refit.sigmas[i].clone(),
+            listed: (effect.definition().listed()).and_then(|(number, _)| {
+                let sigma = refit.chosen_sigmas[i].filter(|s| s.is_finite());
+                sigma.map(|sigma| (number, sigma))
+            }),
+            effect,
             gain: chosen.gain,
             p_value: corrected(chosen.gain, parameters, chosen.candidate.peers),
             bic: chosen.gain - parameters as f64 * refit.freedom.ln(),
