@@ -7,12 +7,13 @@ use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
 use crate::finding::Finding;
 use crate::geometry::add;
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
 use crate::identify::calibration::{
     Calibration as Found, Options as Identification, STRONG_CORRELATION,
     calibrate_telling as identify,
 };
+use crate::identify::off::Off;
 use crate::identify::parameters::Selection;
 use crate::identify::plates::calibrate_plates;
 use crate::identify::statistics::misses;
@@ -61,14 +62,20 @@ pub struct Outlier {
     pub line: usize,
     /// Its id.
     pub id: String,
-    /// Measured minus expected.
+    /// Measured minus expected, of the place.
     pub residual_mm: f64,
+    /// Of the orientation, of a pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_deg: Option<f64>,
     /// How many times the typical residual it is.
     pub times_typical: f64,
     /// From how many on a row is an outlier.
     pub limit: f64,
     /// The weight it had, 0 to 1.
     pub weight: f64,
+    /// The part that is wrong in words.
+    #[serde(skip)]
+    pub off: String,
     /// The same in a sentence.
     pub reason: String,
     /// Its file.
@@ -310,8 +317,9 @@ fn is_of_plates(found: &Found) -> bool {
 
 fn worst_row(found: &Found) -> Option<WorstRow> {
     let after = misses(&found.problem, &found.solution.estimate);
-    let lengths = after.iter().map(|miss| miss.length_m);
-    WorstRow::of(&found.problem.rows, &found.fit, lengths)
+    let rows = &found.problem.rows;
+    let offs = rows.iter().zip(&after);
+    WorstRow::of(rows, &found.fit, offs.map(|(row, miss)| Off::of(row, miss)))
 }
 
 impl Calibration {
@@ -462,18 +470,20 @@ fn correlations(found: &Found) -> Vec<Correlation> {
 
 fn outliers(found: &Found) -> Vec<Outlier> {
     let one = |o: &crate::identify::calibration::Outlier| {
-        let residual_mm = mm_from_m(o.length_m);
+        let off = o.off.words();
         Outlier {
             line: o.line.number,
             id: o.id.clone(),
-            residual_mm,
+            residual_mm: mm_from_m(o.off.length_m),
+            residual_deg: o.off.angle_rad.map(|angle| angle / DEG),
             times_typical: o.times,
             limit: o.limit,
             weight: o.weight,
             reason: format!(
-                "residual {residual_mm:.3} mm is {:.1} times the typical one; the limit is {:.1}",
+                "residual {off} is {:.1} times the typical one; the limit is {:.1}",
                 o.times, o.limit
             ),
+            off,
             file: (&o.line).into(),
         }
     };

@@ -8,6 +8,7 @@ use crate::identify::Line;
 use crate::identify::identifiability::Observability as Indices;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
+use crate::identify::off::Off;
 use crate::identify::problem;
 use crate::identify::statistics as of;
 use crate::register::frame_file::Sigma as Six;
@@ -329,27 +330,42 @@ impl Quality {
 pub struct WorstRow {
     /// Line, from 1.
     pub line: usize,
-    /// Measured minus expected.
+    /// Measured minus expected, of the place.
     pub residual_mm: f64,
+    /// Of the orientation, of a pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_deg: Option<f64>,
+    /// The part that is wrong in words.
+    #[serde(skip)]
+    pub off: String,
     /// Its file.
     #[serde(flatten)]
     pub file: File,
 }
 
 impl WorstRow {
-    /// Of a problem's rows and the lengths of their residuals, metres; `None` of no rows.
+    /// Whether it is its place that is wrong.
+    #[must_use]
+    pub fn is_of_place(&self) -> bool {
+        self.off.ends_with(" mm")
+    }
+
+    /// Of a problem's rows and how far each is off; `None` of no rows.
     #[must_use]
     pub fn of(
         rows: &[problem::Row],
         measurements: &Measurements,
-        lengths_m: impl IntoIterator<Item = f64>,
+        offs: impl IntoIterator<Item = Off>,
     ) -> Option<Self> {
-        let each = rows.iter().zip(lengths_m).filter(|(_, m)| m.is_finite());
-        let (row, length_m) = each.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let each = rows.iter().zip(offs);
+        let each = each.filter(|(_, off)| off.size_m().is_finite());
+        let (row, off) = each.max_by(|a, b| a.1.size_m().total_cmp(&b.1.size_m()))?;
         let line = &measurements.rows[row.measurement].line;
         Some(Self {
             line: line.number,
-            residual_mm: mm_from_m(length_m),
+            residual_mm: mm_from_m(off.length_m),
+            residual_deg: off.angle_rad.map(|angle| angle / DEG),
+            off: off.words(),
             file: line.into(),
         })
     }

@@ -10,6 +10,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
 use crate::identify::measurements::{Measurement, Measurements, Purpose};
+use crate::identify::off::Off;
 use crate::identify::plates::validate_plates;
 use crate::identify::validation::{
     self, Folds as Leaving, Refit, Validation as Found, validate_telling,
@@ -390,7 +391,8 @@ fn of_found(
         worst_row: WorstRow::of(
             &found.problem.rows,
             &found.measurements,
-            found.real.misses.iter().map(|miss| miss.length_m),
+            (found.problem.rows.iter().zip(&found.real.misses))
+                .map(|(row, miss)| Off::of(row, miss)),
         ),
         profile_sha256: file.sha256.clone(),
         plates: None,

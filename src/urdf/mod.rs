@@ -37,6 +37,7 @@ pub use error::UrdfError;
 pub use export::{Drawing, is_name, urdf_text};
 #[cfg(feature = "cli")]
 pub(crate) use text::is_xacro;
+pub use tree::MOST_M;
 pub use write::{About, Meshes, profile_text};
 
 use crate::geometry::{Pose, Vector};

@@ -17,7 +17,7 @@ const MOST_LIMIT_RAD: f64 = 3600.0 * DEG;
 /// No frame is rotated beyond this about an axis: one revolution, and some rounding.
 const MOST_ANGLE_RAD: f64 = 361.0 * DEG;
 /// No frame is farther from the one before, and no shape larger, metres.
-const MOST_M: f64 = 1000.0;
+pub const MOST_M: f64 = 1000.0;
 /// No link is heavier, kg.
 const MOST_MASS_KG: f64 = 1e4;
 /// Names that a flange has by convention, best first.

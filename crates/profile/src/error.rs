@@ -141,6 +141,14 @@ pub enum Fault {
         /// The joint counted in.
         on: usize,
     },
+    /// A coupling that stands there twice.
+    #[error("the coupling of joint {joint} on joint {on} stands twice in `coupling`")]
+    DuplicateCoupling {
+        /// The joint.
+        joint: usize,
+        /// The joint counted in.
+        on: usize,
+    },
     /// Neither three angles nor a quaternion, or both.
     #[error("a pose has either rx_deg, ry_deg and rz_deg, or quaternion: [w, x, y, z]")]
     Orientation,

@@ -449,6 +449,14 @@ fn couplings(entries: &[Spanned<file::CouplingFile>]) -> Result<Vec<Coupling>, P
             index("joint", entry.value.joint, at)?,
             index("on", entry.value.on, at)?,
         );
+        let is_same = |(c, _): &(Coupling, _)| c.joint == joint && c.on == on;
+        if waiting.iter().any(is_same) {
+            return Err(Fault::DuplicateCoupling {
+                joint: joint + 1,
+                on: on + 1,
+            }
+            .at(at));
+        }
         waiting.push((
             Coupling {
                 joint,

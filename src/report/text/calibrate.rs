@@ -175,7 +175,7 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
             10
         };
         let mut rows = vec![
-            ["line", "id", "residual mm", "times typical", "weight"]
+            ["line", "id", "residual", "times typical", "weight"]
                 .map(str::to_owned)
                 .to_vec(),
         ];
@@ -183,7 +183,7 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
             rows.push(vec![
                 o.file.line(o.line),
                 o.id.clone(),
-                format!("{:.3}", o.residual_mm),
+                o.off.clone(),
                 format!("{:.1} (limit {:.1})", o.times_typical, o.limit),
                 format!("{:.2}", o.weight),
             ]);

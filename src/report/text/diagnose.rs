@@ -338,9 +338,9 @@ pub(super) fn text(found: &Diagnosis, style: Style) -> String {
         );
         for o in found.outliers.iter().take(most) {
             out += &format!(
-                "  {}: {:.3} mm, {} times the noise\n",
+                "  {}: {}, {} times the noise\n",
                 o.file.words(o.line),
-                o.residual_mm,
+                o.off,
                 fixed(o.times_noise, 0)
             );
         }

@@ -60,6 +60,7 @@ pub(super) fn facts(found: &Facts, _: Style) -> String {
     );
     for (title, key) in [
         ("", "joint "),
+        ("couplings", "coupling "),
         ("bodies", "body "),
         ("external axes", "external axis "),
         ("tools", "tool "),

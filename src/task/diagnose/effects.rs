@@ -158,8 +158,9 @@ pub struct Against {
 impl From<&engine::Found> for FoundEffect {
     fn from(f: &engine::Found) -> Self {
         let definition = f.effect.definition();
-        let sigma = f.sought.iter().zip(&f.sigmas).map(|(n, s)| {
-            let p = &definition.parameters[*n];
+        let sought = f.sought.iter().copied().zip(f.sigmas.iter().copied());
+        let sigma = sought.chain(f.listed).map(|(n, s)| {
+            let p = &definition.parameters[n];
             (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
         });
         let (found_again, found_again_of) = f.found_again;

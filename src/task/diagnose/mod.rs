@@ -18,12 +18,13 @@ use super::measurements::{Rows, identify_failure};
 use super::parts::{SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
+use crate::diagnose::judgement::accepted::NotTaken;
 use crate::diagnose::plates::diagnose_plates;
 use crate::diagnose::search::stand_ins::{Impossible, StandIn};
 use crate::diagnose::{
     self as engine, Diagnosis as Found, NoiseSource, Options, Verdict, diagnose as search,
 };
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::parameters::Subject;
 use crate::identify::pick::Pick;
@@ -147,6 +148,13 @@ fn check_accepted(found: &Found, pick: &Pick) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// An effect that a person wants and that is not in the model.
+fn not_taken(one: &NotTaken, name: &str) -> Finding {
+    let message = format!("--accept {}: not in the model: {}", one.word, one.why);
+    let finding = Finding::of_file("accepted-not-in-model", Severity::Warning, name, message);
+    finding.hint("measure rows that show it, or leave it out of --accept")
 }
 
 /// Whether a profile says that it was calibrated with other measurements than these.
@@ -322,14 +330,16 @@ pub fn diagnose(
             NoiseSource::Residuals => "residuals",
         },
         left_mm: finite(mm_from_m(d.residual_m)),
-        worst_row: WorstRow::of(&d.problem.rows, &tool, d.lengths.1.iter().copied()),
+        worst_row: WorstRow::of(&d.problem.rows, &tool, d.offs.iter().copied()),
         outliers: d
             .outliers
             .iter()
             .map(|o| OutlierRow {
                 line: o.line.number,
                 id: o.id.clone(),
-                residual_mm: mm_from_m(o.length_m),
+                residual_mm: mm_from_m(o.off.length_m),
+                residual_deg: o.off.angle_rad.map(|angle| angle / DEG),
+                off: o.off.words(),
                 times_noise: finite(o.times),
                 file: (&o.line).into(),
             })
@@ -347,6 +357,7 @@ pub fn diagnose(
         findings: read
             .into_iter()
             .chain(findings(&d.remarks, &name))
+            .chain(d.not_taken.iter().map(|one| not_taken(one, &name)))
             .collect(),
         profile_sha256: file.sha256.clone(),
         measurements_sha256: sha256,

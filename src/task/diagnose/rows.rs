@@ -141,8 +141,14 @@ pub struct OutlierRow {
     pub line: usize,
     /// Its id.
     pub id: String,
-    /// Its residual.
+    /// Its residual, of the place.
     pub residual_mm: f64,
+    /// Of the orientation, of a pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_deg: Option<f64>,
+    /// The part that is wrong in words.
+    #[serde(skip)]
+    pub off: String,
     /// In multiples of the noise.
     pub times_noise: Option<f64>,
     /// Its file.

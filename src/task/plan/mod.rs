@@ -348,6 +348,8 @@ fn refuse_nonsense(request: &Request) -> Result<(), Failure> {
         ("--approach-deg", constraints.approach_rad / DEG),
     ] {
         if !(0.0..=90.001).contains(&value) {
+            // a unit and back is a rounding more
+            let value = (value * 1e9).round() / 1e9;
             return Err(Failure::new(format!(
                 "{option} is {value}; it must be from 0 to 90"
             )));

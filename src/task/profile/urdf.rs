@@ -12,7 +12,7 @@ use crate::program::Source;
 use crate::task::programs::language_by_id;
 use crate::task::{Document, Failure, text};
 use crate::urdf::{
-    About, Choice, Drawing, Meshes, UrdfArm, UrdfError, is_name, profile_text, urdf_text,
+    About, Choice, Drawing, MOST_M, Meshes, UrdfArm, UrdfError, is_name, profile_text, urdf_text,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -96,6 +96,42 @@ pub fn from_urdf(inputs: &Inputs) -> Result<FromUrdf, Failure> {
     })
 }
 
+/// Refuses lengths that no URDF has.
+fn refuse_far(profile: &Profile) -> Result<(), Failure> {
+    let mut all: Vec<(String, f64)> = Vec::new();
+    for (link, number) in profile.links.iter().zip(1..) {
+        all.push((
+            format!("kinematics.joints: a_mm of joint {number}"),
+            link.a_m,
+        ));
+        all.push((
+            format!("kinematics.joints: d_mm of joint {number}"),
+            link.d_m,
+        ));
+    }
+    let mut frame = |key: String, pose: &Pose| {
+        for (axis, value) in ["x_mm", "y_mm", "z_mm"].iter().zip(pose.translation) {
+            all.push((format!("{key}: {axis}"), value));
+        }
+    };
+    frame("kinematics.base".into(), &profile.world_from_base);
+    frame("kinematics.flange".into(), &profile.link6_from_flange);
+    for (name, tool) in tools(profile) {
+        frame(format!("tools.{}.frame", printable(name)), &tool);
+    }
+    match all.into_iter().find(|(_, value)| value.abs() > MOST_M) {
+        Some((key, value)) => Err(Failure::with_hint(
+            format!(
+                "{key} is {}; a URDF has no length beyond {} mm",
+                mm_from_m(value),
+                mm_from_m(MOST_M)
+            ),
+            "correct it in the profile: lengths are in mm",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// The text of a URDF of a profile with this geometry up to the flange.
 ///
 /// # Errors
@@ -116,6 +152,7 @@ pub(super) fn to_urdf(
             "change it in the profile",
         ));
     }
+    refuse_far(profile)?;
     let chain = Chain::of(flange, &profile.mechanism);
     let axes = chain.axes();
     let mut limits = profile.mechanism.joints.map(|j| [j.min_rad, j.max_rad]);
@@ -148,7 +185,12 @@ pub(super) fn to_urdf(
         ..Choice::default()
     };
     let again = UrdfArm::read(&text, &choice);
-    let again = again.map_err(|error| Failure::internal(format!("the URDF made: {error}")))?;
+    let again = again.map_err(|error| {
+        Failure::with_hint(
+            format!("the profile's geometry is beyond what a URDF has: {error}"),
+            "correct the lengths, limits and masses of the profile",
+        )
+    })?;
     let model = Model::build(flange, &profile.mechanism, &[], &Conditions::default());
     for k in 0..100 {
         let q = std::array::from_fn(|i| {

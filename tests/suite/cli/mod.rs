@@ -24,6 +24,7 @@ mod planning;
 mod progress;
 pub mod reports;
 mod robots;
+mod said_of_rows;
 mod streams;
 mod tables;
 mod validating;

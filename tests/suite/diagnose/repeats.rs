@@ -5,6 +5,7 @@ use super::{group, with_csv, without_sigma};
 use crate::trial::{Case, Group, NOISE_MM, case, case_of};
 use poseshift::diagnose::estimator::table::Layout;
 use poseshift::diagnose::question::noise::{Repeats, of_repeats};
+use poseshift::diagnose::question::shifts::Shifts;
 use poseshift::diagnose::question::{Trust, session};
 use poseshift::diagnose::{Diagnosis, Found, NoiseSource, Options, Standing, Verdict, diagnose};
 use poseshift::geometry::Pose;
@@ -354,8 +355,14 @@ fn orientations_weigh_by_what_they_scatter_where_no_column_says() {
             }
         }
         let trust = Trust::Calibrated { g: 1.0 };
-        let (session, _) =
-            session(&case.profile, &measurements, trust, &|_| false).expect("enough rows");
+        let (session, _) = session(
+            &case.profile,
+            &measurements,
+            trust,
+            &|_| false,
+            &Shifts::default(),
+        )
+        .expect("enough rows");
         session.problem.rows[0].sigma_rad
     };
     for more in [0.0, 4e-4] {

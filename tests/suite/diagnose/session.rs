@@ -1,10 +1,12 @@
 //! What changes in a session, or was there from its first row on: which of the arm, the device and
 //! the tool it is.
 
+use super::commands::diagnosed as by_command;
 use super::group;
 use super::standing::{found, moved};
 use crate::trial::{Case, case};
-use poseshift::diagnose::{Diagnosis, Options, Standing};
+use poseshift::diagnose::{Diagnosis, Options, Standing, Verdict};
+use poseshift::geometry::Pose;
 use poseshift::model::Conditions;
 
 /// A session of nothing but noise in which a joint is elsewhere, by this angle in radians from the
@@ -97,4 +99,191 @@ fn a_joint_that_scatters_has_no_certain_wave() {
             assert!(!is_high || one.standing != Standing::Certain, "{seed}");
         }
     }
+}
+
+/// A session of nothing but noise in which some rows are off by this, mm, by their joint angles.
+fn off_in(rows: std::ops::Range<usize>, by: impl Fn([f64; 6]) -> [f64; 3]) -> Case {
+    let base = case(group("clean"), 0, 4, 150);
+    moved(base, |row, joints| {
+        if rows.contains(&row) {
+            by(joints)
+        } else {
+            [0.0; 3]
+        }
+    })
+}
+
+#[test]
+fn rows_in_a_row_that_fit_no_model_are_named_and_something_is_missing() {
+    let device = |_| [300.0, -150.0, 0.0];
+    let less = |_| [80.0, 60.0, 0.0];
+    for (rows, by, off, lines, when) in [
+        (
+            140..150,
+            device as fn([f64; 6]) -> [f64; 3],
+            335.4,
+            "lines 142 to 151, 10 rows",
+            "before line 142 (",
+        ),
+        (
+            146..150,
+            device,
+            335.4,
+            "lines 148 to 151, 4 rows",
+            "before line 148 (",
+        ),
+        (0..5, less, 100.0, "lines 2 to 6, 5 rows", "after line 6 ("),
+        (
+            70..77,
+            device,
+            335.4,
+            "lines 72 to 78, 7 rows",
+            "before line 72 and after line 78 (",
+        ),
+        (
+            130..150,
+            device,
+            335.4,
+            "lines 132 to 151, 20 rows",
+            "before line 132 (",
+        ),
+    ] {
+        let d = diagnosed(&off_in(rows, by));
+        assert_eq!(d.verdict, Verdict::Undetermined, "{lines}");
+        let reason = d.reasons.iter().find(|r| r.contains(lines));
+        let reason = reason.unwrap_or_else(|| panic!("{lines}: {:?}", d.reasons));
+        assert!(reason.contains(when), "{reason}");
+        let size = reason
+            .split(" are ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        let size: f64 = size.and_then(|word| word.parse().ok()).expect("a size");
+        assert!(f64::abs(size - off) < 0.1, "{reason}");
+        assert!(
+            reason.contains("mostly the measuring device or the base"),
+            "{reason}"
+        );
+        // a table of where the model misses does not hide it
+        let spot = d.spots.iter().find(|s| s.column == "row").expect("by rows");
+        assert!(spot.largest_m > 0.01, "{}", spot.largest_m);
+    }
+}
+
+#[test]
+fn rows_in_a_row_with_a_slipped_tool_or_a_lost_zero_say_so() {
+    let base = case(group("clean"), 0, 4, 150);
+    let name = base.profile.tools.keys().next().expect("its tool").clone();
+    let tool = base.profile.tool(&name).expect("its tool");
+    let model = base.profile.real_model(&tool, &Conditions::default());
+    let pose = |q: [f64; 6]| model.forward(&q.map(f64::to_radians), &Conditions::default());
+    let slipped = diagnosed(&off_in(144..150, |q| {
+        let pose = pose(q);
+        let at = pose.transform([0.02, 0.01, -0.03]);
+        std::array::from_fn(|k| 1e3 * (at[k] - pose.translation[k]))
+    }));
+    let lost = diagnosed(&off_in(144..150, |q| {
+        let mut turned = q;
+        turned[2] += 10.0;
+        let (a, b) = (pose(q).translation, pose(turned).translation);
+        std::array::from_fn(|k| 1e3 * (b[k] - a[k]))
+    }));
+    for (d, words) in [
+        (slipped, "mostly the tool or the reflector"),
+        (lost, "a joint lost its zero"),
+    ] {
+        assert_eq!(d.verdict, Verdict::Undetermined);
+        let reason = d.reasons.iter().find(|r| r.contains("lines 146 to 151"));
+        let reason = reason.expect("these rows");
+        assert!(reason.contains(words), "{reason}");
+    }
+}
+
+#[test]
+fn single_rows_that_fit_no_model_are_none_in_a_row() {
+    let case = case(group("clean"), 0, 4, 150);
+    let single = moved(case, |row, _| {
+        let is_wrong = [10, 11, 12, 60, 90, 149].contains(&row);
+        [if is_wrong { 40.0 } else { 0.0 }, 0.0, 0.0]
+    });
+    let d = diagnosed(&single);
+    assert_eq!(d.verdict, Verdict::NothingMissing, "{:?}", d.reasons);
+    assert_eq!(d.outliers.len(), 6);
+}
+
+#[test]
+fn the_command_ends_with_one_where_rows_in_a_row_fit_no_model() {
+    let case = off_in(140..150, |_| [300.0, -150.0, 0.0]);
+    let (status, out, error) = by_command(&case, &[]);
+    assert_eq!(status, 1, "{error}");
+    assert!(out.contains("lines 142 to 151"), "{out}");
+}
+
+/// A session of nothing but noise whose rows from this one on a device sees that was moved so.
+fn stepped(elsewhere: Pose, step: Pose, first: usize) -> Case {
+    let base = case(group("clean"), 0, 4, 150);
+    let name = base.profile.tools.keys().next().expect("its tool").clone();
+    let tool = base.profile.tool(&name).expect("its tool");
+    let model = base.profile.real_model(&tool, &Conditions::default());
+    moved(base, |row, degrees| {
+        let q = degrees.map(f64::to_radians);
+        let place = model.forward(&q, &Conditions::default()).translation;
+        let mut seen = elsewhere.transform(place);
+        if row + 1 >= first {
+            seen = step.transform(seen);
+        }
+        std::array::from_fn(|k| 1e3 * (seen[k] - place[k]))
+    })
+}
+
+#[test]
+fn a_large_step_of_the_device_is_solved_until_it_rests() {
+    let here = Pose::identity();
+    let elsewhere = Pose::from_xyz_rxryrz([2.1, -0.7, 0.3, 0.0, 0.0, 0.9]);
+    let turned = Pose::from_xyz_rxryrz([0.3, 0.2, 0.0, 0.0, 0.0, 10_f64.to_radians()]);
+    let far = Pose::from_xyz_rxryrz([0.06, 0.03, 0.0, 0.0, 0.0, 0.0]);
+    let farther = Pose::from_xyz_rxryrz([0.3, -0.15, 0.0, 0.0, 0.0, 0.0]);
+    for (at, step, first) in [
+        (here, turned, 76),
+        (here, far, 76),
+        (elsewhere, turned, 76),
+        (elsewhere, far, 76),
+        // of few rows, and of most
+        (here, farther, 111),
+        (here, farther, 51),
+    ] {
+        let case = stepped(at, step, first);
+        let d = diagnosed(&case);
+        let labels: Vec<String> = d.found.iter().map(|f| f.effect.label()).collect();
+        assert_eq!(labels, [format!("frame_shift row {first}")], "{step:?}");
+        // the noise, and nothing of the step
+        assert!(d.residual_m < 1.1 * d.noise_m, "{}", d.residual_m);
+        assert!(d.reasons.iter().all(|r| !r.contains("no arm has")));
+        // the arm and its tool are as they were
+        for effect in &d.profile.effects {
+            let before = case.profile.effects.iter().find(|e| e.same_place(effect));
+            let before = before.map_or([0.0; 6], |e| e.parameters);
+            let off = (effect.parameters.iter().zip(before)).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 2e-5, "{}", effect.label());
+        }
+    }
+}
+
+#[test]
+fn the_uncertainty_of_a_drift_counts_its_constant() {
+    // a row in 45 s, and up to 5 s more
+    let (angle, constant) = (3e-4, 2250.0);
+    let (mut of_angle, mut of_constant, mut count) = (0.0, 0.0, 0.0);
+    for seed in 1..17 {
+        let drift = |row: usize| angle * (1.0 - (-(45.0 * row as f64 + 2.5) / constant).exp());
+        let d = diagnosed(&turning(seed, 2, drift));
+        let one = d.found.iter().find(|f| is_drift(f)).expect("a drift");
+        assert_eq!((one.effect.site.index, &one.sought[..]), (2, &[0][..]));
+        let (number, sigma) = one.listed.expect("a constant that was chosen");
+        of_angle += ((one.effect.parameters[0] - angle) / one.sigmas[0]).powi(2);
+        of_constant += ((one.effect.parameters[number] - constant) / sigma).powi(2);
+        count += 1.0;
+    }
+    let [angle, constant] = [of_angle, of_constant].map(|sum: f64| (sum / count).sqrt());
+    assert!((0.5..1.6).contains(&angle), "{angle} {constant}");
+    assert!((0.5..1.6).contains(&constant), "{angle} {constant}");
 }

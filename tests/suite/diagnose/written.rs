@@ -2,6 +2,7 @@
 //! rows no worse than the profile did before.
 
 use crate::support::{poseshift, report, repository, scratch};
+use poseshift::model::effects::{Effect, Kind, Seen, Site};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
@@ -211,4 +212,52 @@ fn a_wave_of_any_order_is_one_wave() {
     assert!((orders[0] - 49.67).abs() < 0.05, "{orders:?}");
     assert_eq!(found["verdict"], "explained");
     assert!(then < 0.5 * elsewhere, "{elsewhere} {then}");
+}
+
+#[test]
+fn sentences_say_what_there_is_and_which_way() {
+    let said = |kind: Kind, parameters: [f64; 6]| {
+        let site = Site {
+            order: 1,
+            ..Site::default()
+        };
+        let effect = Effect {
+            kind,
+            site,
+            parameters,
+        };
+        effect.sentence(&Seen::default())
+    };
+    let [place, turned, both] = [
+        [1e-3, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, 0.0, 2e-3],
+        [1e-3, 0.0, 0.0, 0.0, 0.0, 2e-3],
+    ]
+    .map(|parameters| said(Kind::BaseFrame, parameters));
+    assert!(
+        place.contains("1.000 mm") && !place.contains('°'),
+        "{place}"
+    );
+    assert!(
+        turned.contains("0.115°") && !turned.contains("mm"),
+        "{turned}"
+    );
+    assert!(
+        both.contains("1.000 mm") && both.contains("0.115°"),
+        "{both}"
+    );
+    let moved = said(Kind::PayloadError, [0.0, 0.2, 0.0, 0.0, 0.0, 0.0]);
+    assert!(
+        moved.contains("200.000 mm") && !moved.contains("kg"),
+        "{moved}"
+    );
+    let lighter = said(Kind::PayloadError, [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert!(
+        lighter.contains("1.000 kg lighter") && !lighter.contains(" mm"),
+        "{lighter}"
+    );
+    for (ratio, words) in [(1.2e-4, "too far"), (-1.2e-4, "too little")] {
+        let scale = said(Kind::JointScale, [ratio, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!(scale.contains(&format!("0.011° {words}")), "{scale}");
+    }
 }

@@ -1,6 +1,7 @@
 //! The answer, and how the profile's own calibration is trusted on the way to it.
 
 use crate::diagnose::estimator::refit::Changed;
+use crate::diagnose::judgement::accepted::NotTaken;
 use crate::diagnose::judgement::attempt::{Attempt, attempt};
 use crate::diagnose::judgement::conclusion::conclude;
 use crate::diagnose::judgement::poses::Telling;
@@ -13,6 +14,7 @@ use crate::diagnose::search::candidates::CannotTest;
 use crate::diagnose::search::stand_ins::{Impossible, StandIn};
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
+use crate::identify::off::Off;
 use crate::identify::pick::Pick;
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::statistics::Spread;
@@ -108,6 +110,8 @@ pub struct Found {
     pub sought: Vec<usize>,
     /// Standard deviations of those, SI.
     pub sigmas: Vec<f64>,
+    /// The parameter that was chosen from a list, and its standard deviation, SI.
+    pub listed: Option<(usize, f64)>,
     /// Fall of chi-squared when it is added to the others.
     pub gain: f64,
     /// Probability of that by chance, times the number of tests made.
@@ -150,8 +154,8 @@ pub struct OutlierRow {
     pub line: Line,
     /// Its id.
     pub id: String,
-    /// Length of its residual, metres.
-    pub length_m: f64,
+    /// How far it is off.
+    pub off: Off,
     /// In standard deviations of the noise.
     pub times: f64,
 }
@@ -206,12 +210,16 @@ pub struct Diagnosis {
     pub residual_m: f64,
     /// Where the residual lies.
     pub residual_spots: Vec<Spot>,
+    /// Effects that a person wants and that are not in the model.
+    pub not_taken: Vec<NotTaken>,
     /// Rows that do not fit.
     pub outliers: Vec<OutlierRow>,
     /// What a person should look at.
     pub remarks: Vec<Remark>,
     /// Present residuals and those that remain, metres, a length for each row.
     pub lengths: (Vec<f64>, Vec<f64>),
+    /// How far each row is off with what was found.
+    pub offs: Vec<Off>,
     /// The improved robot: effects of the data left out.
     pub profile: Profile,
     /// The comparison and the values, to go on from.

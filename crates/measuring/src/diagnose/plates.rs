@@ -458,6 +458,7 @@ impl One {
                 effect,
                 sought: candidate.sought.clone(),
                 sigmas,
+                listed: None,
                 gain: one.gain,
                 before: None,
                 after: None,

@@ -10,6 +10,7 @@ use super::input_checks::{Remark, finite, plausibility, screening};
 use super::levelled::by_the_device;
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
+use super::off::Off;
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
@@ -58,8 +59,8 @@ pub struct Outlier {
     pub line: Line,
     /// Its id.
     pub id: String,
-    /// Measured minus expected, metres.
-    pub length_m: f64,
+    /// Measured minus expected.
+    pub off: Off,
     /// How many times the typical residual it is, and from how many on a row is an outlier.
     pub times: f64,
     /// The limit.
@@ -499,13 +500,14 @@ pub(super) fn outliers(
         let count = row.observed.count();
         let typical = scale * (count as f64).sqrt();
         let most = OUTLIER * limit(count) * scale;
-        if squared.sqrt() > most && miss.length_m > SMALL_M {
+        let off = Off::of(row, miss);
+        if squared.sqrt() > most && off.size_m() > SMALL_M {
             let m = &measurements.rows[row.measurement];
             found.push(Outlier {
                 measurement: row.measurement,
                 line: m.line.clone(),
                 id: m.id.clone(),
-                length_m: miss.length_m,
+                off,
                 times: squared.sqrt() / typical,
                 limit: most / typical,
                 weight: solution.loss.of(*squared, count).1,

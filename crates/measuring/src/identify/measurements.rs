@@ -189,6 +189,25 @@ pub fn last_moves(postures: &[[f64; 6]]) -> Vec<[f64; 6]> {
     moves
 }
 
+impl Measurement {
+    /// Gives the reading in another frame; forces stay along the axes of the world.
+    pub(crate) fn move_by(&mut self, to_from_here: &Pose) {
+        self.conditions.device_m = to_from_here.transform(self.conditions.device_m);
+        match &mut self.observed {
+            Observed::Position(point) => *point = to_from_here.transform(*point),
+            Observed::Pose(pose) => *pose = *to_from_here * *pose,
+            Observed::Distance { from_m, .. } => *from_m = to_from_here.transform(*from_m),
+            Observed::Contact(_) => {}
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.centre_m = contact
+                .centre_m
+                .map(|centre| to_from_here.transform(centre));
+            contact.normal = contact.normal.map(|normal| to_from_here.rotation * normal);
+        }
+    }
+}
+
 impl Measurements {
     /// Whether the file has all these columns.
     #[must_use]
@@ -201,19 +220,7 @@ impl Measurements {
     #[must_use]
     pub fn moved(mut self, to_from_here: &Pose) -> Self {
         for row in &mut self.rows {
-            row.conditions.device_m = to_from_here.transform(row.conditions.device_m);
-            match &mut row.observed {
-                Observed::Position(point) => *point = to_from_here.transform(*point),
-                Observed::Pose(pose) => *pose = *to_from_here * *pose,
-                Observed::Distance { from_m, .. } => *from_m = to_from_here.transform(*from_m),
-                Observed::Contact(_) => {}
-            }
-            if let Some(contact) = &mut row.contact {
-                contact.centre_m = contact
-                    .centre_m
-                    .map(|centre| to_from_here.transform(centre));
-                contact.normal = contact.normal.map(|normal| to_from_here.rotation * normal);
-            }
+            row.move_by(to_from_here);
         }
         self
     }

@@ -39,6 +39,7 @@ pub mod measurements;
 mod needs;
 pub mod normal;
 pub mod observation;
+pub mod off;
 pub mod parameters;
 pub mod pick;
 pub mod plan;

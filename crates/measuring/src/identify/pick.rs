@@ -179,6 +179,28 @@ impl Pick {
         definition.id.to_owned() + &words.collect::<String>()
     }
 
+    /// The word that this was read from.
+    #[must_use]
+    pub fn to_word(&self) -> String {
+        let Some(definition) = self.kind.map(Kind::definition) else {
+            return "points".to_owned();
+        };
+        let counted = definition.site.iter().filter(|p| p.numbers().is_some());
+        let places = counted.zip(&self.places).map(|(place, (first, last))| {
+            let word = |number: u32| match place {
+                SiteKey::JointOrBase if number == BASE_NUMBER => BASE_WORD.to_owned(),
+                _ => place.in_word(number),
+            };
+            if first == last {
+                format!(":{}", word(*first))
+            } else {
+                format!(":{}-{}", word(*first), word(*last))
+            }
+        });
+        let key = self.key.map(|key| format!(".{key}"));
+        definition.id.to_owned() + &places.collect::<String>() + &key.unwrap_or_default()
+    }
+
     /// What means this effect alone.
     #[must_use]
     pub fn of(effect: &Effect) -> Self {

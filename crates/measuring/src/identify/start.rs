@@ -121,7 +121,7 @@ pub(super) fn carried(profile: &Profile, stand: &Stand) -> Pose {
 /// # Source
 /// B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions", JOSA A 4
 /// (1987).
-pub(super) fn align(pairs: impl Iterator<Item = (Vector, Vector)> + Clone) -> Pose {
+pub(crate) fn align(pairs: impl Iterator<Item = (Vector, Vector)> + Clone) -> Pose {
     let count = pairs.clone().count().max(1) as f64;
     let (mut a0, mut b0) = ([0.0; 3], [0.0; 3]);
     for (a, b) in pairs.clone() {

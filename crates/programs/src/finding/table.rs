@@ -69,6 +69,7 @@ pub fn kind(id: &str) -> Option<&'static Kind> {
 pub const TABLE: &[Kind] = &[
     row("absolutely-accurate", Error, "S bit 4: the controller corrects the target itself; with `--force` a warning, once a file", "compensate a program that was written without absolute accuracy", &["compensate", "check"], &["krl"]),
     row("acceptance-unused", Warning, "an error that --accept names is not there", "leave the option out", &["compensate", "check"], &[]),
+    row("accepted-not-in-model", Warning, "an effect that --accept names is not in the model: the rows do not show it, cannot separate it, or ask for a value that is not possible", "measure rows that show it, or leave it out of --accept", &["diagnose"], &[]),
     row("angle-too-large", Error, "an angle of a target, tool or frame is in another unit than the language's", "degrees; radians in URScript: write angles of a few revolutions at most", &["compensate", "check"], &[]).never_accepted(),
     row("arc-chain", Error, "an arc has more than two points: each part of its path lies on another circle", "end each arc with its second point", &["compensate", "check"], &["kawasaki"]),
     row("arc-external", Warning, "the point of an arc is written for other values of external axes than those with which the robot passes it", "write the values with which the robot passes the point", &["compensate", "check"], &[]),
@@ -111,7 +112,7 @@ pub const TABLE: &[Kind] = &[
     row("displaced-target", Warning, "a point that a move displaces from its target by known numbers is compensated with the target, not for itself; a note below --max-derived-error", "give the point a target of its own if it must be exact", &["compensate"], &[]),
     row("displacement-active", Error, "a shift of the program may be active at the move", "switch it off in the same routine before the move", &["compensate", "check"], &[]),
     row("displacement-unknown", Warning, "a move displaces its target by what the text does not say", "give the point a target of its own if it must be exact", &["compensate"], &[]),
-    row("duplicate-rows", Warning, "rows repeat an earlier one to the last digit: they count twice; in `register`, `handeye` and `axes` they count once", "a device never repeats itself exactly: leave copies out", &["calibrate", "validate", "diagnose", "register", "handeye", "axes"], &[]),
+    row("duplicate-rows", Warning, "rows repeat an earlier one to the last digit: each counts again; in `register`, `handeye` and `axes` they count once", "a device never repeats itself exactly: leave copies out", &["calibrate", "validate", "diagnose", "register", "handeye", "axes"], &[]),
     row("effect-left-out", Warning, "an effect of the profile depends on time, temperature or whether the robot rests, which programs do not say: it counts for nothing", "run the program on a robot in the state in which this does not act, or calibrate it as it is at work", &["compensate", "check"], &[]),
     row("effect-unused", Warning, "an effect of one tool applies to no move, and the profile has no tool of its name", "correct `tool` of the effect; without it the effect is of every tool", &["compensate", "check"], &[]),
     row("encoding", Note, "a table is no UTF-8: it is read as Latin-1, or UTF-16 by its mark", "save it as UTF-8 to be sure of its names", &["calibrate", "validate", "diagnose"], &[]),

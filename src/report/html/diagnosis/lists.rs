@@ -277,7 +277,7 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
     if list.is_empty() {
         return;
     }
-    let table = Table {
+    let mut table = Table {
         columns: vec![
             Column::counts("line", list.iter().map(|o| o.line)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
@@ -296,6 +296,13 @@ fn outliers(page: &mut Page, found: &Diagnosis) {
             .to(1),
         ],
     };
+    if list.iter().any(|o| o.residual_deg.is_some()) {
+        let rotated = list
+            .iter()
+            .map(|o| o.residual_deg.map(|x| significant(x, DIGITS)));
+        let column = Column::numbers("rotated", "deg", rotated).to(3);
+        table.columns.insert(3, column);
+    }
     page.show("outliers", "Rows that fit no model", "", table);
 }
 

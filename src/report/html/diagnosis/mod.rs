@@ -64,7 +64,7 @@ pub(crate) fn page(of: &Diagnosis) -> Page {
     if let Some(row) = &of.worst_row {
         page.fact(
             &format!("largest residual, {}", row.file.words(row.line)),
-            format!("{:.4} mm", row.residual_mm),
+            row.off.clone(),
         );
     }
     page.fact("rows", of.rows.to_string());

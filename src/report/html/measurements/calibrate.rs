@@ -217,7 +217,7 @@ fn show_outliers(page: &mut Page, of: &Calibration) {
     if list.is_empty() {
         return;
     }
-    let table = Table {
+    let mut table = Table {
         columns: vec![
             Column::counts("line", list.iter().map(|o| o.line)),
             Column::texts("id", list.iter().map(|o| o.id.clone())),
@@ -242,5 +242,12 @@ fn show_outliers(page: &mut Page, of: &Calibration) {
             .to(3),
         ],
     };
+    if list.iter().any(|o| o.residual_deg.is_some()) {
+        let rotated = list
+            .iter()
+            .map(|o| o.residual_deg.map(|x| significant(x, DIGITS)));
+        let column = Column::numbers("rotated", "deg", rotated).to(3);
+        table.columns.insert(3, column);
+    }
     page.show("outliers", "Rows that do not fit the others", "", table);
 }

@@ -273,7 +273,8 @@ fn show_improvement(
     let (Some(before), Some(after)) = (before.main(), after.main()) else {
         return;
     };
-    let place = worst.map_or_else(String::new, |row| {
+    let place = worst.filter(|row| row.is_of_place());
+    let place = place.map_or_else(String::new, |row| {
         format!(" ({})", row.file.words(row.line))
     });
     page.fact(

@@ -35,10 +35,15 @@ impl Equation for BaseFrame {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!(
-            "The base stands {} mm from where the profile has it and rotated by {}°",
-            mm(length(&effect.parameters[..3])),
-            deg(length(&effect.parameters[3..]))
-        )
+        let (place, turned) = (length(&effect.parameters[..3]), length(&effect.parameters[3..]));
+        match (place == 0.0, turned == 0.0) {
+            (false, true) => format!("The base stands {} mm from where the profile has it", mm(place)),
+            (true, false) => format!("The base is rotated by {}° from how the profile has it", deg(turned)),
+            _ => format!(
+                "The base stands {} mm from where the profile has it and rotated by {}°",
+                mm(place),
+                deg(turned)
+            ),
+        }
     }
 }

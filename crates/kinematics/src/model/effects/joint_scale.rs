@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, joint};
+use super::words::{deg, joint, too};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::units::DEG;
 use crate::geometry::Scalar;
@@ -34,6 +34,7 @@ impl Equation for JointScale {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("{} rotates {}° too far in 90°", joint(effect), deg(effect.parameters[0] * 90.0 * DEG))
+        let ratio = effect.parameters[0];
+        format!("{} rotates {}° too {} in 90°", joint(effect), deg(ratio.abs() * 90.0 * DEG), too(ratio))
     }
 }

@@ -49,11 +49,19 @@ impl Equation for PayloadError {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!(
-            "The load on the flange is {} kg {} than the profile says, its centre of gravity {} mm elsewhere",
-            digits(effect.parameters[0].abs()),
-            if effect.parameters[0] < 0.0 { "lighter" } else { "heavier" },
-            mm(length(&effect.parameters[1..4]))
-        )
+        let (mass, moved) = (effect.parameters[0], length(&effect.parameters[1..4]));
+        let heavier = format!(
+            "The load on the flange is {} kg {} than the profile says",
+            digits(mass.abs()),
+            if mass < 0.0 { "lighter" } else { "heavier" },
+        );
+        match (mass == 0.0, moved == 0.0) {
+            (false, true) => heavier,
+            (true, false) => format!(
+                "The centre of gravity of the load on the flange is {} mm from where the profile has it",
+                mm(moved)
+            ),
+            _ => format!("{heavier}, its centre of gravity {} mm elsewhere", mm(moved)),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{axis, deg};
+use super::words::{axis, deg, too};
 use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::units::DEG;
 use crate::geometry::Scalar;
@@ -36,6 +36,7 @@ impl Equation for PositionerScale {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("{} rotates {}° too far in 90°", axis(effect), deg(effect.parameters[0] * 90.0 * DEG))
+        let ratio = effect.parameters[0];
+        format!("{} rotates {}° too {} in 90°", axis(effect), deg(ratio.abs() * 90.0 * DEG), too(ratio))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{axis, mm};
+use super::words::{axis, mm, too};
 use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::Scalar;
 
@@ -35,6 +35,7 @@ impl Equation for TrackScale {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("{} goes {} mm too far in a metre", axis(effect), mm(effect.parameters[0]))
+        let ratio = effect.parameters[0];
+        format!("{} goes {} mm too {} in a metre", axis(effect), mm(ratio.abs()), too(ratio))
     }
 }

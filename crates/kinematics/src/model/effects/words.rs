@@ -23,6 +23,11 @@ pub(super) fn mm(value_m: f64) -> String {
     digits(mm_from_m(value_m))
 }
 
+/// Which way something goes beyond what was commanded, or not as far.
+pub(super) fn too(value: f64) -> &'static str {
+    if value < 0.0 { "little" } else { "far" }
+}
+
 /// The length of a vector.
 pub(super) fn length(components: &[f64]) -> f64 {
     components.iter().map(|v| v * v).sum::<f64>().sqrt()

@@ -34,6 +34,9 @@ pub struct Refit {
     pub places: Vec<usize>,
     /// Standard deviation of each sought parameter of each effect, SI.
     pub sigmas: Vec<Vec<f64>>,
+    /// Standard deviation of what was chosen from a list for each effect (a torque, a time constant),
+    /// SI; those of what was sought count it as fitted, too.
+    pub chosen_sigmas: Vec<Option<f64>>,
     /// What came out where nothing physical is.
     pub impossible: Vec<Beyond>,
     /// The residual's `rᵀ M r`, see [`Fit`].
@@ -165,7 +168,28 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, L
     };
     let (residual, last) = last;
     let fit = &last.fit;
-    let sigma = |index: usize| fit.deviation(index) * parameters[index].scale;
+    // what was chosen from a list is uncertain, too
+    let listed = |chosen: &Chosen| {
+        let listed = chosen.candidate.effect.definition().listed();
+        listed.filter(|(_, list)| list.is_a_choice())
+    };
+    let mut with_chosen = parameters.clone();
+    let mut chosen_at: Vec<Option<usize>> = Vec::new();
+    for (found, at) in chosen.iter().zip(&places) {
+        chosen_at.push(listed(found).map(|(number, _)| {
+            with_chosen.push(parameter(*at, &found.candidate.effect, number));
+            with_chosen.len() - 1
+        }));
+    }
+    let uncertain = (with_chosen.len() > parameters.len()).then(|| {
+        let (residual, columns) = table(problem, &estimate, &with_chosen);
+        let (held, sought) = columns.split_at(first);
+        let sought: Vec<&[f64]> = sought.iter().map(Vec::as_slice).collect();
+        Normal::of((layout, used), &residual, (held, shares), floor).fit(&sought)
+    });
+    let uncertain = uncertain.as_ref().unwrap_or(fit);
+    let sigma = |index: usize| uncertain.deviation(index) * with_chosen[index].scale;
+    let chosen_sigmas = chosen_at.iter().map(|at| at.map(sigma)).collect();
     let mut own = (first..parameters.len()).map(sigma);
     let sigmas = chosen
         .iter()
@@ -176,6 +200,7 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, L
         estimate,
         places,
         sigmas,
+        chosen_sigmas,
         deviance: fit.deviance,
         scale: fit.scale,
         design: fit.design,

@@ -1,6 +1,7 @@
 //! One search on one set of assumptions about the profile, and what of its outcome must be
 //! questioned.
 
+use super::in_a_row::{InARow, beyond, in_a_row};
 use super::instead::{Instead, instead};
 use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
@@ -11,6 +12,7 @@ use crate::diagnose::estimator::refit::{Changed, Last, Refit, changed, moved, re
 use crate::diagnose::estimator::table::{Column, dot};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
+use crate::diagnose::question::shifts::Shifts;
 use crate::diagnose::question::{Session, Trust, for_choice, session};
 use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
@@ -18,7 +20,6 @@ use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
-use crate::identify::robust::limit;
 use crate::model::effects::{Effect, Kind, SiteKey};
 use crate::profile::Profile;
 
@@ -28,6 +29,8 @@ const UNKNOWN_BETTER: f64 = 14.0;
 const UNKNOWN_PART: f64 = 0.01;
 /// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
+/// Turns in which a large step of the device settles.
+const SETTLING: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
 pub(crate) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
@@ -66,6 +69,8 @@ pub(crate) struct Attempt {
     pub outdone: Vec<(usize, Unknown)>,
     /// What is no effect and may be in the place of one found.
     pub instead: Vec<Instead>,
+    /// Rows one after another that fit no model.
+    pub in_a_row: Vec<InARow>,
     pub likeness: Likeness,
     pub strained: Option<f64>,
     /// Effects of the profile that were fitted again and are not what they were.
@@ -188,14 +193,7 @@ fn louder(
 fn without_outliers(session: &Session, (refit, fit): (&Refit, &Fit), used: &[bool]) -> (f64, f64) {
     let layout = &session.layout;
     let in_use: Vec<usize> = (0..layout.rows()).filter(|row| used[*row]).collect();
-    let is_outlier = |row: &&usize| {
-        let range = layout.row(**row);
-        let squared = dot(
-            &refit.residual[range.clone()],
-            &refit.residual[range.clone()],
-        );
-        squared.sqrt() > OUTLIER * limit(range.len()) * refit.scale
-    };
+    let is_outlier = |row: &&usize| beyond(layout, refit, **row).is_some();
     let outliers: Vec<usize> = in_use.iter().filter(is_outlier).copied().collect();
     if outliers.is_empty() || outliers.len() as f64 > MOST_OUTLIERS * in_use.len() as f64 {
         return (refit.scale, refit.freedom);
@@ -246,6 +244,28 @@ fn merit(session: &Session, trust: Trust, used: &[bool], chosen: &[Chosen], refi
     refit.deviance + columns as f64 * numbers.ln() + chosen.iter().map(|c| c.cost).sum::<f64>()
 }
 
+/// The effects found in a session, with values of lists nearer to them and waves of the residual.
+fn searched(session: &mut Session, used: &[bool], options: &Options) -> Vec<Chosen> {
+    let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
+    let has_order = |pick: &&Pick| {
+        let kind = pick.kind.map(Kind::definition);
+        kind.is_some_and(|definition| definition.site.contains(&SiteKey::Order))
+    };
+    let is_new = |effect: &Effect| session.candidates.is_new(effect);
+    let asked = options.accept.iter().filter(has_order);
+    let asked: Vec<Effect> = asked.flat_map(Pick::effects).filter(is_new).collect();
+    (session.candidates).add_waves(&session.problem, &session.about, asked);
+    let mut chosen = session.first(&session.world(used, &options.accept));
+    for round in 0..ROUNDS {
+        let world = session.world(used, &options.accept);
+        chosen = world.search(chosen);
+        if round + 1 == ROUNDS || !session.refine(&chosen, used, &leave) {
+            break;
+        }
+    }
+    by_gain(chosen)
+}
+
 /// Searches on one set of assumptions, and asks what of the outcome must be questioned.
 ///
 /// # Errors
@@ -259,30 +279,31 @@ pub(crate) fn attempt(
 ) -> Result<(Attempt, Vec<Remark>), IdentifyError> {
     let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
     progress("fitting frames and geometry");
-    let (mut session, remarks) = session(profile, measurements, trust, &leave)?;
     let used = for_choice(measurements);
-    progress("trying every effect");
-    let has_order = |pick: &&Pick| {
-        let kind = pick.kind.map(Kind::definition);
-        kind.is_some_and(|definition| definition.site.contains(&SiteKey::Order))
+    let mut anew = |shifts: &Shifts| {
+        let (mut session, remarks) = session(profile, measurements, trust, &leave, shifts)?;
+        progress("trying every effect");
+        let chosen = searched(&mut session, &used, options);
+        Ok::<_, IdentifyError>((session, remarks, chosen))
     };
-    let is_new = |effect: &Effect| session.candidates.is_new(effect);
-    let asked = options.accept.iter().filter(has_order);
-    let asked: Vec<Effect> = asked.flat_map(Pick::effects).filter(is_new).collect();
-    (session.candidates).add_waves(&session.problem, &session.estimate, asked);
-    let mut chosen = Vec::new();
-    for round in 0..ROUNDS {
-        let world = session.world(&used, &options.accept);
-        chosen = world.search(chosen);
-        if round + 1 == ROUNDS || !session.refine(&chosen, &used, &leave) {
+    let mut shifts = Shifts::default();
+    let (mut session, mut remarks, mut chosen) = anew(&shifts)?;
+    // a large step is solved before others are sought
+    for _ in 0..SETTLING {
+        let own = (profile, measurements);
+        let Some(next) = shifts.next(own, &session, &chosen, &used) else {
             break;
+        };
+        match anew(&next) {
+            Ok(found) if next.are_among(&found.2) => (session, remarks, chosen) = found,
+            _ => break,
         }
+        shifts = next;
     }
-    let chosen = by_gain(chosen);
     progress("fitting what was found");
     let (refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");
-    let library = Library::of(&session.problem, &session.estimate);
+    let library = Library::of(&session.problem, &session.about);
     let Last { fit, columns } = last;
     let given = Given::of((&fit, &columns), &fit, &[]);
     let kept = [given.kept(&[])];
@@ -295,6 +316,7 @@ pub(crate) fn attempt(
     let loudness = without_outliers(&session, (&refit, &fit), &used);
     let outdone = outdone((&session, &used), &library, &chosen, &refit);
     let instead = instead(&session, &used, &chosen);
+    let in_a_row = in_a_row(&session, &refit, measurements);
     let strained = strain(trust, &refit);
     let changed = changed(session.start(), profile, (&refit, &fit));
     // with what was found: it may have changed from one repetition to the next
@@ -313,6 +335,7 @@ pub(crate) fn attempt(
             unknown,
             outdone,
             instead,
+            in_a_row,
             likeness,
             strained,
             changed,

@@ -1,7 +1,9 @@
 //! What an attempt's outcome means: effects with their evidence, alternatives, objections, the
 //! verdict, and the improved profile.
 
-use super::attempt::{Attempt, OUTLIER};
+use super::accepted::not_taken;
+use super::attempt::Attempt;
+use super::in_a_row::beyond;
 use super::poses::{Telling, telling};
 use super::whereabouts::spots;
 use super::{Judged, Standing, is_seldom, judge, stand};
@@ -9,11 +11,11 @@ use crate::diagnose::diagnosis::{
     Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
 use crate::diagnose::estimator::refit::refit;
-use crate::diagnose::estimator::table::lengths_m;
+use crate::diagnose::estimator::table::{dot, lengths_m};
 use crate::diagnose::outside::chance;
 use crate::diagnose::proof::improved::improved;
 use crate::diagnose::proof::{Proof, held_out};
-use crate::diagnose::question::{Trust, for_choice};
+use crate::diagnose::question::{Session, Trust, for_choice};
 use crate::diagnose::search::candidates::{Candidate, range};
 use crate::diagnose::search::stand_ins::{StandIn, impossible, stand_ins};
 use crate::diagnose::search::{Chosen, Scored};
@@ -21,9 +23,9 @@ use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
 use crate::identify::measurements::Measurements;
+use crate::identify::off::Off;
 use crate::identify::pick::Pick;
-use crate::identify::problem::Estimate;
-use crate::identify::robust::limit;
+use crate::identify::problem::{Estimate, Row};
 use crate::identify::statistics::Spread;
 use crate::model::effects::{Effect, Kind, Seen, of_arm};
 use crate::profile::Profile;
@@ -34,6 +36,8 @@ use rayon::prelude::*;
 const NEARLY: f64 = 6.0;
 /// Or where its gain is this part of that of the effect found.
 const NEARLY_PART: f64 = 0.95;
+/// Metres or radians below this are roundings.
+const ROUNDING: f64 = 1e-12;
 /// Configurations that tell alternatives apart.
 const TELLING: usize = 12;
 /// A row is followed where so much of its own numbers is in its expectation.
@@ -87,6 +91,12 @@ pub(crate) fn conclude(
     });
     let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
     let (noise_m, noise_source, residual_m) = noise(attempt);
+    let together: Vec<_> = attempt
+        .in_a_row
+        .iter()
+        .map(|own| own.rows.clone())
+        .collect();
+    let offs = offs(attempt);
     let residual_lengths = lengths_m(&session.problem, &session.layout, &attempt.refit.residual);
     let present_lengths = lengths_m(&session.problem, &session.layout, &session.present);
     Ok(Diagnosis {
@@ -116,6 +126,7 @@ pub(crate) fn conclude(
             &used,
             &session.present,
             attempt.refit.scale,
+            &together,
         ),
         cannot_test: session.candidates.cannot_test.clone(),
         absorbed: attempt.trust == Trust::Nothing,
@@ -133,9 +144,12 @@ pub(crate) fn conclude(
             &used,
             &attempt.refit.residual,
             attempt.refit.scale,
+            &together,
         ),
         judged: proof.judged().filter(|_| !attempt.chosen.is_empty()),
-        outliers: outliers(attempt, measurements, &residual_lengths),
+        not_taken: not_taken(attempt, &world),
+        outliers: outliers(attempt, measurements, &offs),
+        offs,
         remarks,
         lengths: (present_lengths, residual_lengths),
         profile: improved(profile, session, &written.0, &written.1),
@@ -214,14 +228,18 @@ fn effects(
     };
     let of = |(i, chosen): (usize, &Chosen)| {
         let place = &refit.estimate.effects[refit.places[i]];
-        let mut effect = since(place, &refit.estimate, &attempt.session.present_estimate);
+        let mut effect = since(place, &refit.estimate, &attempt.session);
         effect.site = chosen.candidate.effect.site.clone();
         let parameters = chosen.values.len() + chosen.candidate.chosen;
         let asked_for = |p: &Pick| p.means(&chosen.candidate.effect);
         Found {
-            effect,
             sought: chosen.candidate.sought.clone(),
             sigmas: refit.sigmas[i].clone(),
+            listed: (effect.definition().listed()).and_then(|(number, _)| {
+                let sigma = refit.chosen_sigmas[i].filter(|s| s.is_finite());
+                sigma.map(|sigma| (number, sigma))
+            }),
+            effect,
             gain: chosen.gain,
             p_value: corrected(chosen.gain, parameters, chosen.candidate.peers),
             bic: chosen.gain - parameters as f64 * refit.freedom.ln(),
@@ -239,7 +257,8 @@ fn effects(
 }
 
 /// An effect as it is reported: of a frame how it stands in `now` from where it stood before.
-fn since(effect: &Effect, now: &Estimate, before: &Estimate) -> Effect {
+fn since(effect: &Effect, now: &Estimate, session: &Session) -> Effect {
+    let before = &session.present_estimate;
     let mut moved = effect.clone();
     let stood = |of: &Estimate, own: Option<&Effect>| {
         let deviation =
@@ -250,9 +269,17 @@ fn since(effect: &Effect, now: &Estimate, before: &Estimate) -> Effect {
         }
     };
     if matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame) {
-        let known = before.effects.iter().find(|e| e.same_place(effect));
+        // a tool that was fitted before is still where the profile has it
+        let mut known = if effect.kind == Kind::ToolFrame {
+            session.problem.profile.effects.iter()
+        } else {
+            before.effects.iter()
+        };
+        let known = known.find(|e| e.same_place(effect));
         let by = stood(before, known).inverse() * stood(now, Some(effect));
-        moved.parameters = by.xyz_rxryrz();
+        // a part that did not move is zero, without roundings
+        let part = |x: f64| if x.abs() < ROUNDING { 0.0 } else { x };
+        moved.parameters = by.xyz_rxryrz().map(part);
     }
     moved
 }
@@ -273,20 +300,30 @@ fn alternatives(attempt: &Attempt) -> Vec<Alternative> {
     alternatives
 }
 
+/// How far each row is off with what was found.
+fn offs(attempt: &Attempt) -> Vec<Off> {
+    let (problem, layout) = (&attempt.session.problem, &attempt.session.layout);
+    let of = |(row, own): (usize, &Row)| {
+        let residual = &attempt.refit.residual[layout.row(row)];
+        let (place, turned) = residual.split_at(residual.len().min(3));
+        let length = |part: &[f64]| dot(part, part).sqrt();
+        let angle = (!turned.is_empty()).then(|| length(turned) * own.sigma_rad);
+        Off::new(own, length(place) * own.sigma_m, angle)
+    };
+    problem.rows.iter().enumerate().map(of).collect()
+}
+
 /// Rows that what was found does not explain, the farthest first.
-fn outliers(attempt: &Attempt, measurements: &Measurements, residual_m: &[f64]) -> Vec<OutlierRow> {
+fn outliers(attempt: &Attempt, measurements: &Measurements, offs: &[Off]) -> Vec<OutlierRow> {
     let (layout, refit) = (&attempt.session.layout, &attempt.refit);
     let mut outliers = Vec::new();
     for (row, m) in measurements.rows.iter().enumerate() {
-        let range = layout.row(row);
-        let squares = refit.residual[range.clone()].iter().map(|r| r * r);
-        let length = squares.sum::<f64>().sqrt();
-        if length > OUTLIER * limit(range.len()) * refit.scale {
+        if let Some(times) = beyond(layout, refit, row) {
             outliers.push(OutlierRow {
                 line: m.line.clone(),
                 id: m.id.clone(),
-                length_m: residual_m[row],
-                times: length / refit.scale,
+                off: offs[row],
+                times,
             });
         }
     }

@@ -49,11 +49,8 @@ fn slow(session: &Session, world: &World, chosen: &[Chosen], i: usize) -> Option
     let mut effect = own.effect.clone();
     effect.site.order = 1;
     let all = (0..effect.definition().parameters.len()).collect();
-    let columns: Vec<Vec<Column>> = columns_of(
-        &session.problem,
-        &session.estimate,
-        &[(effect.clone(), all)],
-    );
+    let columns: Vec<Vec<Column>> =
+        columns_of(&session.problem, &session.about, &[(effect.clone(), all)]);
     let layout = world.layout;
     let rows = layout.rows() as f64;
     let evenly = |mut column: Column| {
@@ -127,7 +124,7 @@ fn scatter(session: &Session, world: &World, chosen: &[Chosen], i: usize) -> Opt
     others.remove(i);
     let rest = world.rest(&others);
     let turn = [(wave(site.index, 0), vec![0])];
-    let turn: Vec<Vec<Column>> = columns_of(&session.problem, &session.estimate, &turn);
+    let turn: Vec<Vec<Column>> = columns_of(&session.problem, &session.about, &turn);
     let turn = &turn[0][0];
     let layout = world.layout;
     let mechanism = session.problem.mechanism();

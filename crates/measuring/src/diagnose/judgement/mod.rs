@@ -4,8 +4,10 @@
 //! against the effects found, `improved` where something does but rows left out are predicted
 //! better with them; each effect has its own standing.
 
+pub mod accepted;
 pub(crate) mod attempt;
 pub(crate) mod conclusion;
+pub(crate) mod in_a_row;
 pub(crate) mod instead;
 pub mod poses;
 pub mod whereabouts;
@@ -311,6 +313,14 @@ fn nobody_knows(attempt: &Attempt) -> bool {
     !states && attempt.refit.freedom < TELLS_NOISE
 }
 
+/// Two figures with three decimals, and more where they would look alike.
+fn apart(before: f64, after: f64) -> String {
+    let with = |decimals: usize| [before, after].map(|x| format!("{x:.decimals$}"));
+    let differ = |words: &[String; 2]| words[0] != words[1];
+    let words = (3..9).map(with).find(differ).unwrap_or_else(|| with(9));
+    words.join(" → ")
+}
+
 /// Why the effects found may not be the answer, one sentence each; none where they are.
 fn objections(
     attempt: &Attempt,
@@ -321,16 +331,17 @@ fn objections(
     let mut reasons = Vec::new();
     if let Some(judged) = proof.judged().filter(|j| !found.is_empty() && j.is_worse()) {
         reasons.push(format!(
-            "rows left out are predicted worse with what was found: {:.3} → {:.3} mm",
-            judged.start.mean, judged.found.mean
+            "rows left out are predicted worse with what was found: {} mm",
+            apart(judged.start.mean, judged.found.mean)
         ));
     }
     if let Some(present) = proof.present.filter(|p| !found.is_empty() && p.is_worse()) {
         reasons.push(format!(
-            "rows left out are predicted worse than by the profile as it is: {:.3} → {:.3} mm",
-            present.start.mean, present.found.mean
+            "rows left out are predicted worse than by the profile as it is: {} mm",
+            apart(present.start.mean, present.found.mean)
         ));
     }
+    reasons.extend(attempt.in_a_row.iter().map(|rows| rows.words.clone()));
     for one in found.iter().filter(|f| !f.accepted && is_seldom(f)) {
         let (times, of) = one.found_again;
         reasons.push(format!(
@@ -467,9 +478,16 @@ fn unusual(found: &Found) -> Option<String> {
         return None;
     }
     let (parameter, value, limit) = found.effect.beyond_usual()?;
+    let rest = if found.effect.definition().of_data {
+        format!(
+            "more than the {limit:.0e} of what moves within a session: it was set up anew, or \
+             something else is missing"
+        )
+    } else {
+        format!("and no arm has more than {limit:.0e}: something else is missing")
+    };
     Some(format!(
-        "{} fits the measurements with {} = {value:.2e}, and no arm has more than {limit:.0e}: \
-         something else is missing",
+        "{} fits the measurements with {} = {value:.2e}, {rest}",
         found.effect.label(),
         parameter.key
     ))
@@ -553,5 +571,16 @@ fn is_of_angle(joint: usize, found: &Found) -> bool {
         _ if effect.site.index != joint => false,
         Kind::LinkGeometry => found.sought.contains(&THETA),
         _ => effect.definition().of_joint_angle(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::apart;
+
+    #[test]
+    fn figures_of_which_one_is_worse_differ() {
+        assert_eq!(apart(0.2181, 0.0442), "0.218 → 0.044");
+        assert_eq!(apart(0.049_81, 0.049_93), "0.0498 → 0.0499");
     }
 }

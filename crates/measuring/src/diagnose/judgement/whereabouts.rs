@@ -5,6 +5,7 @@ use crate::diagnose::estimator::table::Layout;
 use crate::identify::problem::{Estimate, PointRef, Problem};
 use crate::identify::robust::limit;
 use crate::model::JOINTS;
+use std::ops::Range;
 
 /// Groups that a column's values are sorted into.
 const GROUPS: usize = 8;
@@ -152,7 +153,8 @@ fn groupings(problem: &Problem, estimate: &Estimate) -> Vec<Grouping> {
 }
 
 /// Columns and regions on which residuals depend, strongest first. `residual` is in standard
-/// deviations of the rows, `scale` their noise; rows far beyond it count as at the limit.
+/// deviations of the rows, `scale` their noise; rows far beyond it count as at the limit, but for
+/// those that are off `together`.
 #[must_use]
 pub fn spots(
     problem: &Problem,
@@ -161,6 +163,7 @@ pub fn spots(
     used: &[bool],
     residual: &[f64],
     scale: f64,
+    together: &[Range<usize>],
 ) -> Vec<Spot> {
     let cut: Vec<f64> = {
         let mut lengths: Vec<f64> = (0..layout.rows())
@@ -176,8 +179,10 @@ pub fn spots(
         lengths.sort_by(f64::total_cmp);
         let typical = lengths[lengths.len() / 2].max(limit(3) * scale);
         own.iter()
-            .map(|l| {
-                if *l > 3.0 * typical {
+            .enumerate()
+            .map(|(row, l)| {
+                let is_single = !together.iter().any(|rows| rows.contains(&row));
+                if is_single && *l > 3.0 * typical {
                     3.0 * typical / l
                 } else {
                     1.0

@@ -247,7 +247,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         used
     };
     let choose = |world: &World| -> Vec<Chosen> {
-        let mut own = world.search(Vec::new());
+        let mut own = world.search(session.first(world));
         keep_rows(world, &attempt.chosen, &mut own);
         own
     };

@@ -1,8 +1,10 @@
 //! What a diagnosis starts from: the model's residuals and the parameters that are fitted along.
 
 pub mod noise;
+pub mod shifts;
 
 use self::noise::{Repeats, of_repeats, weigh_orientations};
+use self::shifts::Shifts;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
@@ -55,7 +57,10 @@ pub struct Session {
     pub present_estimate: Estimate,
     /// Numbers of rows.
     pub layout: Layout,
-    /// Residuals at `estimate`.
+    /// The values about which everything is linear: those before any effect is added, and large
+    /// steps of the device or the base.
+    pub about: Estimate,
+    /// Residuals at `estimate`, as they follow from `about`.
     pub residual: Column,
     /// Columns of the problem's parameters.
     pub columns: Vec<Column>,
@@ -69,6 +74,11 @@ pub struct Session {
     pub repeats: Option<Repeats>,
     /// Whether the device's frame is not the profile's: the base is fitted.
     pub elsewhere: bool,
+    /// What brings the measurements to where the profile has the base, where the device is
+    /// elsewhere.
+    pub(crate) nearer: Pose,
+    /// Large steps of the device or the base.
+    pub(crate) shifts: Shifts,
     /// Where the device's frame is taken to be; what the base is fitted to beyond it is the
     /// device's, too.
     pub world_from_device: Pose,
@@ -144,8 +154,10 @@ pub fn session(
     measurements: &Measurements,
     trust: Trust,
     leave: &dyn Fn(&Effect) -> bool,
+    shifts: &Shifts,
 ) -> Result<(Session, Vec<Remark>), IdentifyError> {
-    let fit = measurements.filtered(|_, row| row.purpose != Some(Purpose::Validate));
+    let fit = shifts.undone(measurements);
+    let fit = fit.filtered(|_, row| row.purpose != Some(Purpose::Validate));
     if fit.rows.is_empty() {
         return Err(IdentifyError::NothingToFit);
     }
@@ -234,6 +246,7 @@ pub fn session(
         }
         Trust::Calibrated { .. } => present_estimate.clone(),
     };
+    let about = shifts.in_estimate(&estimate, &nearer);
     let share = match trust {
         Trust::Nothing => 1.0,
         Trust::Calibrated { g } => g / (1.0 + g),
@@ -252,9 +265,9 @@ pub fn session(
         &mut problem,
         measurements,
         (&layout, &used),
-        (&estimate, &shares),
+        (&about, &shares),
     );
-    let (residual, columns) = table(&problem, &estimate, &problem.parameters);
+    let (residual, columns) = shifts.linear(&problem, &about);
     // columns that do what those before them do are left out for good: given an effect found later,
     // a last link that bends, they would be distinguished by almost nothing and run away together
     let own = (&columns[..], &shares[..]);
@@ -272,7 +285,7 @@ pub fn session(
         .collect();
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
-    let mut candidates = Candidates::of(&problem, &estimate, measurements, &tried, leave);
+    let mut candidates = Candidates::of(&problem, &about, measurements, &tried, leave);
     let own = (&columns[..], &shares[..]);
     let normal = Normal::of((&layout, &used), &residual, own, LEAST);
     candidates.say_absorbed(&normal, &estimate.effects);
@@ -288,6 +301,7 @@ pub fn session(
             present,
             present_estimate,
             layout,
+            about,
             residual,
             columns,
             shares,
@@ -295,6 +309,8 @@ pub fn session(
             candidates,
             repeats,
             elsewhere,
+            nearer,
+            shifts: shifts.clone(),
             world_from_device: nearer * profile.world_from_device(),
         },
         remarks,
@@ -365,7 +381,7 @@ impl Session {
         let world = self.world(used, &[]);
         let fit = world.fit(chosen);
         let least = 2.0 * world.numbers.ln() + 2.0 * (waves::places() as f64).ln();
-        let (problem, estimate) = (&self.problem, &self.estimate);
+        let (problem, estimate) = (&self.problem, &self.about);
         let mut peaks = waves::peaks(
             problem,
             estimate,
@@ -379,7 +395,7 @@ impl Session {
         peaks.extend(found.flat_map(|effect| waves::neighbours(effect, &self.candidates)));
         peaks.retain(|effect| !leave(effect));
         let mut any = !peaks.is_empty();
-        (self.candidates).add_waves(&self.problem, &self.estimate, peaks);
+        (self.candidates).add_waves(&self.problem, &self.about, peaks);
         for found in chosen {
             let effect = &found.candidate.effect;
             let listed = effect.definition().listed();
@@ -417,7 +433,7 @@ impl Session {
                 effect.parameters[number] = value;
                 wanted.push((effect, found.candidate.sought.clone()));
             }
-            let columns = columns_of(&self.problem, &self.estimate, &wanted);
+            let columns = columns_of(&self.problem, &self.about, &wanted);
             for ((effect, _), own) in wanted.into_iter().zip(columns) {
                 let first = self.candidates.columns.len();
                 let count = own.len();

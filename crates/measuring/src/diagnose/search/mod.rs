@@ -2,7 +2,7 @@
 
 pub mod candidates;
 mod drifts;
-mod scan;
+pub(crate) mod scan;
 pub mod stand_ins;
 pub(crate) mod waves;
 

@@ -11,7 +11,7 @@ use crate::model::effects::Kind;
 use rayon::prelude::*;
 
 /// Rows on both sides of a row from which on an effect holds.
-const ROWS_GIVEN: usize = 5;
+pub(crate) const ROWS_GIVEN: usize = 5;
 
 /// Every candidate seen from a fit without effects: good as long as its weights are.
 #[derive(Debug)]

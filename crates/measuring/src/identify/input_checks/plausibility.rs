@@ -237,11 +237,11 @@ pub(crate) fn check_left_out(problem: &Problem, shape: Shape, parameters: usize)
 pub(crate) fn check_rows(outliers: &[Outlier]) -> Option<Remark> {
     let worst = outliers.iter().max_by(|a, b| a.times.total_cmp(&b.times))?;
     let message = format!(
-        "{} row{} not fit the others, the worst misses by {:.3} mm, {:.1} times the typical \
-         residual (limit {:.1})",
+        "{} row{} not fit the others, the worst misses by {}, {:.1} times the typical residual \
+         (limit {:.1})",
         outliers.len(),
         if outliers.len() == 1 { " does" } else { "s do" },
-        mm_from_m(worst.length_m),
+        worst.off.words(),
         worst.times,
         worst.limit
     );
@@ -352,18 +352,30 @@ pub(crate) fn check_values(
         definition.search.never_negative.contains(&slot.parameter)
             && definition.parameters[slot.parameter].unit == Unit::RadPerNm
     };
-    let negative = physical.clone().find(|(p, sigma)| {
-        matches!(p.subject, Subject::Effect(slot) if springs(slot)) && value(p) < -SURELY * **sigma
-    });
-    if let Some((p, sigma)) = negative {
+    let springs: Vec<(&Parameter, &f64)> = physical
+        .filter(|(p, _)| matches!(p.subject, Subject::Effect(slot) if springs(slot)))
+        .collect();
+    let negative = springs
+        .iter()
+        .filter(|(p, sigma)| value(p) < -SURELY * **sigma);
+    let negative: Vec<String> = negative
+        .map(|(p, sigma)| {
+            let (value, sigma) = (in_unit(p, value(p)), in_unit(p, **sigma));
+            format!("{} ({value} ± {sigma})", p.key)
+        })
+        .collect();
+    if !negative.is_empty() {
         let message = format!(
-            "{} is negative, {} ± {}: no joint springs against its load",
-            p.key,
-            in_unit(p, value(p)),
-            in_unit(p, *sigma)
+            "{} {} negative: no joint springs against its load",
+            negative.join(", "),
+            if negative.len() == 1 { "is" } else { "are" }
         );
-        let hint =
-            "it imitates another effect: `poseshift diagnose` looks for it; are the masses right?";
+        let hint = if negative.len() > 1 && negative.len() == springs.len() {
+            "all springs are: `gravity_m_s2` of the profile may be upside down (0, 0, -9.81 of an \
+             arm on the floor), or the masses are wrong"
+        } else {
+            "it imitates another effect: `poseshift diagnose` looks for it; are the masses right?"
+        };
         remarks.push(remark("negative-compliance", WHOLE_FILE, message, hint));
     }
     Ok(remarks)

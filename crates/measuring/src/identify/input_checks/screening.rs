@@ -187,8 +187,9 @@ pub fn look(profile: &Profile, measurements: &Measurements) -> Result<Vec<Remark
 
 /// Rows that repeat an earlier one to the last digit.
 pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
-    let mut first: std::collections::HashMap<Vec<u64>, &Line> = std::collections::HashMap::new();
-    let mut twice = Vec::new();
+    let mut first: std::collections::HashMap<Vec<u64>, (&Line, usize)> =
+        std::collections::HashMap::new();
+    let (mut twice, mut most) = (Vec::new(), 0);
     for row in rows {
         let mut key: Vec<u64> = row.q.iter().map(|q| q.to_bits()).collect();
         key.extend(row.stand.bits());
@@ -202,8 +203,11 @@ pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
             // the joint angles are the reading
             Observed::Contact(kind) => key.push(kind as u64),
         }
-        if let Some(line) = first.insert(key, &row.line) {
-            twice.push((&row.line, line));
+        let (earlier, times) = first.entry(key).or_insert((&row.line, 0));
+        *times += 1;
+        if *times > 1 {
+            twice.push((&row.line, *earlier));
+            most = most.max(*times);
         }
     }
     let (line, earlier) = twice.first()?;
@@ -212,8 +216,13 @@ pub fn duplicates(rows: &[Measurement]) -> Option<Remark> {
         (*line).clone(),
         format!(
             "{} rows repeat an earlier one to the last digit, the first in {line} that of \
-             {earlier}: they count twice",
-            twice.len()
+             {earlier}: they count {}",
+            twice.len(),
+            if most == 2 {
+                "twice".to_owned()
+            } else {
+                format!("up to {most} times")
+            }
         ),
         "a device never repeats itself exactly: leave copies out",
     ))
