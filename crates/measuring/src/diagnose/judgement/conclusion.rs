@@ -180,7 +180,8 @@ fn written(
             unsure.push(one.effect.clone());
         }
     }
-    let is_kept = |f: &Found| f.in_profile || f.effect.definition().of_data;
+    // a step or a drift that is there again too seldom is none: the frames are those of all rows
+    let is_kept = |f: &Found| f.in_profile || f.effect.definition().of_data && !is_seldom(f);
     let attempted = (attempt.refit.clone(), attempt.moved.clone());
     let (own, moved) = if found.iter().all(is_kept) {
         attempted
