@@ -392,8 +392,8 @@ pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<boo
         .map(|name| Identity::of(Path::new(name)))
         .collect();
     let is = |path: &Path, at: usize| {
-        let of_file = || Identity::of(path);
-        ends_as(path, Path::new(&only[at])) || named[at].is_some() && named[at] == of_file()
+        let leads_there = || named[at].is_some() && named[at] == Identity::of(path);
+        ends_as(path, Path::new(&only[at])) || leads_there()
     };
     for (at, name) in only.iter().enumerate() {
         if !programs.iter().any(|program| is(&program.path, at)) {
@@ -429,10 +429,8 @@ fn ends_as(path: &Path, end: &Path) -> bool {
     let (above, asked) = (folders(path), folders(end));
     let from = above.len().checked_sub(asked.len());
     from.is_some_and(|from| {
-        let pairs = above[from..].iter().zip(&asked);
-        pairs
-            .into_iter()
-            .all(|(part, asked)| part.eq_ignore_ascii_case(asked))
+        let mut pairs = above[from..].iter().zip(&asked);
+        pairs.all(|(part, asked)| part.eq_ignore_ascii_case(asked))
     })
 }
 

@@ -277,6 +277,19 @@ pub fn run(arguments: &[&str]) -> (i32, String, String) {
     )
 }
 
+/// Runs a command in a folder: status, standard output, and standard error in one line.
+pub fn run_in(folder: &Path, command: &str) -> (Option<i32>, String, String) {
+    let output = poseshift()
+        .current_dir(folder)
+        .args(command.split(' '))
+        .output()
+        .expect("the program starts");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let words = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let out = text(&output.stdout);
+    (output.status.code(), out, words(text(&output.stderr)))
+}
+
 /// The files of the repository as git has them, relative to its top: what lies about besides is
 /// none of them. Of an archive without git, every file that is there.
 pub fn tracked() -> &'static std::collections::BTreeSet<PathBuf> {

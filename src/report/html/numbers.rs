@@ -236,6 +236,16 @@ impl Table {
     pub(crate) fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
+
+    /// Puts a column in front of the one at an index: by how much each row is rotated, degrees, where
+    /// any is.
+    pub(crate) fn insert_rotations(&mut self, at: usize, rotated_deg: &[Option<f64>]) {
+        if rotated_deg.iter().any(Option::is_some) {
+            let shown = |angle: &Option<f64>| angle.map(|angle| significant(angle, DIGITS));
+            let column = Column::numbers("rotated", "deg", rotated_deg.iter().map(shown)).to(3);
+            self.columns.insert(at, column);
+        }
+    }
 }
 
 /// Medians of several that are so many times apart are counted on an axis of powers of ten.

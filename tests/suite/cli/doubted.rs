@@ -1,7 +1,7 @@
 //! Tables of joints, lengths and touches that cannot be meant so: refused or reported with file, line,
 //! value and limit.
 
-use crate::support::{poseshift, repository, scratch, text};
+use crate::support::{repository, run_in, scratch, text};
 use std::path::Path;
 
 const THESIS: &str = "robots/abb_irb120_thesis.yaml";
@@ -25,26 +25,13 @@ fn world() -> tempfile::TempDir {
     folder
 }
 
-/// Status, standard output, standard error.
-fn run(folder: &Path, command: &str) -> (Option<i32>, String, String) {
-    let output = poseshift()
-        .current_dir(folder)
-        .args(command.split(' '))
-        .output()
-        .expect("the program starts");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let words = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let out = text(&output.stdout);
-    (output.status.code(), out, words(text(&output.stderr)))
-}
-
 fn write(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join(name), text).expect("scratch");
 }
 
 /// Asserts that a command ends with status 2 and says all of this, and prints nothing.
 fn refused(folder: &Path, command: &str, said: &[&str]) {
-    let (status, out, reported) = run(folder, command);
+    let (status, out, reported) = run_in(folder, command);
     assert_eq!(status, Some(2), "{command}: {reported}{out}");
     assert!(out.is_empty(), "{command}: {out}");
     for word in said {
@@ -54,7 +41,7 @@ fn refused(folder: &Path, command: &str, said: &[&str]) {
 
 /// Asserts that a command ends with status 0 and says all of this on standard error.
 fn reported(folder: &Path, command: &str, said: &[&str]) {
-    let (status, out, reported) = run(folder, command);
+    let (status, out, reported) = run_in(folder, command);
     assert_eq!(status, Some(0), "{command}: {reported}{out}");
     for word in said {
         assert!(reported.contains(word), "{command}: {word}: {reported}");
@@ -152,11 +139,11 @@ fn joints_beyond_the_limits_are_reported_with_line_and_limits() {
         "simulate --profile p.yaml --joints q.csv -o m.csv",
         &said,
     );
-    let (_, out, _) = run(at, "fk --profile p.yaml --joints q.csv --json");
+    let (_, out, _) = run_in(at, "fk --profile p.yaml --joints q.csv --json");
     let report: serde_json::Value = serde_json::from_str(&out).expect("a report");
     assert_eq!(report["findings"][0]["line"], 3);
     write(at, "q.csv", &format!("{JOINTS}\n10,20,30,0,30,0\n"));
-    let (_, _, nothing) = run(at, "fk --profile p.yaml --joints q.csv");
+    let (_, _, nothing) = run_in(at, "fk --profile p.yaml --joints q.csv");
     assert_eq!(nothing, "");
 }
 
@@ -269,7 +256,7 @@ fn a_misspelt_column_does_not_count_as_none() {
     refuses("register nominal.csv probed.csv", "sigma", "sigma_mm");
     // other columns of a logger are left aside
     joints("operator", "7");
-    let (status, ..) = run(at, "fk --profile p.yaml --joints j.csv");
+    let (status, ..) = run_in(at, "fk --profile p.yaml --joints j.csv");
     assert_eq!(status, Some(0));
 }
 
@@ -304,7 +291,7 @@ fn lengths_of_a_ballbar_are_doubted_where_balls_would_have_moved() {
         "b23 is 309.9800 mm, and 299.9800 mm in most rows (limit 0.1 mm)",
     ];
     reported(at, "hexapod l.csv", &said);
-    let (_, _, nothing) = run(at, "hexapod lengths.csv");
+    let (_, _, nothing) = run_in(at, "hexapod lengths.csv");
     assert_eq!(nothing, "");
 
     let taught = text("docs/measuring/taught.csv");
@@ -313,10 +300,10 @@ fn lengths_of_a_ballbar_are_doubted_where_balls_would_have_moved() {
     let said = ["t.csv: warning[taught-off]", "limit 1 mm"];
     reported(at, command, &said);
     reported(at, &format!("{command} -o f.yaml --quiet"), &[]);
-    let (_, out, _) = run(at, &format!("{command} --json"));
+    let (_, out, _) = run_in(at, &format!("{command} --json"));
     let report: serde_json::Value = serde_json::from_str(&out).expect("a report");
     assert_eq!(report["findings"][0]["id"], "taught-off");
-    let (_, _, nothing) = run(at, &command.replace("t.csv", "taught.csv"));
+    let (_, _, nothing) = run_in(at, &command.replace("t.csv", "taught.csv"));
     assert_eq!(nothing, "");
 }
 

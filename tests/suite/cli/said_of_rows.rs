@@ -1,26 +1,10 @@
 //! What is said of rows, effects and profiles that are wrong: the part that is, all of them, and why.
 
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{repository, run_in, scratch};
 use serde_json::Value;
 use std::path::Path;
 
 const THESIS: &str = "robots/abb_irb120_thesis.yaml";
-
-/// Status, standard output, standard error in one line.
-fn run(folder: &Path, command: &str) -> (Option<i32>, String, String) {
-    let output = poseshift()
-        .current_dir(folder)
-        .args(command.split(' '))
-        .output()
-        .expect("the program starts");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let words = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    (
-        output.status.code(),
-        text(&output.stdout),
-        words(text(&output.stderr)),
-    )
-}
 
 /// A folder with the thesis's robot, and measurements of 60 of its postures, with these options.
 fn measured(options: &str) -> tempfile::TempDir {
@@ -32,7 +16,7 @@ fn measured(options: &str) -> tempfile::TempDir {
             "simulate --profile p.yaml --joints j.csv --noise-mm 0.02 --seed 3{options} -o m.csv"
         ),
     ] {
-        let (status, _, reported) = run(folder.path(), &command);
+        let (status, _, reported) = run_in(folder.path(), &command);
         assert_eq!(status, Some(0), "{command}: {reported}");
     }
     folder
@@ -85,7 +69,7 @@ fn a_wrong_orientation_is_said_in_degrees() {
     std::fs::write(folder.path().join("m.csv"), rows.collect::<String>()).expect("scratch");
     for command in ["calibrate", "diagnose"] {
         let command = format!("{command} --profile p.yaml --measurements m.csv");
-        let (_, out, reported) = run(folder.path(), &command);
+        let (_, out, reported) = run_in(folder.path(), &command);
         if command.starts_with("calibrate") {
             assert!(
                 reported.contains("the worst misses by ") && reported.contains("°, "),
@@ -98,7 +82,7 @@ fn a_wrong_orientation_is_said_in_degrees() {
                 "{out}"
             );
         }
-        let (_, out, _) = run(folder.path(), &(command + " --json"));
+        let (_, out, _) = run_in(folder.path(), &(command + " --json"));
         let report = json(&out);
         assert_eq!(report["worst_row"]["line"], 9);
         for row in [&report["worst_row"], &report["outliers"][0]] {
@@ -124,7 +108,7 @@ fn an_accepted_effect_that_is_not_in_the_model_is_said_with_the_reason() {
         let command = format!(
             "diagnose --profile p.yaml --measurements m.csv --json --quick --accept {effect}"
         );
-        let (_, out, _) = run(folder.path(), &command);
+        let (_, out, _) = run_in(folder.path(), &command);
         let report = json(&out);
         let findings = report["findings"].as_array().expect("a list").clone();
         let own = findings
@@ -146,7 +130,7 @@ fn an_accepted_effect_that_is_not_in_the_model_is_said_with_the_reason() {
     );
     assert_eq!(said("base_frame"), None);
     // people see it, too
-    let (_, _, reported) = run(
+    let (_, _, reported) = run_in(
         folder.path(),
         "diagnose --profile p.yaml --measurements m.csv --accept joint_compliance:1",
     );
@@ -157,7 +141,7 @@ fn an_accepted_effect_that_is_not_in_the_model_is_said_with_the_reason() {
 fn a_length_that_no_urdf_has_is_refused_by_its_key() {
     let folder = scratch();
     with(folder.path(), "d_mm: 290", "d_mm: 2e6");
-    let (status, _, reported) = run(folder.path(), "profile export --urdf p.yaml");
+    let (status, _, reported) = run_in(folder.path(), "profile export --urdf p.yaml");
     assert_eq!(status, Some(2), "{reported}");
     for word in ["d_mm of joint 1 is 2000000", "1000000 mm"] {
         assert!(reported.contains(word), "{reported}");
@@ -172,7 +156,7 @@ fn a_coupling_is_given_once_and_shown() {
         "coupling: []",
         "coupling: [{joint: 3, on: 2, ratio: 1}]",
     );
-    let (status, out, reported) = run(folder.path(), "profile show p.yaml");
+    let (status, out, reported) = run_in(folder.path(), "profile show p.yaml");
     assert_eq!(status, Some(0), "{reported}");
     assert!(out.contains("couplings\n  3 on 2  1\n"), "{out}");
     with(
@@ -180,7 +164,7 @@ fn a_coupling_is_given_once_and_shown() {
         "coupling: []",
         "coupling:\n    - {joint: 3, on: 2, ratio: 1}\n    - {joint: 3, on: 2, ratio: 1}",
     );
-    let (status, _, reported) = run(folder.path(), "profile show p.yaml");
+    let (status, _, reported) = run_in(folder.path(), "profile show p.yaml");
     assert_eq!(status, Some(2), "{reported}");
     assert!(
         reported.contains("the coupling of joint 3 on joint 2 stands twice"),
@@ -192,7 +176,7 @@ fn a_coupling_is_given_once_and_shown() {
 fn gravity_upside_down_makes_all_springs_negative_and_is_said() {
     let folder = measured("");
     upside_down(folder.path());
-    let (_, out, _) = run(
+    let (_, out, _) = run_in(
         folder.path(),
         "calibrate --profile p.yaml --measurements m.csv --json",
     );
@@ -225,7 +209,7 @@ fn rows_that_stand_six_times_count_six_times() {
         format!("{header}\n{}", rows.repeat(6)),
     )
     .expect("scratch");
-    let (_, _, reported) = run(
+    let (_, _, reported) = run_in(
         folder.path(),
         "validate --profile p.yaml --measurements m.csv",
     );
@@ -236,7 +220,7 @@ fn rows_that_stand_six_times_count_six_times() {
 fn an_angle_that_is_too_large_is_said_as_it_was_given() {
     let folder = scratch();
     std::fs::copy(repository(THESIS), folder.path().join("p.yaml")).expect("scratch");
-    let (status, _, reported) = run(
+    let (status, _, reported) = run_in(
         folder.path(),
         "plan --profile p.yaml --count 60 --margin-deg 500",
     );
@@ -249,7 +233,7 @@ fn what_a_person_decided_is_done_whatever_the_verdict_and_figures_differ() {
     let folder = measured("");
     let command =
         "diagnose --profile p.yaml --measurements m.csv --accept joint_compliance:3 -o o.yaml";
-    let (status, out, reported) = run(folder.path(), command);
+    let (status, out, reported) = run_in(folder.path(), command);
     assert_eq!(status, Some(0), "{reported}");
     assert!(folder.path().join("o.yaml").exists(), "{out}");
     let out: String = out.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -180,6 +180,7 @@ impl<'a> Portion<'a> {
             .program
             .numbers_of(&job.ground.program.targets[target]);
         let mut splits = Vec::with_capacity(each.len());
+        let [mut shifted, mut before, mut after] = [Separation::default(); 3];
         for alone in each.values() {
             let Ok(fake) = shared::common(job, alone) else {
                 return false;
@@ -192,7 +193,7 @@ impl<'a> Portion<'a> {
                 self.findings.push(finding);
                 return false;
             }
-            report.shift = largest(report.shift, shift);
+            shifted = largest(shifted, shift);
             let Some(written) = self.written(job, approach, &fake, fractions) else {
                 return false;
             };
@@ -204,9 +205,8 @@ impl<'a> Portion<'a> {
             {
                 return false;
             }
-            let before = worst(alone.iter().map(|solved| uncorrected(job, solved)));
-            report.before = Some(largest(report.before.unwrap_or_default(), before));
-            report.rounding = Some(largest(report.rounding.unwrap_or_default(), landed));
+            let own = worst(alone.iter().map(|solved| uncorrected(job, solved)));
+            (before, after) = (largest(before, own), largest(after, landed));
             let target = &job.ground.program.targets[target];
             let mut texts: Vec<Vec<u8>> = numbers
                 .iter()
@@ -229,6 +229,8 @@ impl<'a> Portion<'a> {
             });
         }
         report.changed = true;
+        report.shift = shifted;
+        (report.before, report.rounding) = (Some(before), Some(after));
         self.splits.extend(splits);
         true
     }

@@ -242,12 +242,7 @@ fn show_outliers(page: &mut Page, of: &Calibration) {
             .to(3),
         ],
     };
-    if list.iter().any(|o| o.residual_deg.is_some()) {
-        let rotated = list
-            .iter()
-            .map(|o| o.residual_deg.map(|x| significant(x, DIGITS)));
-        let column = Column::numbers("rotated", "deg", rotated).to(3);
-        table.columns.insert(3, column);
-    }
+    let rotated: Vec<Option<f64>> = list.iter().map(|o| o.residual_deg).collect();
+    table.insert_rotations(3, &rotated);
     page.show("outliers", "Rows that do not fit the others", "", table);
 }
