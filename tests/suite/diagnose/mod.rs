@@ -139,6 +139,25 @@ fn distances_that_are_wrong_in_proportion_are_no_error_of_the_links() {
 }
 
 #[test]
+fn what_moves_places_is_seen_where_poses_are_measured_with_orientations_that_it_hardly_turns() {
+    // poses whose orientations no column weighs
+    for number in [19, 56] {
+        let case = case(group("devices"), number, 314, ROWS);
+        assert!(case.csv.contains("qw") && !case.csv.contains("sigma_deg"));
+        let found = diagnose(
+            &case.profile,
+            &case.measurements,
+            &Options::default(),
+            &mut |_| {},
+        );
+        let found = found.expect("enough rows");
+        assert_eq!(found.verdict, Verdict::Explained, "{:?}", found.reasons);
+        let named: Vec<String> = found.found.iter().map(|f| label(&f.effect)).collect();
+        assert_eq!(named, case.answer);
+    }
+}
+
+#[test]
 fn an_effect_that_what_is_fitted_along_does_is_said_to_be_untested() {
     let untested = |name: &str| {
         let case = case(group(name), 0, SEED, ROWS);

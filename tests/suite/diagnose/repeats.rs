@@ -360,7 +360,7 @@ fn orientations_weigh_by_what_they_scatter_where_no_column_says() {
             &measurements,
             trust,
             &|_| false,
-            &Shifts::default(),
+            (&Shifts::default(), None),
         )
         .expect("enough rows");
         session.problem.rows[0].sigma_rad

@@ -29,7 +29,7 @@ const UNKNOWN_BETTER: f64 = 14.0;
 const UNKNOWN_PART: f64 = 0.01;
 /// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
-/// Turns in which a large step of the device settles.
+/// Turns in which a large step of the device settles, and the weight of orientations.
 const SETTLING: usize = 4;
 /// Neighbours are alike where that is less likely by chance.
 pub(crate) const ALIKE: f64 = 2e-4;
@@ -280,25 +280,41 @@ pub(crate) fn attempt(
     let leave = |effect: &Effect| options.reject.iter().any(|pick| pick.means(effect));
     progress("fitting frames and geometry");
     let used = for_choice(measurements);
-    let mut anew = |shifts: &Shifts| {
-        let (mut session, remarks) = session(profile, measurements, trust, &leave, shifts)?;
+    let mut anew = |shifts: &Shifts, weight: Option<f64>| {
+        let begin = (shifts, weight);
+        let (mut session, remarks) = session(profile, measurements, trust, &leave, begin)?;
         progress("trying every effect");
         let chosen = searched(&mut session, &used, options);
         Ok::<_, IdentifyError>((session, remarks, chosen))
     };
     let mut shifts = Shifts::default();
-    let (mut session, mut remarks, mut chosen) = anew(&shifts)?;
+    let (mut session, mut remarks, mut chosen) = anew(&shifts, None)?;
     // a large step is solved before others are sought
     for _ in 0..SETTLING {
         let own = (profile, measurements);
         let Some(next) = shifts.next(own, &session, &chosen, &used) else {
             break;
         };
-        match anew(&next) {
+        match anew(&next, None) {
             Ok(found) if next.are_among(&found.2) => (session, remarks, chosen) = found,
             _ => break,
         }
         shifts = next;
+    }
+    // orientations are weighed by what the effects found leave of them, until these are the same
+    for _ in 0..SETTLING {
+        if session.orientations.is_empty() {
+            break;
+        }
+        let (_, Last { fit, columns }) = refit(session.start(), &chosen, &used);
+        let of_places = session
+            .orientations
+            .against_places(&session.layout, (&fit, &columns));
+        let Some(times) = of_places else { break };
+        match anew(&shifts, Some(times * session.orientations_by)) {
+            Ok(found) if shifts.are_among(&found.2) => (session, remarks, chosen) = found,
+            _ => break,
+        }
     }
     progress("fitting what was found");
     let (refit, last) = refit(session.start(), &chosen, &used);

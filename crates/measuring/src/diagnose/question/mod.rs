@@ -3,7 +3,7 @@
 pub mod noise;
 pub mod shifts;
 
-use self::noise::{Repeats, of_repeats, weigh_orientations};
+use self::noise::{Orientations, Repeats, of_repeats};
 use self::shifts::Shifts;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
@@ -72,6 +72,10 @@ pub struct Session {
     pub candidates: Candidates,
     /// Noise by repeated poses, where `sigma_mm` does not state it.
     pub repeats: Option<Repeats>,
+    /// Poses of whose orientations no column says how sure they are.
+    pub(crate) orientations: Orientations,
+    /// Their standard deviation, in that which the sigma of their places gives them.
+    pub(crate) orientations_by: f64,
     /// Whether the device's frame is not the profile's: the base is fitted.
     pub elsewhere: bool,
     /// What brings the measurements to where the profile has the base, where the device is
@@ -145,7 +149,7 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
-/// Prepares a session.
+/// Prepares a session; `weight` is that of orientations of which no column says how sure they are.
 ///
 /// # Errors
 /// As [`calibrate`]: measurements that contradict the robot or themselves, or are too few.
@@ -154,7 +158,7 @@ pub fn session(
     measurements: &Measurements,
     trust: Trust,
     leave: &dyn Fn(&Effect) -> bool,
-    shifts: &Shifts,
+    (shifts, weight): (&Shifts, Option<f64>),
 ) -> Result<(Session, Vec<Remark>), IdentifyError> {
     let fit = shifts.undone(measurements);
     let fit = fit.filtered(|_, row| row.purpose != Some(Purpose::Validate));
@@ -261,12 +265,13 @@ pub fn session(
         .map(|p| if free(p.subject) { 1.0 } else { share })
         .collect();
     let used = for_choice(measurements);
-    weigh_orientations(
-        &mut problem,
-        measurements,
-        (&layout, &used),
-        (&about, &shares),
-    );
+    let orientations = Orientations::of(&problem, measurements, &used);
+    let orientations_by = if let Some(times) = weight {
+        orientations.scale(&mut problem, times);
+        times
+    } else {
+        orientations.weigh(&mut problem, (&layout, &used), (&about, &shares))
+    };
     let (residual, columns) = shifts.linear(&problem, &about);
     // columns that do what those before them do are left out for good: given an effect found later,
     // a last link that bends, they would be distinguished by almost nothing and run away together
@@ -308,6 +313,8 @@ pub fn session(
             tried,
             candidates,
             repeats,
+            orientations,
+            orientations_by,
             elsewhere,
             nearer,
             shifts: shifts.clone(),

@@ -9,7 +9,7 @@
 //! of each sort of numbers over their redundancy, until the weights rest.
 
 use crate::diagnose::estimator::chances::{chi_squared_quantile, f_tail};
-use crate::diagnose::estimator::fit::Normal;
+use crate::diagnose::estimator::fit::{Fit, Normal};
 use crate::diagnose::estimator::table::{Column, Layout, table};
 use crate::identify::measurements::{Measurements, Observed};
 use crate::identify::problem::{Estimate, PointRef, Problem, Row};
@@ -28,6 +28,8 @@ const SURE: f64 = 0.99;
 /// Rounds of weights of orientations, and the change at which they rest.
 const TURNS: usize = 8;
 const AT_REST: f64 = 0.01;
+/// Orientations that are so many times surer or less sure than places are weighed anew.
+const OTHER: f64 = 1.2;
 /// Numbers of a pose that are its place; the others are its orientation.
 const OF_PLACE: usize = 3;
 
@@ -165,50 +167,93 @@ pub fn of_repeats(
     of(&is_near).or_else(|| of(&|_, _| true))
 }
 
-/// Says of orientations how sure they are, against the places of the same poses, where no column
-/// does: by what a fit of the parameters with these shares leaves of both. Where too few numbers
-/// remain they count as they are.
-pub(crate) fn weigh_orientations(
-    problem: &mut Problem,
-    measurements: &Measurements,
-    (layout, used): (&Layout, &[bool]),
-    (estimate, shares): (&Estimate, &[f64]),
-) {
-    let is_guessed = |row: &Row| {
-        matches!(row.observed, Observed::Pose(_))
-            && measurements.rows[row.measurement].sigma_rad.is_none()
-    };
-    let guessed: Vec<usize> = (0..layout.rows())
-        .filter(|row| used[*row] && is_guessed(&problem.rows[*row]))
-        .collect();
-    for _ in 0..TURNS {
-        if guessed.is_empty() {
-            return;
+/// Poses of whose orientations no column says how sure they are.
+pub(crate) struct Orientations {
+    rows: Vec<usize>,
+}
+
+impl Orientations {
+    pub(crate) fn of(problem: &Problem, measurements: &Measurements, used: &[bool]) -> Self {
+        let is_unsure = |row: &Row| {
+            matches!(row.observed, Observed::Pose(_))
+                && measurements.rows[row.measurement].sigma_rad.is_none()
+        };
+        let rows = problem.rows.iter().enumerate();
+        let unsure = rows.filter(|(number, row)| used[*number] && is_unsure(row));
+        Self {
+            rows: unsure.map(|(number, _)| number).collect(),
         }
-        let (residual, columns) = table(problem, estimate, &problem.parameters);
-        let fit = Normal::of((layout, used), &residual, (&columns, shares), 0.0).fit(&[]);
-        // squares and redundancies of places and of orientations
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Mean squares of places and of orientations that a fit leaves; `None` of too few numbers.
+    fn mean_squares(&self, layout: &Layout, fit: &Fit, columns: &[Column]) -> Option<[f64; 2]> {
         let mut sums = [(0.0, 0.0); 2];
-        for row in &guessed {
+        for row in &self.rows {
             for (k, number) in layout.row(*row).enumerate() {
                 let (squares, redundancy) = &mut sums[usize::from(k >= OF_PLACE)];
                 *squares += fit.left[number].powi(2);
-                *redundancy += fit.roots[number].powi(2) - fit.leverage_of(number, &columns);
+                *redundancy += fit.roots[number].powi(2) - fit.leverage_of(number, columns);
             }
         }
-        let [places, orientations] = sums;
-        let times = (orientations.0 / orientations.1 / (places.0 / places.1)).sqrt();
-        if places.1.min(orientations.1) < FEWEST || !(times.is_finite() && times > 0.0) {
-            return;
+        let is_enough = sums.iter().all(|(_, redundancy)| *redundancy >= FEWEST);
+        is_enough.then(|| sums.map(|(squares, redundancy)| squares / redundancy))
+    }
+
+    /// So many times the standard deviation that they have makes them as sure as the places of the
+    /// same poses, by what a fit with the effects found leaves of both; `None` where they are.
+    pub(crate) fn against_places(
+        &self,
+        layout: &Layout,
+        (fit, columns): (&Fit, &[Column]),
+    ) -> Option<f64> {
+        let [places, orientations] = self.mean_squares(layout, fit, columns)?;
+        let times = (orientations / places).sqrt();
+        let is_other = times.is_finite() && times > 0.0 && times.ln().abs() > OTHER.ln();
+        is_other.then_some(times)
+    }
+
+    /// Gives them so many times the standard deviation they have.
+    pub(crate) fn scale(&self, problem: &mut Problem, times: f64) {
+        let rows = Arc::make_mut(&mut problem.rows);
+        for row in &self.rows {
+            rows[*row].sigma_rad *= times;
         }
-        for row in Arc::make_mut(&mut problem.rows)
-            .iter_mut()
-            .filter(|row| is_guessed(row))
-        {
-            row.sigma_rad *= times;
+    }
+
+    /// Weighs them by what a fit of the parameters with these shares leaves of them; how many times
+    /// the standard deviation that was. Where a column states the noise of places, what is left
+    /// of these beyond it is an effect and no noise, and orientations may have none of it.
+    pub(crate) fn weigh(
+        &self,
+        problem: &mut Problem,
+        (layout, used): (&Layout, &[bool]),
+        (estimate, shares): (&Estimate, &[f64]),
+    ) -> f64 {
+        let mut product = 1.0;
+        for _ in 0..TURNS {
+            if self.is_empty() {
+                break;
+            }
+            let (residual, columns) = table(problem, estimate, &problem.parameters);
+            let fit = Normal::of((layout, used), &residual, (&columns, shares), 0.0).fit(&[]);
+            let Some([places, orientations]) = self.mean_squares(layout, &fit, &columns) else {
+                break;
+            };
+            let noise = if problem.sigma_assumed { places } else { 1.0 };
+            let times = (orientations / noise).sqrt();
+            if !(times.is_finite() && times > 0.0) {
+                break;
+            }
+            self.scale(problem, times);
+            product *= times;
+            if (times - 1.0).abs() < AT_REST {
+                break;
+            }
         }
-        if (times - 1.0).abs() < AT_REST {
-            return;
-        }
+        product
     }
 }
