@@ -51,8 +51,17 @@ fn a_derived_point_is_judged_where_the_rail_and_the_frame_are_then() {
 #[test]
 fn a_composed_target_stands_where_its_own_numbers_say() {
     let rail = profile(&rail("eax_a"), &[SCALE]);
+    let elsewhere = format!(
+        "{POINT}\nCONST robtarget p2:=[[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],\
+         [400,9E9,9E9,9E9,9E9,9E9]];\nCONST extjoint e2:=[400,9E9,9E9,9E9,9E9,9E9];\nPERS extjoint \
+         e3:=[400,9E9,9E9,9E9,9E9,9E9];"
+    );
     for (axes, id, off) in [
         ("p1.extax", "displaced-target", "lands 0.000 mm off"),
+        ("P1.Extax", "displaced-target", "lands 0.000 mm off"),
+        ("p2.extax", "displaced-target", "lands 0.300 mm off"),
+        ("e2", "displaced-target", "lands 0.300 mm off"),
+        ("e3", "external-value-unknown", "eax_a"),
         (
             "[400,9E9,9E9,9E9,9E9,9E9]",
             "displaced-target",
@@ -61,7 +70,7 @@ fn a_composed_target_stands_where_its_own_numbers_say() {
         ("[x,9E9,9E9,9E9,9E9,9E9]", "external-value-unknown", "eax_a"),
     ] {
         let go = format!("MoveJ [p1.trans,p1.rot,p1.robconf,{axes}],v100,fine,t;\n");
-        let text = rapid(POINT, &format!("{HOME}{go}"));
+        let text = rapid(&elsewhere, &format!("{HOME}{go}"));
         let done = run(&rail, &[("t.mod", &text)]).expect("read");
         let found = done.findings.iter().find(|finding| finding.id == id);
         let message = found.map(|finding| finding.message.as_str());
@@ -70,6 +79,44 @@ fn a_composed_target_stands_where_its_own_numbers_say() {
             "{axes}: {:?}",
             done.findings
         );
+    }
+}
+
+#[test]
+fn a_position_of_rapid_with_other_external_axes_is_refused_by_name() {
+    let data = format!(
+        "{POINT}\nCONST robtarget p2:=[[640,200,700],[0,0.1,0.9949874371,0],[0,0,0,0],\
+         [400,9E9,9E9,9E9,9E9,9E9]];\nCONST robtarget \
+         p3:=[p1.trans,p1.rot,p1.robconf,p2.extax];\nVAR robtarget q;\nFUNC robtarget \
+         at_rail(robtarget p,num e)\np.extax.eax_a:=e;\nRETURN p;\nENDFUNC\n"
+    );
+    for (statements, is_refused) in [
+        ("q:=p1;\nMoveJ q,v100,fine,t;\n", false),
+        ("q:=p1;\nq.extax.eax_b:=400;\nMoveJ q,v100,fine,t;\n", false),
+        ("q:=p1;\nq.extax.eax_a:=400;\nMoveJ q,v100,fine,t;\n", true),
+        ("q:=p1;\nq.extax:=p2.extax;\nMoveJ q,v100,fine,t;\n", true),
+        (
+            "q:=Offs(p1,0,0,1);\nq.extax.eax_a:=400;\nMoveJ q,v100,fine,t;\n",
+            true,
+        ),
+        (
+            "q:=[p1.trans,p1.rot,p1.robconf,p2.extax];\nMoveJ q,v100,fine,t;\n",
+            true,
+        ),
+        ("MoveJ p3,v100,fine,t;\n", true),
+        ("MoveJ at_rail(p1,400),v100,fine,t;\n", true),
+    ] {
+        let rail = profile(&rail("eax_a"), &[SCALE]);
+        let done = run(
+            &rail,
+            &[("t.mod", &rapid(&data, &format!("{HOME}{statements}")))],
+        );
+        let done = done.expect("read");
+        let mut said = done.findings.iter();
+        let found = said.any(|finding| {
+            finding.id == "external-value-unknown" && finding.message.contains("eax_a")
+        });
+        assert_eq!(found, is_refused, "{statements}: {:?}", done.findings);
     }
 }
 

@@ -1,13 +1,12 @@
 //! Every six-axis arm has an inverse: all answers, the one on a track, and the posture it came
 //! from.
 
+use super::postures;
 use crate::support::{offset_wrist_arms, shipped_profiles};
 use poseshift::geometry::{Pose, wrap};
 use poseshift::inverse::{Arm, Inverse, Method, Methods, Status};
 use poseshift::model::profile::Mounted;
 use poseshift::model::{Conditions, Geometry, Mechanism, Model};
-use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
 /// Random postures an arm.
 const POSES: usize = 500;
@@ -21,16 +20,6 @@ const SAME_RAD: f64 = 1e-5;
 const MISSED_OF_10_000: usize = 10;
 /// Evaluations of the real arm after which a refusal comes: no search was begun.
 const AT_ONCE: u32 = 1;
-
-fn postures(mechanism: &Mechanism, count: usize, seed: u64) -> Vec<[f64; 6]> {
-    let mut random = StdRng::seed_from_u64(seed);
-    let mut one = || {
-        mechanism
-            .joints
-            .map(|joint| random.random_range(joint.min_rad..joint.max_rad))
-    };
-    (0..count).map(|_| one()).collect()
-}
 
 fn is_same(a: &[f64; 6], b: &[f64; 6], tolerance: f64) -> bool {
     (0..6).all(|i| wrap(a[i] - b[i]).abs() < tolerance)

@@ -131,6 +131,19 @@ fn wrist(l: &[Link; 6]) -> Result<Wrist, Unsupported> {
     Ok(Wrist::Offset)
 }
 
+/// Where the arm faces along x of the frame that axis 1 turned, and whether it stands along axis 1
+/// or against it: the same arm has a chain of either sense.
+///
+/// Axis 2 stands in front of axis 1 and above the base. Where it stands on axis 1 the arm faces
+/// along x of its base with joint 1 at zero, and where it stands at the base it is above along
+/// axis 1.
+fn facing(l: &[Link; 6], home_1_rad: f64) -> (f64, f64) {
+    let sign = |length: f64| (length.abs() > TOLERANCE).then(|| length.signum());
+    let turned = Rotation::about_x(l[0].alpha_rad) * Rotation::about_z(home_1_rad);
+    let front = sign(l[1].a_m).or_else(|| sign((turned * [1.0, 0.0, 0.0])[0]));
+    (front.unwrap_or(1.0), sign(l[0].d_m).unwrap_or(1.0))
+}
+
 impl Arm {
     /// Recognises the kind of arm.
     ///
@@ -165,6 +178,7 @@ impl Arm {
         let home: [f64; 6] =
             std::array::from_fn(|i| l[i].theta_rad + mechanism.joints[i].offset_rad);
         let sign = std::array::from_fn(|i| mechanism.joints[i].sign);
+        let (front, up) = facing(l, home[0]);
         let base_from_turning = Pose {
             rotation: Rotation::about_x(l[0].alpha_rad),
             translation: Rotation::about_x(l[0].alpha_rad) * [0.0, 0.0, l[0].d_m],
@@ -202,7 +216,8 @@ impl Arm {
                 -l[4].d_m * alpha_6.sine,
                 -l[4].d_m * alpha_6.cosine,
             ],
-            elbow_sign: -e2 * s3 * l[2].a_m.signum(),
+            front_sign: front,
+            elbow_sign: -front * up * e2 * s3 * l[2].a_m.signum(),
             wrist_sign: sign[4]
                 * if home[4].cos() < -TOLERANCE {
                     -1.0

@@ -85,6 +85,8 @@ pub struct Arm {
     alpha_6: AxisRotation,
     /// Where axes 4 and 5 meet, in the last row's frame without its d and before joint 6 turns it.
     meeting_in_last_m: Vector,
+    /// Sign that turns "in front of axis 1" into x of the frame that axis 1 turned.
+    front_sign: f64,
     /// Sign that turns "in front of the lower arm" into the sine of the elbow.
     elbow_sign: f64,
     /// Sign that turns the controller's joint 5 into the sine of the chain's.
@@ -327,6 +329,7 @@ impl Arm {
         let b = S::constant(self.lateral_m);
         let squared = p[0] * p[0] + p[1] * p[1];
         let beyond = (b * b - squared).max(S::zero());
+        let front = front * S::constant(self.front_sign);
         let r = front * (squared - b * b).max(S::zero()).sqrt();
         let first = AxisRotation::toward(r * p[1] - b * p[0], r * p[0] + b * p[1]);
         (first, r, beyond)
@@ -410,7 +413,7 @@ impl Arm {
         Stance {
             wrist_rad: (k(self.wrist_sign) * fifth.sine).atan2(fifth.cosine.abs()),
             elbow_rad: (k(self.elbow_sign) * elbow.sine).atan2(elbow.cosine.abs()),
-            shoulder_m: reach,
+            shoulder_m: k(self.front_sign) * reach,
         }
     }
 }

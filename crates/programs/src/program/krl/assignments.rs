@@ -4,14 +4,14 @@ use super::aggregate::EXTERNAL;
 use super::frames::{State, Table};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, COMPUTED, external_written};
+use super::remarks::{ASSIGNED, COMPUTED};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::displacing::grown_by_any;
 use crate::program::names::Symbol;
 use crate::program::notation::mentions;
 use crate::program::number;
-use crate::program::script::{Expr, How, PartValue, Written};
+use crate::program::script::{Expr, How, PartValue, Remark, Written};
 
 impl Reader {
     /// A whole number is written; only those matter that choose a tool or base.
@@ -198,7 +198,7 @@ impl Reader {
         let mut listed = EXTERNAL.iter();
         let axis = listed
             .find(|name| part.eq_ignore_ascii_case(name.as_bytes()) && self.bit_of(name) != 0)?;
-        Some(How::Whole(self.unknown(external_written(axis))))
+        Some(How::Whole(self.unknown(Remark::external_written(axis))))
     }
 
     /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or

@@ -57,18 +57,6 @@ pub(super) const COMPUTED: Remark = kit::computed(
     "write the position with numbers where it must be exact",
 );
 
-/// Against a position whose external axis the program writes.
-pub(super) fn external_written(axis: &str) -> Remark {
-    Remark::error_about(
-        "external-value-unknown",
-        format!(
-            "the running program writes external axis {axis} of the position that this move goes \
-             to: its correction would be that of another place"
-        ),
-        "write the position with all its numbers, one for each value of the axis",
-    )
-}
-
 /// A position that a function makes of positions that may be rewritten.
 pub(super) const COPIED: Remark = Remark::error(
     "target-copied",

@@ -323,7 +323,7 @@ impl Reader<'_> {
             else {
                 self.parsed.numbers.truncate(start);
                 let at = Place::new(self.file, offset);
-                return Written::Composed(self.compose(mentions, all.names(places), Some(at)));
+                return Written::Composed(self.compose(mentions, all.names(places), at));
             };
             self.parsed.numbers.push(Number {
                 start: at,
@@ -355,7 +355,7 @@ impl Reader<'_> {
     }
 
     /// Notes a value with expressions in it, whose names begin at `mentions`.
-    fn compose(&mut self, mentions: u32, places: &[Part], at: Option<Place>) -> u32 {
+    fn compose(&mut self, mentions: u32, places: &[Part], at: Place) -> u32 {
         self.parsed.composed.push(Composed {
             names: (mentions, short(self.parsed.mentions.len())),
             places: places.into(),
@@ -369,6 +369,7 @@ impl Reader<'_> {
     pub(super) fn list(&mut self) -> Result<Option<Expression>, Fault> {
         let mark = self.mark();
         let mentions = short(self.parsed.mentions.len());
+        let place = Place::new(self.file, self.token.start);
         let mut places = Vec::new();
         loop {
             self.advance()?;
@@ -381,7 +382,7 @@ impl Reader<'_> {
             self.advance()?;
             if self.argument_ends() {
                 return Ok(Some(Expression::List(
-                    self.compose(mentions, &places, None),
+                    self.compose(mentions, &places, place),
                 )));
             }
         }

@@ -82,7 +82,7 @@ impl Translator<'_> {
                 declared.context,
                 depth + 1,
             ),
-            Element::Composed(composed) => self.composed(composed),
+            Element::Composed(composed) => self.composed_apart(composed),
             Element::Computed => self.computed_name(declared.name),
         };
         if is_written {

@@ -15,6 +15,7 @@
 mod aggregate;
 mod ahead;
 mod arguments;
+mod axes;
 mod blocks;
 mod builtins;
 mod calls;

@@ -305,7 +305,7 @@ impl Translator<'_> {
             self.ambiguous = false;
             let target = match all[at].expression {
                 Expression::Member { .. } => self.in_record(all[at].span),
-                expression => self.position_from(expression, wanted),
+                expression => self.position_of_move(expression, wanted),
             };
             let guards = match (absolute, self.ambiguous) {
                 (true, false) if parts.unshifted => self.modes.unshifted_guards,

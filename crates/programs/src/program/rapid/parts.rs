@@ -143,6 +143,9 @@ impl Translator<'_> {
     fn part_becomes(&mut self, component: Component, value: &Expression) -> How {
         let changed = self.changed();
         let (own, text) = self.own_and_value();
+        if let Some(how) = self.axes_written(&own) {
+            return how;
+        }
         let axes = [&b".trans.x"[..], b".trans.y", b".trans.z"];
         let axis = axes.into_iter().position(|axis| own.ends_with(axis));
         if let Some(axis) = axis
@@ -179,14 +182,14 @@ impl Translator<'_> {
             _ if has(b".rot") => How::part(true, true, changed),
             // with another posture the correction is another one
             _ if has(b".robconf") => How::PartNumber(changed),
-            // external axes
+            // external axes that carry nothing
             _ => How::PartBy(changed, DISPLACED_SOMEHOW),
         }
     }
 
     /// `[[p.trans.x,p.trans.y,p.trans.z+50],p.rot,p.robconf,…]`: `p`, displaced.
     pub(super) fn other_place(&mut self, composed: u32) -> Option<Expr> {
-        let at = self.resolved.parsed.composed[composed as usize].at?;
+        let at = self.resolved.parsed.composed[composed as usize].at;
         let bytes = &self.resolved.sources[at.file as usize].bytes;
         let inside = bytes.get(at.offset as usize..)?.strip_prefix(b"[")?;
         let letters = |part: &[u8]| -> Vec<u8> {

@@ -237,8 +237,8 @@ pub(super) struct Composed {
     pub names: Part,
     /// Of a target those in each of its coordinates or joints, of other values those in each part.
     pub places: Box<[Part]>,
-    /// Where a target begins.
-    pub at: Option<Place>,
+    /// Where it begins.
+    pub at: Place,
 }
 
 /// A number that makes its target unusable.

@@ -1,7 +1,6 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::EXTERNAL;
-use super::arguments::NOT_CONNECTED;
 use super::grips::Grips;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
@@ -12,7 +11,7 @@ use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
     TableId, ValueId, Variable, VariableId, Wanted, Written,
 };
-use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId, number};
+use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 
 /// Names of options.
@@ -81,6 +80,7 @@ pub(super) struct Translator<'a> {
     pub ambiguous: bool,
     /// There are positioners, which work objects may ride on.
     pub has_positioners: bool,
+    pub external: &'a ExternalNames,
 }
 
 /// The script of what was noted. `dead` are targets that are written over and have no numbers of
@@ -157,6 +157,7 @@ pub(super) fn translate(
         own: HashMap::new(),
         ambiguous: false,
         has_positioners: !settings.external.units.is_empty(),
+        external: &settings.external,
         builder,
     };
     translator.find_own();
@@ -166,7 +167,6 @@ pub(super) fn translate(
     for at in 0..resolved.parsed.statements.len() {
         translator.statement(at);
     }
-    translator.composed_axes(&settings.external);
     translator.close();
     translator.run_meanwhile();
     translator.builder.finish()
@@ -379,29 +379,6 @@ impl Translator<'_> {
         }
     }
 
-    /// `[p1.trans,p1.rot,p1.robconf,[400,9E9,…]]`: external axes that a target worked out from others
-    /// says itself.
-    fn composed_axes(&mut self, names: &ExternalNames) {
-        let script = &mut self.builder.script;
-        for (at, instruction) in (0..).zip(&script.instructions) {
-            if matches!(instruction.target, Expr::Target(_)) {
-                continue;
-            }
-            let source = &self.resolved.sources[instruction.place.file as usize];
-            let span = instruction.target_span;
-            let text = &source.bytes[span.start as usize..span.end as usize];
-            for (name, value) in EXTERNAL
-                .into_iter()
-                .zip(own_axes(text).into_iter().flatten())
-            {
-                if let ExternalUse::Listed(axis) = names.meaning(name) {
-                    let own = (at, External { axis, value });
-                    script.externals_of_moves.push(own);
-                }
-            }
-        }
-    }
-
     /// External axes say where the robot or the work piece is carried: the profile knows what, or
     /// that they carry nothing.
     fn external_axes(&mut self, names: &ExternalNames) {
@@ -473,21 +450,4 @@ impl Translator<'_> {
             script.refused.push((target, remark));
         }
     }
-}
-
-/// The external axes at the end of a target that is written out; not a number where they are no
-/// numbers, or not connected.
-fn own_axes(text: &[u8]) -> Option<[f64; 6]> {
-    let inside = text.strip_prefix(b"[")?.trim_ascii_end();
-    let inside = inside.strip_suffix(b"]")?.trim_ascii_end();
-    let inside = inside.strip_suffix(b"]")?;
-    let list = &inside[memchr::memrchr(b'[', inside)? + 1..];
-    let mut axes = [f64::NAN; 6];
-    for (axis, text) in axes.iter_mut().zip(list.split(|byte| *byte == b',')) {
-        let value = number::parse(text.trim_ascii());
-        *axis = value
-            .filter(|value| value.abs() < NOT_CONNECTED)
-            .unwrap_or(f64::NAN);
-    }
-    Some(axes)
 }

@@ -148,8 +148,20 @@ impl Translator<'_> {
         }
     }
 
+    /// The position that a move goes to, from an expression in its own text.
+    pub(super) fn position_of_move(&mut self, expression: Expression, wanted: Type) -> Expr {
+        if let Some(unknown) = self.axes_of_move(&expression) {
+            return unknown;
+        }
+        match expression {
+            Expression::Composed(composed) => self.composed(composed),
+            Expression::List(_) => self.near_or_computed(&expression),
+            _ => self.position_from(expression, wanted),
+        }
+    }
+
     /// A target some of whose parts are expressions.
-    pub(super) fn composed(&mut self, composed: u32) -> Expr {
+    fn composed(&mut self, composed: u32) -> Expr {
         if let Some(known) = self.other_place(composed) {
             return known;
         }
@@ -201,11 +213,23 @@ impl Translator<'_> {
                 self.builder.script.displaced(base, by)
             }
             Expression::Member { name, .. } => self.computed_name(name),
-            Expression::Composed(composed) => self.composed(composed),
-            Expression::List(_) | Expression::Computed(_) => self
-                .somewhere_near(&expression)
-                .unwrap_or_else(|| self.computed()),
+            Expression::Composed(composed) => self.composed_apart(composed),
+            Expression::List(composed) => self
+                .with_other_axes(composed)
+                .unwrap_or_else(|| self.near_or_computed(&expression)),
+            Expression::Computed(_) => self.near_or_computed(&expression),
         }
+    }
+
+    /// As [`Self::composed`], where it does not stand in a move itself.
+    pub(super) fn composed_apart(&mut self, composed: u32) -> Expr {
+        self.with_other_axes(composed)
+            .unwrap_or_else(|| self.composed(composed))
+    }
+
+    fn near_or_computed(&mut self, expression: &Expression) -> Expr {
+        self.somewhere_near(expression)
+            .unwrap_or_else(|| self.computed())
     }
 
     /// The position that a function gives.

@@ -450,6 +450,19 @@ impl Remark {
         source.finding(offset as usize, self.id, self.severity, text, self.hint)
     }
 
+    /// Against a position whose external axis the program writes.
+    #[must_use]
+    pub fn external_written(axis: &str) -> Self {
+        Self::error_about(
+            "external-value-unknown",
+            format!(
+                "the running program writes external axis {axis} of the position that this move \
+                 goes to: its correction would be that of another place"
+            ),
+            "write the position with all its numbers, one for each value of the axis",
+        )
+    }
+
     /// Why a target is refused whose external axis nobody knows; a value that is not a number is an
     /// expression.
     #[must_use]
