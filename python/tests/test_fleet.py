@@ -193,6 +193,8 @@ def test_refused_and_failing_robots_do_not_stop_the_others(backups: Path, capsys
         ("poseshift: fleet/1\nrobots: [{id: ../a, profile: p}]", "must be letters"),
         ("poseshift: fleet/1\nrobots: [{id: a, profile: none.yaml, programs: x}]", "there is no file"),
         ("poseshift: fleet/1\ndefaults: {check: {tolerence: 1}}\nrobots: [{id: a, profile: p}]", "'tolerence'"),
+        ("poseshift: fleet/1\ndefaults: {check: {max_path_error_mm: abc}}\nrobots: [{id: a, profile: p}]", "must be a number or null"),
+        ("poseshift: fleet/1\ndefaults: {diagnose: {quick: 1}}\nrobots: [{id: a, profile: p}]", "must be true or false"),
         ("poseshift: [", "fleet.yaml"),
     ],
 )
@@ -201,6 +203,24 @@ def test_a_wrong_fleet_says_what_is_wrong(tmp_path: Path, capsys: pytest.Capture
     assert main(["run", str(tmp_path / "fleet.yaml"), "--store", str(tmp_path / "store")]) == 2
     assert message in capsys.readouterr().err
     assert not (tmp_path / "store").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--date", "2026-13-45"], "is no day"),
+        (["--date", "tomorrow"], "is no day"),
+        (["--workers", "-2"], "is not at least 1"),
+        (["--robots", "0"], "is not at least 1"),
+    ],
+)
+def test_a_wrong_option_is_said_before_anything_is_made(tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str) -> None:
+    step = "demo" if "--robots" in words else "run"
+    with pytest.raises(SystemExit) as ended:
+        main([step, str(tmp_path / "new"), "--store", str(tmp_path / "store"), *words])
+    assert ended.value.code == 2
+    assert message in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_store_among_the_backups_is_refused(backups: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -129,10 +129,10 @@ impl Pendant {
         if lines.is_empty() {
             return lines;
         }
-        format!(
+        layout::fitted(&format!(
             "as a teach pendant shows it ({}):\n{lines}",
             convention.id()
-        )
+        ))
     }
 }
 

@@ -45,10 +45,10 @@ pub(super) struct Hexapod {
     #[arg(long, requires_all = ["base_mm", "tool_mm", "profile", "frame"], conflicts_with = "lengths")]
     reach: bool,
     /// Exact distances B1B2,B2B3,B3B1
-    #[arg(long, value_name = "B12,B23,B31")]
+    #[arg(long, value_name = "B12,B23,B31", allow_hyphen_values = true)]
     base_mm: Option<String>,
     /// Exact distances T1T2,T2T3,T3T1
-    #[arg(long, value_name = "T12,T23,T31")]
+    #[arg(long, value_name = "T12,T23,T31", allow_hyphen_values = true)]
     tool_mm: Option<String>,
     /// Nominal length of the ballbar
     #[arg(long, value_name = "MM", default_value_t = 300.0)]

@@ -28,7 +28,7 @@ mod validate;
 mod values;
 
 use crate::task::{Blame, Failure};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 
 /// Makes an offline-programmed robot path land where the simulation wanted it
@@ -118,10 +118,29 @@ where
 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     ending::remember(&arguments);
-    match CommandLine::try_parse_from(arguments) {
+    match parsed(arguments) {
         Ok(CommandLine { command, output }) => guarded(|| command.run(output)),
         Err(error) => screen::print_usage(&error),
     }
+}
+
+/// The command line of these arguments. What stands behind an option that takes a value is one where
+/// it is a negative number: the option says what it may be.
+fn parsed(arguments: Vec<OsString>) -> Result<CommandLine, clap::Error> {
+    fn with_negative_numbers(command: clap::Command) -> clap::Command {
+        let command = command.mut_args(|argument| {
+            let has_value = argument.get_action().takes_values() && !argument.is_positional();
+            if has_value && !argument.is_allow_hyphen_values_set() {
+                argument.allow_negative_numbers(true)
+            } else {
+                argument
+            }
+        });
+        command.mut_subcommands(with_negative_numbers)
+    }
+    let mut command = with_negative_numbers(CommandLine::command());
+    let matches = command.try_get_matches_from_mut(arguments)?;
+    CommandLine::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
 
 /// The exit status of what a command does; a panic is a fault of poseshift itself.

@@ -1,7 +1,7 @@
 //! `schema`: the JSON Schema of a file or a report.
 
 use super::ending::print_schema;
-use super::{Answer, screen};
+use super::{Answer, layout, screen};
 use crate::nearest;
 use crate::task::{Failure, SCHEMAS};
 use clap::Args;
@@ -19,7 +19,7 @@ impl Schema {
             let lines = SCHEMAS
                 .iter()
                 .map(|format| format!("{:14} {}\n", format.name, format.what));
-            screen::print(&lines.collect::<String>())?;
+            screen::print(&layout::fitted(&lines.collect::<String>()))?;
             return Ok(Answer::Yes);
         };
         let name = name.split('/').next().unwrap_or_default();

@@ -61,7 +61,7 @@ pub(super) struct Simulate {
     #[arg(long, value_name = "MM")]
     outlier_mm: Option<f64>,
     /// Temperature of the first and last row
-    #[arg(long, value_name = "C,C")]
+    #[arg(long, value_name = "C,C", allow_hyphen_values = true)]
     temperature_c: Option<String>,
     /// Seconds from row to row
     #[arg(long, value_name = "S")]

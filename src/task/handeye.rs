@@ -399,7 +399,6 @@ pub(super) fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
         mounted.load = file.tool(inputs.tool)?.load;
     }
     let model = file.profile.real_model(&mounted, &Conditions::default());
-    let base_from_world = file.profile.world_from_base.inverse();
     // of a track: the base at home, in which the poses are wherever it carries the arm
     let circumstances = Circumstances::of(&table, &file.profile)?;
     let pose = |row: TableRow| {
@@ -408,8 +407,8 @@ pub(super) fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
         let own = circumstances
             .is_of_chain()
             .then(|| file.profile.real_model_at(&mounted, &conditions, &stand));
-        let world_from_flange = own.as_ref().unwrap_or(&model).forward(&q, &conditions);
-        Ok(base_from_world * world_from_flange)
+        // where the pendant and `fk` have the flange
+        Ok(own.as_ref().unwrap_or(&model).forward(&q, &conditions))
     };
     let poses = table.rows().map(pose).collect();
     table.refuse_misspelt()?;

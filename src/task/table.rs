@@ -143,7 +143,7 @@ impl<'a> Table<'a> {
             let meant = missing.iter().filter_map(|column| {
                 let near = nearest::nearest(column, header());
                 let near = near.into_iter().find(|name| !columns.contains(name))?;
-                Some(format!("is `{near}` meant as `{column}`?"))
+                Some(nearest::instead_of_column(near, column))
             });
             let mut hint: Vec<String> = meant.collect();
             let numbers = self.header.iter().filter(|n| n.parse::<f64>().is_ok());

@@ -7,7 +7,7 @@ use crate::model::profile::{
     Comments, Maker, Mounted, Profile, ToolOfProfile, coupled, flange_remark, made,
 };
 use crate::model::shape::{Form, LinkShape, Shape};
-use crate::model::{Body, Conditions, JointSense, Mechanism};
+use crate::model::{Body, Conditions, JointSense, Mechanism, UPSIDE_DOWN, set_upright};
 use std::collections::BTreeMap;
 
 /// How far the profile's chain may be from the URDF's own, metres and radians.
@@ -78,7 +78,7 @@ pub fn profile_text(arm: &UrdfArm, about: &About) -> Result<(String, Vec<String>
 }
 
 fn profile(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Result<Profile, UrdfError> {
-    let rows = rows(arm)?;
+    let mut rows = rows(arm)?;
     let mut mechanism = Mechanism {
         joints: std::array::from_fn(|i| JointSense {
             sign: 1.0,
@@ -88,6 +88,11 @@ fn profile(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Result<Prof
         }),
         coupling: Vec::new(),
     };
+    let first = &mut mechanism.joints[0];
+    if set_upright(&mut rows.base, &mut rows.links, first) {
+        rows.frames[0] = rows.base;
+        rows.frames[1] = rows.frames[1] * UPSIDE_DOWN;
+    }
     let maker = maker(arm, about, notes);
     if let Some(coupling) = maker.and_then(|maker| maker.coupling) {
         notes.extend(coupled(&coupling));

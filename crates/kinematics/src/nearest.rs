@@ -20,6 +20,29 @@ fn first_word(name: &str) -> String {
     plain(name.split(['_', '-', ' ']).next().unwrap_or_default())
 }
 
+/// Units that stand behind the last `_` of columns of other programs.
+const UNITS: [&str; 11] = [
+    "mm", "m", "cm", "um", "in", "inch", "inches", "ft", "mil", "deg", "rad",
+];
+
+/// What is to be done with a column that is nearly called as one that is missing: where its unit is
+/// another one, a new name alone makes other numbers of it.
+pub fn instead_of_column(near: &str, column: &str) -> String {
+    let unit = |name: &str| {
+        let (_, unit) = name.rsplit_once('_')?;
+        let mut units = UNITS.iter();
+        units
+            .find(|known| unit.eq_ignore_ascii_case(known))
+            .copied()
+    };
+    match unit(near).zip(unit(column)) {
+        Some((from, to)) if from != to => {
+            format!("convert `{near}` from {from} to {to}, and call it `{column}`;")
+        }
+        _ => format!("is `{near}` meant as `{column}`?"),
+    }
+}
+
 /// Known names that may be meant, the likeliest first: three at most, none where none is alike.
 ///
 /// # Source

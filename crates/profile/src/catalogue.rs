@@ -13,7 +13,7 @@ use super::text::{Comments, made};
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
 use crate::geometry::units::m_from_mm;
-use crate::model::{Coupling, JointSense, Link, Mechanism};
+use crate::model::{Coupling, JointSense, Link, Mechanism, set_upright};
 use serde::Deserialize;
 
 /// The table, a part of the program; it is read where it is asked for.
@@ -123,10 +123,13 @@ impl CatalogueArm {
             };
             (link, sense, speed.map(|speed| numbers::<1>(speed)[0] * DEG))
         });
+        let mut links = rows.map(|row| row.0);
         let mut mechanism = Mechanism {
             joints: rows.map(|row| row.1),
             coupling: Vec::new(),
         };
+        let mut base = pose(&self.base);
+        set_upright(&mut base, &mut links, &mut mechanism.joints[0]);
         if !self.coupling.is_empty() {
             let mut words = self.coupling.split(' ');
             let mut index = || {
@@ -142,10 +145,10 @@ impl CatalogueArm {
             manufacturer: self.manufacturer.clone(),
             model: self.model.clone(),
             language: Maker::by_name(&self.manufacturer).map(|maker| maker.language.into()),
-            world_from_base: pose(&self.base),
+            world_from_base: base,
             joint_speeds: rows.map(|row| row.2),
             link6_from_flange: pose(&self.flange),
-            ..Profile::nominal(rows.map(|row| row.0), mechanism)
+            ..Profile::nominal(links, mechanism)
         }
     }
 

@@ -20,6 +20,19 @@ from poseshift.fleet.store import Store
 from poseshift.fleet.units import Unit, plan
 
 
+def _at_least_one(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not at least 1")
+    return int(text)
+
+
+def _day(text: str) -> str:
+    try:
+        return datetime.date.fromisoformat(text).isoformat()
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no day, such as 2026-03-31") from error
+
+
 def main(words: Sequence[str] | None = None) -> int:
     """Runs the command; 0: every answer is yes, 1: some is no, 2: some robot has no answer."""
     parser = argparse.ArgumentParser(prog="poseshift-fleet", description="Compensates, checks and diagnoses many robots")
@@ -27,12 +40,12 @@ def main(words: Sequence[str] | None = None) -> int:
     parser.add_argument("step", choices=("plan", "run", "collect", "demo"), help=steps)
     parser.add_argument("fleet", type=Path, help="fleet.yaml; of demo the new folder")
     parser.add_argument("--store", type=Path, help="folder of results, tables and pages")
-    parser.add_argument("--robots", type=int, default=200, help="of demo (default: 200)")
+    parser.add_argument("--robots", type=_at_least_one, default=200, help="of demo (default: 200)")
     parser.add_argument("--seed", type=int, default=1, help="of demo")
     parser.add_argument("--executor", choices=("local", "ray"), default="local")
     parser.add_argument("--address", help="of the Ray cluster; without it, one of this machine")
-    parser.add_argument("--workers", type=int, help="processes of this machine (default: one a core)")
-    parser.add_argument("--date", help="day of the history, YYYY-MM-DD (default: today)")
+    parser.add_argument("--workers", type=_at_least_one, help="processes of this machine (default: one a core)")
+    parser.add_argument("--date", type=_day, help="day of the history, YYYY-MM-DD (default: today)")
     given = parser.parse_args(words)
     if given.store is None and given.step != "demo":
         parser.error("--store is missing")
@@ -54,7 +67,6 @@ def _run(given: argparse.Namespace) -> int:
         return 0
     store = Store(given.store)
     date = given.date or datetime.date.today().isoformat()
-    datetime.date.fromisoformat(date)
     units = plan(read(given.fleet), store)
     if given.step == "plan":
         listed = [{"robot": unit.robot, "job": unit.job, "key": unit.key} for unit in missing(units, store)]

@@ -196,7 +196,30 @@ def _options(said: object, where: str) -> dict[str, dict[str, Any]]:
     found = {}
     for task in TASKS:
         found[task] = _mapping(by_task.get(task) or {}, f"{where}: {task}", tuple(options_of(task)))
+        for key, value in found[task].items():
+            _check_kind(value, _kinds_of(task, key), f"{where}: {task}: {key}")
     return found
+
+
+# what the file may have where a task says so
+_KINDS: Mapping[str, tuple[type, ...]] = {"bool": (bool,), "int": (int,), "float": (int, float), "str": (str,), "None": (type(None),)}
+
+
+def _kinds_of(task: str, key: str) -> tuple[type, ...] | None:
+    """The types that an option of a task may have; None where they are not of a file's own kinds."""
+    annotation = str(inspect.signature(TASKS[task]).parameters[key].annotation)
+    words = [word.strip() for word in annotation.split("|")]
+    if not all(word in _KINDS for word in words):
+        return None
+    return tuple(kind for word in words for kind in _KINDS[word])
+
+
+def _check_kind(value: object, kinds: tuple[type, ...] | None, where: str) -> None:
+    if kinds is None or (isinstance(value, kinds) and (bool in kinds or not isinstance(value, bool))):
+        return
+    names = {bool: "true or false", int: "a number", float: "a number", str: "a text", type(None): "null"}
+    wanted = " or ".join(dict.fromkeys(names[kind] for kind in kinds))
+    raise FleetError(f"{where} is {value!r}; it must be {wanted}")
 
 
 def _mapping(value: object, where: str, known: Sequence[str]) -> dict[str, Any]:

@@ -357,9 +357,10 @@ fn refuse_nonsense(request: &Request) -> Result<(), Failure> {
     }
     let (count, candidates) = (request.count, request.candidates);
     if count == 0 || candidates < count || candidates > 1_000_000 {
-        return Err(Failure::new(format!(
-            "{count} of {candidates} candidates: at least 1, and at most 1000000 to choose from"
-        )));
+        return Err(Failure::with_hint(
+            format!("--count is {count}; it must be from 1 to {candidates}, the --candidates"),
+            "--candidates may be from --count to 1000000",
+        ));
     }
     Ok(())
 }

@@ -20,6 +20,7 @@ mod mistakes;
 mod out_of_bounds;
 mod outputs;
 mod outputs_kept;
+mod own_robot;
 mod planning;
 mod progress;
 pub mod reports;

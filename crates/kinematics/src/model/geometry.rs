@@ -3,7 +3,8 @@
 use super::conditions::Conditions;
 use super::effects::Effect;
 use super::external::Carried;
-use crate::geometry::{Pose, Scalar, Vector};
+use crate::geometry::{Pose, Rotation, Scalar, Vector};
+use std::f64::consts::{PI, TAU};
 
 /// One row of modified Denavit–Hartenberg parameters with Hayati's angle β:
 /// `A = Rot(x, α) · Trans(a, 0, 0) · Rot(y, β) · Rot(z, θ + joint) · Trans(0, 0, d)`, metres and
@@ -51,6 +52,43 @@ pub struct JointSense {
     /// Largest controller's angle, radians.
     pub max_rad: f64,
 }
+
+/// Writes a chain whose base stands upside down, since axis 1 of its file rotates about a line that
+/// points down, with z up and a first joint that rotates against it: the base is where the robot
+/// stands, then, and not how its file has axis 1. Whether it was one.
+pub fn set_upright(base: &mut Pose, links: &mut [Link; 6], first: &mut JointSense) -> bool {
+    const DOWN: f64 = -1.0 + 1e-9;
+    let Link {
+        alpha_rad,
+        a_m,
+        beta_rad,
+        ..
+    } = links[0];
+    if base.rotation.axis(2)[2] > DOWN || [alpha_rad, a_m, beta_rad] != [0.0; 3] {
+        return false;
+    }
+    *base = *base * UPSIDE_DOWN;
+    // rounding of half a rotation
+    for row in &mut base.rotation.0 {
+        for entry in row {
+            if (*entry - entry.round()).abs() < 1e-15 {
+                *entry = entry.round() + 0.0;
+            }
+        }
+    }
+    // Rx(180°) · Rz(θ) · Trans(0, 0, d) = Rz(−θ) · Trans(0, 0, −d) · Rx(180°)
+    (links[0].theta_rad, links[0].d_m) = (0.0 - links[0].theta_rad, 0.0 - links[0].d_m);
+    (first.sign, first.offset_rad) = (-first.sign, 0.0 - first.offset_rad);
+    let turned = links[1].alpha_rad - PI;
+    links[1].alpha_rad = if turned <= -PI { turned + TAU } else { turned };
+    true
+}
+
+/// Half a rotation about x: what stands before and behind a row that is written the other way up.
+pub const UPSIDE_DOWN: Pose = Pose {
+    rotation: Rotation([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]),
+    translation: [0.0; 3],
+};
 
 /// A controller's joint that counts another joint's angle in (FANUC: J3 on J2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +154,7 @@ impl Mechanism {
     pub fn nearest_turns(&self, q: &[f64; 6], near: &[f64; 6]) -> [f64; 6] {
         let (mut u, near) = (self.commanded(q), self.commanded(near));
         for i in 0..6 {
-            u[i] += std::f64::consts::TAU * ((near[i] - u[i]) / std::f64::consts::TAU).round();
+            u[i] += TAU * ((near[i] - u[i]) / TAU).round();
         }
         self.controller(&u)
     }

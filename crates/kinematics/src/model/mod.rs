@@ -38,7 +38,9 @@ pub use batch::forward_batch;
 pub use chain::{Chain, Frames};
 pub use classic::{ClassicRow, classic};
 pub use conditions::Conditions;
-pub use geometry::{Body, Coupling, Geometry, JointSense, Link, Mechanism};
+pub use geometry::{
+    Body, Coupling, Geometry, JointSense, Link, Mechanism, UPSIDE_DOWN, set_upright,
+};
 pub use real::Model;
 pub use rows::{Axes, RowsError};
 pub use sensitivity::{FourMotions, FourSensitivities};

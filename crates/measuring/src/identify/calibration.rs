@@ -1,6 +1,6 @@
 //! The whole identification: screened measurements, a start, a solution, what it is worth.
 
-use super::base::{BasePolicy, base_policy, device_of, refuse_other_world};
+use super::base::{BasePolicy, base_policy, device_of, is_same_place, refuse_other_world};
 use super::contact;
 use super::degrees;
 use super::error::IdentifyError;
@@ -15,7 +15,7 @@ use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
 use super::solver::{Solution, Stop, solve, solve_telling};
-use super::start::{self, Start};
+use super::start::{self, Start, base_gap};
 use super::statistics::{Miss, Quality, misses};
 use super::uncertainty::Uncertainty;
 use crate::geometry::Pose;
@@ -278,9 +278,14 @@ pub(super) fn identify(
     let mut world_from_device = profile.world_from_device();
     let mut fit = fit;
     let mut held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
+    let mut as_profile_has = None;
     if by_controller {
         // near enough for the axes of forces; gravity follows the base
         let real = profile.world_from_real_base();
+        let has_device = profile.device.is_some();
+        if has_device && is_same_place(base_gap(&real, &guess.world_from_base)) {
+            as_profile_has = Some(fit.clone());
+        }
         let nearer = real * guess.world_from_base.inverse();
         world_from_device = nearer * world_from_device;
         fit = fit.moved(&nearer);
@@ -304,8 +309,12 @@ pub(super) fn identify(
             world_from_base: profile.world_from_base,
             ..estimate.clone()
         };
+        let mut problem = match &as_profile_has {
+            // the device stands where the profile has it
+            Some(fit) => Problem::new(profile, fit, &options.selection, own.world_from_base)?.0,
+            None => problem.clone(),
+        };
         // what was touched stands where this model puts it
-        let mut problem = problem.clone();
         contact::start(&mut problem, &mut own)?;
         let misses = misses(&problem, &own);
         (Quality::of(&problem.rows, &misses), misses)

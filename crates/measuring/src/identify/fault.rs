@@ -154,7 +154,7 @@ impl MeasurementError {
                 let names = || header.iter().map(String::as_str);
                 let meant = missing.iter().filter_map(|column| {
                     let near = nearest::nearest(column, names().filter(|name| !is_of_format(name)));
-                    Some(format!("is `{}` meant as `{column}`?", near.first()?))
+                    Some(nearest::instead_of_column(near.first()?, column))
                 });
                 let mut hint: Vec<String> = if proposal.is_empty() {
                     meant.collect()

@@ -229,7 +229,7 @@ pub const TABLE: &[Kind] = &[
     row("streamed-motion", Error, "servoj or servoc to a pose", "write the path with movej, movel, movep or movec", &["compensate", "check"], &["urscript"]),
     row("suspect-touch", Warning, "a touch contradicts the others; it is in the fit", "--robust leaves such touches out", &["register"], &[]),
     row("sync-move", Note, "the move runs together with one of another robot", "check both robots together", &["compensate", "check"], &["rapid"]),
-    row("target-assigned-at-run-time", Error, "the running program changes the target", "correct the value where the program computes it, or keep the target out of the path", &["compensate", "check"], &[]).was(&["target-used-by-instruction"]),
+    row("target-assigned-at-run-time", Error, "the running program changes the target; a warning where its moves come behind and stay as they are", "correct the value where the program computes it, or keep the target out of the path", &["compensate", "check"], &[]).was(&["target-used-by-instruction"]),
     row("target-copied", Warning, "another target is computed from this one", "see whether the other one should be compensated, too", &["compensate", "check"], &["krl", "fanuc", "urscript", "inform"]),
     row("target-elsewhere", Warning, "a move ends farther from where --nominal wants it than any correction goes", "compare with the original of the program; compensate it again", &["check"], &[]),
     row("target-has-expressions", Error, "parts of the target are expressions, not numbers", "write the target with numbers in the offline system", &["compensate", "check"], &["rapid", "krl", "urscript"]).was(&["joints-have-expressions"]),

@@ -14,8 +14,24 @@ pub(super) struct Reading {
     pub exchanged: Option<[&'static str; 2]>,
 }
 
-pub(super) const IN_MILLIMETRES: &str = "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their \
-    unit is in their names (x_m), or map them with --columns and --units m";
+/// Units that lengths may be in: how many millimetres, their name, and as columns and `--units` have
+/// them.
+pub(super) const LENGTHS: [(f64, &str, &str); 5] = [
+    (1000.0, "metres", "m"),
+    (10.0, "centimetres", "cm"),
+    (25.4, "inches", "in"),
+    (304.8, "feet", "ft"),
+    (0.001, "micrometres", "um"),
+];
+
+/// What is to be done with lengths in another unit than millimetres.
+pub(super) fn in_millimetres(unit: &str) -> String {
+    format!(
+        "x_mm,y_mm,z_mm and distance_mm are millimetres: with others their unit is in their names \
+         (x_{unit}), or map them with --columns and --units {unit}"
+    )
+}
+
 pub(super) const IN_DEGREES: &str = "q1_deg…q6_deg are degrees: with others their unit is in their names \
     (q1_rad), or map them with --columns and --units rad";
 const SAME_ORDER: &str = "check that joints and points are in the same order and none is missing";
@@ -87,22 +103,16 @@ impl Readings<'_> {
             IN_DEGREES,
             move |_, row| row.q = radians(row.q),
         );
-        for (factor, name) in [
-            (1000.0, "metres"),
-            (10.0, "centimetres"),
-            (25.4, "inches"),
-            (304.8, "feet"),
-            (0.001, "micrometres"),
-        ] {
+        for (factor, name, unit) in LENGTHS {
             self.add(
                 format!("the lengths are {name}, not millimetres"),
-                IN_MILLIMETRES,
+                in_millimetres(unit),
                 |_, row| row.observed = scaled(row.observed, factor),
             );
         }
         self.add(
             "the joint angles are radians and the lengths metres",
-            format!("{IN_DEGREES}, {IN_MILLIMETRES}"),
+            format!("{IN_DEGREES}, {}", in_millimetres("m")),
             move |_, row| {
                 row.q = radians(row.q);
                 row.observed = scaled(row.observed, 1000.0);

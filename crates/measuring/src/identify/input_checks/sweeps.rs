@@ -1,6 +1,6 @@
 //! Sweeps of single joints that no base and tool of this robot explain.
 
-use super::readings::{IN_DEGREES, IN_MILLIMETRES};
+use super::readings::{IN_DEGREES, LENGTHS, in_millimetres};
 use super::screening::check_start;
 use super::{Remark, WHOLE_FILE, remark};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -139,12 +139,11 @@ fn without_mapping(error: IdentifyError) -> IdentifyError {
     let IdentifyError::Suspicious { message, hint } = error else {
         return error;
     };
-    let hint = hint
-        .replace(
-            IN_MILLIMETRES,
-            "x_mm,y_mm,z_mm are millimetres: convert them",
-        )
-        .replace(IN_DEGREES, "q1_deg…q6_deg are degrees: convert them");
+    let mut hint = hint.replace(IN_DEGREES, "q1_deg…q6_deg are degrees: convert them");
+    for (_, _, unit) in LENGTHS {
+        let own = "x_mm,y_mm,z_mm are millimetres: convert them";
+        hint = hint.replace(&in_millimetres(unit), own);
+    }
     IdentifyError::Suspicious { message, hint }
 }
 
