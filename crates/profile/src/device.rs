@@ -4,6 +4,7 @@ use super::file::{DeviceFile, Number};
 use super::{Fault, Profile, ProfileError, pose};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::model::UPSIDE_DOWN;
 use crate::model::effects::Kind;
 use serde_json::json;
 
@@ -77,6 +78,28 @@ impl Profile {
     pub fn world_from_device(&self) -> Pose {
         self.device
             .map_or_else(Pose::identity, |device| device.world_from_device)
+    }
+
+    /// Whether the chain begins upside down: axis 2 stands against axis 1 from the base.
+    fn begins_upside_down(&self) -> bool {
+        self.links[0].d_m < 0.0
+    }
+
+    /// Where the robot stands, as machine data have it: `kinematics.base`, or that turned over where
+    /// the chain begins upside down.
+    #[must_use]
+    pub fn world_from_foot(&self) -> Pose {
+        self.base_and_foot(self.world_from_base)
+    }
+
+    /// `kinematics.base` of a robot that stands there, and the other way round.
+    #[must_use]
+    pub fn base_and_foot(&self, pose: Pose) -> Pose {
+        if self.begins_upside_down() {
+            pose * UPSIDE_DOWN
+        } else {
+            pose
+        }
     }
 
     /// Where the real base stands: `kinematics.base` with the effects `base_frame`.

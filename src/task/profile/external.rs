@@ -83,6 +83,7 @@ fn imported(file: &ProfileFile, read: Read, output: &str) -> Result<Changed, Fai
         None => file.text.clone(),
         Some(base) => {
             let path = "kinematics.base";
+            let base = &file.profile.base_and_foot(*base);
             with_value(&file.text, path, &flow_pose(base)).map_err(|error| {
                 let hint = format!("write it as one line: `base: {}`", flow_pose(base));
                 Failure::with_hint(format!("{}: {error}", file.name), hint)

@@ -45,7 +45,7 @@ fn the_sides_of_an_arm_do_not_depend_on_how_its_chain_is_written() {
         let rewrites: [fn(&mut Geometry, &mut Mechanism); 2] = [backwards, upside_down];
         // at the height of axis 2 a base does not tell where it is above
         let has_height = geometry.links[0].d_m != 0.0;
-        for rewrite in &rewrites[..1 + usize::from(has_height)] {
+        for rewrite in &rewrites[..=usize::from(has_height)] {
             let (mut other, mut mechanism) = (geometry.clone(), profile.mechanism.clone());
             rewrite(&mut other, &mut mechanism);
             let same = Arm::of(&other, &mechanism).expect("an inverse");

@@ -36,7 +36,7 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
     let ignored = ignored.flat_map(|positioner| &positioner.axes);
     let ignored = ignored.map(|axis| axis.axis.clone());
     Settings {
-        world_from_base: (external.track.is_empty()).then_some(profile.world_from_base),
+        world_from_base: (external.track.is_empty()).then(|| profile.world_from_foot()),
         pulses_per_deg: profile.pulses_per_deg,
         accept_absolutely_accurate,
         external: ExternalNames {
