@@ -210,6 +210,22 @@ impl<W> Numbers<W> {
         self.jumping.insert(routine);
     }
 
+    /// Whether the program jumps inside a routine.
+    pub(super) fn has_jumps(&self, routine: u32) -> bool {
+        self.jumping.contains(&routine)
+    }
+
+    /// Whether a routine may run while another does: that calls it, or one of the two runs
+    /// concurrently with others.
+    pub(super) fn runs_while(&self, routine: u32, other: u32, concurrent: &[u32]) -> bool {
+        if self.called_by(vec![other]).contains(&routine) {
+            return true;
+        }
+        let mut at_any_time = self.called_by(concurrent.to_vec());
+        at_any_time.extend(concurrent);
+        routine != other && (at_any_time.contains(&routine) || at_any_time.contains(&other))
+    }
+
     /// A block, by its routine and number, runs any number of times.
     pub(super) fn unbounded(&mut self, block: (u32, u32)) {
         self.unbounded.insert(block);

@@ -1,5 +1,6 @@
 //! What reals and transformations are, by what statements write into them.
 
+use super::calls::{is_started, started};
 use super::keywords::find;
 use super::moves::is_joints;
 use super::reader::Reader;
@@ -97,6 +98,9 @@ impl<'a> Reader<'a> {
             for (routine, program) in (0..).zip(&self.sections.programs) {
                 let bytes = &self.sources[program.place.file as usize].bytes;
                 known.entries.begin(routine);
+                if is_started(program.name) {
+                    known.entries.starts(routine);
+                }
                 let tell = |line: &Statement<'a, '_>| self.tell(line, routine, &mut known);
                 program.each(bytes, |_| true, tell);
             }
@@ -120,18 +124,26 @@ impl<'a> Reader<'a> {
     fn tell(&self, line: &Statement<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
         let part = line.words;
         let rest = part.behind(1);
+        if !part.is_empty() {
+            known.entries.begin_statement(part.span().start);
+        }
         if find(part, "GOto").is_some() {
             known.entries.jumps();
         }
         match line.keyword {
-            "IF" if part.find(b"THEN").is_some() => known.entries.blocks.open(Some(1)),
-            "CASE" | "SCASE" => known.entries.blocks.open(Some(1)),
-            "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.blocks.branch(),
-            "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.blocks.branch(),
-            "WHile" | "DO" => known.entries.blocks.open(None),
+            "IF" if part.find(b"THEN").is_some() => known.entries.open(Some(1)),
+            "CASE" | "SCASE" => known.entries.open(Some(1)),
+            "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.branch(),
+            "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.branch(),
+            "WHile" | "DO" => known.entries.open(None),
             "FOR" => self.tell_loop(rest, routine, known),
-            "ENd" | "UNtil" => known.entries.blocks.close(),
+            "ENd" | "UNtil" => known.entries.close(),
             "POint" => self.tell_point(rest, routine, known),
+            "PCEXecute" | "ONE" => {
+                for callee in self.programs_of(started(rest).text(0)) {
+                    known.entries.starts(callee);
+                }
+            }
             "HEre" => {
                 // where the robot is may be anywhere
                 if let Some((name, _)) = Name::defined(rest) {
@@ -141,7 +153,8 @@ impl<'a> Reader<'a> {
             }
             _ if find(part, "CAll").is_some() => {
                 let call = part.behind(find(part, "CAll").map_or(0, |at| at + 1));
-                self.tell_call(call, routine, known);
+                let is_at_any_time = matches!(line.keyword, "ON" | "ONI");
+                self.tell_call(call, is_at_any_time, routine, known);
             }
             "" | "HSENSE" => self.tell_other(part, routine, known),
             _ => {}
@@ -152,7 +165,10 @@ impl<'a> Reader<'a> {
     fn tell_loop(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
         let name = Name::of(part).filter(|(_, words)| part.is(*words, b'='));
         let range = part.behind(name.as_ref().map_or(0, |(_, words)| words + 1));
-        let counter = name.map(|(name, _)| self.number_of(&name, routine, known));
+        let counter = name.map(|(name, _)| {
+            let is_whole = name.key.as_ref().is_some_and(Vec::is_empty);
+            (self.number_of(&name, routine, known), is_whole)
+        });
         known.entries.count(counter, range);
     }
 
@@ -181,10 +197,19 @@ impl<'a> Reader<'a> {
     }
 
     /// `name(a,b)`
-    fn tell_call(&self, call: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+    fn tell_call(
+        &self,
+        call: Words<'a, '_>,
+        is_at_any_time: bool,
+        routine: RoutineId,
+        known: &mut Known<'a>,
+    ) {
         let callees = self.programs_of(call.text(0));
         for &callee in &callees {
             known.entries.calls(callee);
+            if is_at_any_time {
+                known.entries.starts(callee);
+            }
         }
         if !call.is(1, b'(') {
             return;
@@ -292,7 +317,8 @@ impl<'a> Reader<'a> {
     }
 
     fn value(&self, number: u32) -> Quantity {
-        self.known().entries.value(number, self)
+        let at = (self.here.routine, short(self.here.at));
+        self.known().entries.value(number, at, self)
     }
 
     /// What is added to a position at the present statement; names whose numbers are taken keep

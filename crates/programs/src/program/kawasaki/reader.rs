@@ -1,7 +1,7 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
 use super::arrays::Given;
-use super::calls::{Any, Handed, Runs};
+use super::calls::{Any, Handed, Runs, is_started, started};
 use super::keywords::find;
 use super::moves::{Verb, is_joints};
 use super::numbers::Known;
@@ -171,8 +171,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     for (routine, program) in (0..).zip(&sections.programs) {
         let name = Source::text(program.name);
         let key = program.name.to_ascii_lowercase();
-        // the controller runs it where it is switched on
-        let start = if key.starts_with(b"autostart") && key.ends_with(b".pc") {
+        let start = if is_started(&key) {
             Start::Concurrent
         } else {
             Start::Called
@@ -411,9 +410,7 @@ impl<'a> Reader<'a> {
                 }
             }
             "PCEXecute" | "ONE" => {
-                // the number of the process may stand before the name
-                let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
-                let named = rest.behind(colon.map_or(0, |at| at + 1));
+                let named = started(rest);
                 if named.is_name(0) {
                     self.call(named, Runs::WithoutMoves);
                 }

@@ -53,6 +53,8 @@ pub(super) struct Here {
     pub project: u32,
     pub routine: RoutineId,
     pub file: u32,
+    /// The byte that the statement begins at.
+    pub at: u32,
 }
 
 #[derive(Default)]
@@ -136,9 +138,12 @@ impl<'a> Reader<'a> {
             project: of.project,
             routine: short(program),
             file: of.file,
+            at: 0,
         };
-        code.statements()
-            .for_each(|statement| each(self, statement));
+        for statement in code.statements() {
+            self.here.at = short(statement.span().start);
+            each(self, statement);
+        }
     }
 
     pub(super) fn place(&self, offset: usize) -> Place {

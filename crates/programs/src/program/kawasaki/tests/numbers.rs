@@ -73,7 +73,6 @@ fn what_may_be_several_is_judged_as_each() {
             panic!("{found:?}");
         };
         let reach = shift.in_frame.translation[2] * f64::from(most.expect("counted"));
-        // the counter of the first is 5 behind its loop
         assert!(
             (0.16 - 1e-9..0.2 + 1e-9).contains(&reach),
             "{code}: {found:?}"
@@ -84,6 +83,78 @@ fn what_may_be_several_is_judged_as_each() {
         panic!("{:?}", by(either, ""));
     };
     assert_eq!(found[..], [step(0.01, 1), step(0.04, 1)]);
+}
+
+/// How far along z the farthest of the steps of a displacement leads, mm.
+fn reach_mm(code: &str, others: &str) -> f64 {
+    match by(code, others) {
+        Displacement::By(shift) => shift.in_frame.translation[2] * 1e3,
+        Displacement::Within(found) => {
+            let each = found.iter().map(|stride| match stride {
+                Stride::By { shift, most } => {
+                    shift.in_frame.translation[2] * f64::from(most.expect("counted"))
+                }
+                Stride::Turned(_) => panic!("nothing turns"),
+            });
+            each.sum::<f64>() * 1e3
+        }
+        other => panic!("{code}: {other:?}"),
+    }
+}
+
+#[test]
+fn inside_its_loop_a_counter_is_what_the_loop_counts() {
+    let go = "LMOVE SHIFT(p1 BY 0,0,i*30)";
+    let other = ".PROGRAM go()\nFOR i = 0 TO 8\nEND\n.END\n";
+    let up = ".PROGRAM up(.h)\nLMOVE SHIFT(p1 BY 0,0,.h)\n.END\n";
+    for (code, others, expected) in [
+        (format!("FOR i = 0 TO 1\n{go}\nEND"), "", 30.0),
+        (format!("FOR i = 0 TO 5 STEP 2\n{go}\nEND"), "", 120.0),
+        (
+            "FOR i = 1 TO 2\nLMOVE SHIFT(p1 BY 0,0,(i-1)*30)\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        (
+            "FOR j = 0 TO 1\nFOR i = 0 TO j\nLMOVE SHIFT(p1 BY 0,0,i*30)\nEND\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        (
+            "FOR i = 0 TO 1\nh = i*30\nLMOVE SHIFT(p1 BY 0,0,h)\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        ("FOR i = 0 TO 1\nCALL up(i*30)\nEND".to_owned(), up, 30.0),
+        // other loops of the same name run before and behind it
+        (
+            format!("FOR i = 0 TO 8\nEND\nFOR i = 0 TO 1\n{go}\nEND"),
+            other,
+            30.0,
+        ),
+        // behind its loop it is a step further
+        (format!("FOR i = 0 TO 1\nEND\n{go}"), "", 60.0),
+        // what writes it in the loop counts, too
+        (
+            format!("FOR i = 0 TO 1\nFOR i = 0 TO 8\nEND\n{go}\nEND"),
+            "",
+            270.0,
+        ),
+        (format!("FOR i = 0 TO 1\nCALL go\n{go}\nEND"), other, 270.0),
+        (
+            format!("PCEXECUTE 1: go\nFOR i = 0 TO 1\n{go}\nEND"),
+            other,
+            270.0,
+        ),
+        (
+            format!("FOR i = 0 TO 1\n10 {go}\nEND\nIF x GOTO 10"),
+            "",
+            60.0,
+        ),
+    ] {
+        let found = reach_mm(&code, others);
+        assert!((found - expected).abs() < 1e-9, "{code}: {found}");
+    }
 }
 
 #[test]

@@ -144,6 +144,31 @@ fn a_counter_that_the_data_give_a_value_is_what_its_loop_counts() {
         let reach = at_most(&by(&code));
         assert!(reach >= 90.0 - 1e-9, "{code}: {reach}");
     }
+    for (code, expected) in [
+        (
+            format!("for nI=0 to 1\n{}\nendFor", go.replace("nUp", "nI")),
+            30.0,
+        ),
+        (
+            format!("for nI=1 to 2\n{}\nendFor", go.replace("nUp", "(nI-1)")),
+            30.0,
+        ),
+        (
+            format!(
+                "for nI=0 to 1\nfor nI=0 to 8\nendFor\n{}\nendFor",
+                go.replace("nUp", "nI")
+            ),
+            270.0,
+        ),
+        // an element of an array that is another
+        (
+            format!("for nI[0]=0 to 1\n{}\nendFor", go.replace("nUp", "nI[1]")),
+            60.0,
+        ),
+    ] {
+        let reach = at_most(&by(&code));
+        assert!((reach - expected).abs() < 1e-9, "{code}: {reach}");
+    }
     for code in [
         "for nUp=0 to 3\npX=compose(pB,fA,{nUp*30,0,0,0,0,0})\nmovel(pX,tA,m)\nendFor",
         "for nUp=0 to 3\npB=pA\npB.trsf.x=pA.trsf.x+nUp*30\nmovel(pB,tA,m)\nendFor",
