@@ -1,6 +1,7 @@
 //! Numbers and transformations of languages that write a transformation as six numbers (VAL 3, AS):
 //! what the text writes into them, and what they add to a position.
 
+use super::contexts::Context;
 use super::displacing::Displacing;
 use super::notation::pose_of_turning_angles;
 use super::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, rounds};
@@ -11,6 +12,8 @@ use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
 use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Numbers of a transformation: positions in mm, angles in degrees. What is one number has the
 /// first of six.
@@ -184,6 +187,10 @@ pub(super) struct Entries<'a> {
     counters: Vec<Counter<'a>>,
     /// Routines that run concurrently with others.
     concurrent: Vec<u32>,
+    /// What calls give to numbers of routines, by routine and call.
+    pub(super) given: HashMap<u32, BTreeMap<At, Vec<(u32, Written<'a>)>>>,
+    /// The calls of routines, once a position in one asks.
+    pub(super) contexts: RefCell<HashMap<u32, Rc<[Context]>>>,
     /// By loop, once a statement in it asks: whether what it counts with is written nowhere else
     /// before it ends.
     alone: RefCell<HashMap<At, bool>>,
@@ -292,15 +299,32 @@ impl<'a> Entries<'a> {
     /// A routine is given a number, which is `own` to it, and what is `back` of the caller.
     pub(super) fn give(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         self.handed.extend(back.map(|back| (own, back)));
+        let written = Written::Text(given);
+        self.note_given(callee, own, written);
+        let written = (written, self.here());
         let site = Site::at_start(callee);
-        let written = (Written::Text(given), self.here());
         self.numbers.write(own, written, Some(site));
+    }
+
+    fn note_given(&mut self, callee: u32, own: u32, written: Written<'a>) {
+        let here = self.here();
+        let calls = self.given.entry(callee).or_default();
+        calls.entry(here).or_default().push((own, written));
+    }
+
+    /// Whether calls of a routine give it a number, and nothing else writes that.
+    pub(super) fn is_given_to(&self, routine: u32, number: u32) -> bool {
+        let calls = self.given.get(&routine);
+        let mut given = calls.into_iter().flat_map(BTreeMap::values).flatten();
+        given.any(|(own, _)| *own == number) && self.is_only_given(number)
     }
 
     /// Likewise a transformation.
     pub(super) fn give_all(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         for at in 0..EACH {
-            let written = (Written::Part(given, at as usize), self.here());
+            let written = Written::Part(given, at as usize);
+            self.note_given(callee, own + at, written);
+            let written = (written, self.here());
             let site = Site::at_start(callee);
             self.numbers.write(own + at, written, Some(site));
             self.handed.extend(back.map(|back| (own + at, back + at)));
@@ -379,28 +403,44 @@ impl<'a> Entries<'a> {
     }
 
     /// What a number may be whenever it is looked at.
-    fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
+    pub(super) fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
         let written = |(written, at): &(Written<'a>, At), of: &mut Of| {
-            let routine = at.0;
             let mut of_counted = |number| self.value_at(number, *at, reads, of);
-            match *written {
-                Written::Exactly(value) => Quantity::exactly(value),
-                Written::Text(text) => reads.quantity(text, routine, &mut of_counted),
-                Written::Part(text, part) => reads.part(text, part, routine, &mut of_counted),
-                Written::Number(number) => of(number),
-                Written::Somehow => Quantity::endless(),
-                Written::Counted(texts) => {
-                    let (all, beyond) = counted_by(texts, routine, reads, &mut of_counted);
-                    // behind the loop the counter is beyond its last value
-                    all.plus(Quantity::counted(0.0, beyond, Some(1)))
-                }
-            }
+            self.written(*written, *at, reads, &mut of_counted)
         };
         self.numbers.value(number, &written)
     }
 
+    /// What is written comes to.
+    pub(super) fn written(
+        &self,
+        written: Written<'a>,
+        (routine, _): At,
+        reads: &dyn Reads<'a>,
+        of: &mut Of,
+    ) -> Quantity {
+        match written {
+            Written::Exactly(value) => Quantity::exactly(value),
+            Written::Text(text) => reads.quantity(text, routine, of),
+            Written::Part(text, part) => reads.part(text, part, routine, of),
+            Written::Number(number) => of(number),
+            Written::Somehow => Quantity::endless(),
+            Written::Counted(texts) => {
+                let (all, beyond) = counted_by(texts, routine, reads, of);
+                // behind the loop the counter is beyond its last value
+                all.plus(Quantity::counted(0.0, beyond, Some(1)))
+            }
+        }
+    }
+
     /// What a number is at a statement: in a loop that counts with it, what that counts.
-    fn value_at(&self, number: u32, at: At, reads: &dyn Reads<'a>, of: &mut Of) -> Quantity {
+    pub(super) fn value_at(
+        &self,
+        number: u32,
+        at: At,
+        reads: &dyn Reads<'a>,
+        of: &mut Of,
+    ) -> Quantity {
         let Some(counter) = self.counting(number, at) else {
             return of(number);
         };

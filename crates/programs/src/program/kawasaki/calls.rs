@@ -233,6 +233,14 @@ impl<'a> Reader<'a> {
         });
     }
 
+    /// Calls say which they are to programs that ask.
+    pub(super) fn hand_over_calls(&mut self) {
+        let by_calls = std::mem::take(&mut self.by_calls);
+        if let Some(known) = self.known.get() {
+            by_calls.hand_over(&known.entries, &COMPUTED, &mut self.builder.script);
+        }
+    }
+
     /// What stands for any program: a routine that calls one of them.
     pub(super) fn write_any(&mut self) {
         for (any, routine) in std::mem::take(&mut self.any) {

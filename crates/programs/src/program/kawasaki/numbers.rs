@@ -9,6 +9,7 @@ use super::targets::Name;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::TargetId;
+use crate::program::contexts::Varied;
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, RoutineId, short};
 use crate::program::transformations::{EACH, Entries, Of, Reads, Steps, Written, exactly};
@@ -18,7 +19,7 @@ use foldhash::HashMap;
 /// What is known of reals and transformations.
 #[derive(Debug, Default)]
 pub(super) struct Known<'a> {
-    entries: Entries<'a>,
+    pub entries: Entries<'a>,
     /// The first number of each name, by the program that it belongs to and its stem.
     names: HashMap<(Option<RoutineId>, Vec<u8>), u32>,
 }
@@ -295,36 +296,44 @@ impl<'a> Reader<'a> {
 
     /// What words of the present statement come to.
     pub(super) fn quantity(&self, part: Words<'a, '_>) -> Quantity {
+        self.quantity_of(part, &mut |number| {
+            let at = (self.here.routine, short(self.here.at));
+            self.known().entries.value(number, at, self)
+        })
+    }
+
+    fn quantity_of(&self, part: Words<'a, '_>, of: &mut Of) -> Quantity {
         // most are numbers
         if let Some(value) = part.value() {
             return Quantity::exactly(value);
         }
-        Reads::quantity(self, part.whole(), self.here.routine, &mut |number| {
-            self.value(number)
-        })
+        Reads::quantity(self, part.whole(), self.here.routine, of)
     }
 
     /// The numbers of a list, blanks as 0; what is behind the sixth is not followed.
-    pub(super) fn quantities(&self, list: &[Words<'a, '_>]) -> [Quantity; 6] {
+    pub(super) fn quantities(&self, list: &[Words<'a, '_>]) -> Varied<[Quantity; 6]> {
         if list.len() > EACH as usize {
-            return [(); 6].map(|()| Quantity::endless());
+            return Varied::one([(); 6].map(|()| Quantity::endless()));
         }
-        let mut found = exactly([0.0; 6]);
-        for (number, part) in found.iter_mut().zip(list) {
-            *number = self.quantity(*part);
-        }
-        found
+        self.varied(&mut |of| {
+            let mut found = exactly([0.0; 6]);
+            for (number, part) in found.iter_mut().zip(list) {
+                *number = self.quantity_of(*part, of);
+            }
+            found
+        })
     }
 
-    fn value(&self, number: u32) -> Quantity {
+    /// What comes of numbers at the present statement, call by call.
+    fn varied<T>(&self, evaluate: &mut dyn FnMut(&mut Of) -> T) -> Varied<T> {
         let at = (self.here.routine, short(self.here.at));
-        self.known().entries.value(number, at, self)
+        Entries::varied(|| &self.known().entries, at, self, evaluate)
     }
 
     /// What is added to a position at the present statement; names whose numbers are taken keep
     /// them.
-    pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Steps {
-        let found = self.sum(part, self.here.routine, &mut |number| self.value(number));
+    pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Varied<Steps> {
+        let found = self.varied(&mut |of| self.sum(part, self.here.routine, of));
         let taken = self.taken.take();
         if !taken.is_empty() {
             self.refuse_taken(taken);

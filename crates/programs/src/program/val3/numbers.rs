@@ -4,11 +4,12 @@ use super::code::{PLAIN, Reference};
 use super::data::{Kind, POSE};
 use super::reader::{Reader, functions, written_argument};
 use super::targets::{Known, Of};
+use crate::program::contexts::Varied;
 use crate::program::notation::turned_by;
 use crate::program::numbers::{Operand, evaluated};
 use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::{RoutineId, short};
-use crate::program::transformations::{EACH, Of as Value, Reads, Steps, Written, exactly};
+use crate::program::transformations::{EACH, Entries, Of as Value, Reads, Steps, Written, exactly};
 use crate::program::words::Words;
 use crate::program::{Displacement, Stride};
 
@@ -167,6 +168,14 @@ impl<'a> Reader<'a> {
     fn value(&self, number: u32) -> Quantity {
         let at = (self.here.routine, self.here.at);
         self.entries.value(number, at, self)
+    }
+
+    /// The transformation that words of the present statement are, call by call.
+    pub(super) fn varied_steps(&self, words: Words<'a, '_>) -> Varied<Steps> {
+        let (routine, at) = (self.here.routine, self.here.at);
+        Entries::varied(|| &self.entries, (routine, at), self, &mut |of| {
+            self.product(words, routine, 0, of)
+        })
     }
 
     /// The transformation that words of the present statement are.
@@ -335,7 +344,7 @@ impl<'a> Reads<'a> for Reader<'a> {
                 // one of an array that nothing writes is what is declared
                 if let Of::Project(datum) = owner
                     && let Some(key) = name.key
-                    && !self.assigned.contains(&datum)
+                    && !self.assigned.contains_key(&datum)
                 {
                     let of = &self.world.data[datum as usize];
                     if let Some(at) = of.element(key).filter(|at| of.elements[*at].is_given) {

@@ -157,6 +157,89 @@ fn inside_its_loop_a_counter_is_what_the_loop_counts() {
     }
 }
 
+/// Where moves go, and how far back along the tool, mm: each once.
+fn backs(code: &str, others: &str) -> Vec<(String, f64)> {
+    let text =
+        format!(".PROGRAM main()\nTOOL grip\nBASE NULL\n{code}\n.END\n{others}{POINTS}.END\n");
+    let program = read_files(&[&text]).expect("programs");
+    let mut all = Vec::new();
+    for one in &program.moves {
+        let back = match &one.displacement {
+            Displacement::None => 0.0,
+            Displacement::By(shift) => {
+                let [x, y, z] = shift.in_tool.translation;
+                assert_eq!((x, y), (0.0, 0.0));
+                (-z * 1e6).round() / 1e3
+            }
+            _ => f64::NAN,
+        };
+        let one = (target(&program, one).expect("a target").to_owned(), back);
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    }
+    all
+}
+
+#[test]
+fn numbers_of_a_call_are_those_of_that_call() {
+    let pick = ".PROGRAM pick(.p,.h)\nLAPPRO .p,.h\nLMOVE .p\nLDEPART .h/2\n.END\n";
+    let of = |name: &str, back: f64| {
+        [
+            (name.to_owned(), back),
+            (name.to_owned(), 0.0),
+            (name.to_owned(), back / 2.0),
+        ]
+    };
+    let mut both = [of("p1", 10.0), of("p[1]", 80.0)].concat();
+    let sort = |all: &mut Vec<(String, f64)>| {
+        all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    };
+    sort(&mut both);
+    let through = ".PROGRAM go(.q,.n)\nCALL pick(.q,.n+10)\n.END\n";
+    let through = format!("{through}{pick}");
+    let deeper = format!(".PROGRAM by(.q,.n)\nCALL go(.q,.n*2)\n.END\n{through}");
+    for (code, others) in [
+        ("CALL pick(p1,10)\nCALL pick(p[1],80)", pick),
+        ("h = 80\nCALL pick(p1,10)\nCALL pick(p[1],h)", pick),
+        ("CALL go(p1,0)\nCALL go(p[1],70)", &through),
+        ("CALL pick(p1,10)\nCALL go(p[1],70)", &through),
+        ("CALL by(p1,0)\nCALL by(p[1],35)", &deeper),
+    ] {
+        let mut found = backs(code, others);
+        sort(&mut found);
+        assert_eq!(found, both, "{code}");
+    }
+    // a shift that a statement writes, and what a transformation brings
+    let kept = ".PROGRAM pick(.p,.h)\nPOINT .q = .p-TRANS(0,0,.h)\nLMOVE .q\n.END\n";
+    let brought = ".PROGRAM pick(.p,.t)\nLMOVE .p+.t\n.END\n";
+    let each = [("p1".to_owned(), 10.0), ("p[1]".to_owned(), 80.0)];
+    assert_eq!(backs("CALL pick(p1,10)\nCALL pick(p[1],80)", kept), each);
+    let code = "POINT a = TRANS(0,0,-10)\nPOINT b = TRANS(0,0,-80)\nCALL pick(p1,a)\nCALL \
+        pick(p[1],b)";
+    assert_eq!(backs(code, brought), each);
+    // one call may give several
+    let by = "IF x > 1 THEN\nh = 10\nELSE\nh = 50\nEND\nCALL pick(p1,h)\nCALL pick(p[1],80)";
+    let found = backs(by, pick);
+    assert!(
+        found
+            .iter()
+            .any(|(name, back)| name == "p1" && back.is_nan())
+    );
+    assert!(found.contains(&("p[1]".to_owned(), 80.0)));
+    // what something else writes is as all calls have it
+    let own = ".PROGRAM pick(.p,.h)\n.h = .h+1\nLAPPRO .p,.h\n.END\n";
+    let found = backs("CALL pick(p1,10)\nCALL pick(p[1],80)", own);
+    assert!(found.iter().all(|(_, back)| back.is_nan()), "{found:?}");
+    // a program that calls itself
+    let own = ".PROGRAM pick(.p,.h)\nLAPPRO .p,.h\nIF x THEN\nCALL pick(.p,.h+1)\nEND\n.END\n";
+    let found = backs("CALL pick(p1,10)\nCALL pick(p[1],80)", own);
+    for (name, back) in each {
+        let of = |(at, of): &(String, f64)| *at == name && (*of == back || of.is_nan());
+        assert!(found.iter().filter(|one| of(one)).count() >= 2, "{found:?}");
+    }
+}
+
 #[test]
 fn what_a_loop_of_another_program_counts_comes_back() {
     // 300 of .REALS, or what the other program makes of it
