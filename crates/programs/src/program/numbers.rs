@@ -195,6 +195,16 @@ impl<W> Numbers<W> {
         self.facts.contains_key(&self.one(number))
     }
 
+    /// Whether nothing writes a number but so many texts.
+    pub(super) fn is_only_written(&self, number: u32, times: usize) -> bool {
+        let facts = self.facts.get(&self.one(number));
+        let is_own = self.one(number) == number && !self.same.values().any(|of| *of == number);
+        is_own
+            && facts.is_some_and(|facts| {
+                facts.writes.len() == times && !facts.is_lost && !facts.is_endless
+            })
+    }
+
     /// What only the running program knows writes a number.
     pub(super) fn lose(&mut self, number: u32) {
         self.facts_of(number).is_lost = true;

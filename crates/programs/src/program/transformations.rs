@@ -1,7 +1,7 @@
 //! Numbers and transformations of languages that write a transformation as six numbers (VAL 3, AS):
 //! what the text writes into them, and what they add to a position.
 
-use super::contexts::Context;
+use super::contexts::{Given, Numbered};
 use super::displacing::Displacing;
 use super::notation::pose_of_turning_angles;
 use super::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, rounds};
@@ -12,8 +12,6 @@ use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
 use foldhash::{HashMap, HashSet};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
-use std::rc::Rc;
 
 /// Numbers of a transformation: positions in mm, angles in degrees. What is one number has the
 /// first of six.
@@ -123,6 +121,9 @@ pub(super) type Of<'o> = dyn FnMut(u32) -> Quantity + 'o;
 
 /// How a language reads the texts that are written into numbers.
 pub(super) trait Reads<'a> {
+    /// What all texts write into numbers.
+    fn entries(&self) -> &Entries<'a>;
+
     /// The value of an operand in an expression of a routine: a name with its index, a function
     /// with its brackets; `None` of one that is none of the language alone.
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity>;
@@ -187,10 +188,8 @@ pub(super) struct Entries<'a> {
     counters: Vec<Counter<'a>>,
     /// Routines that run concurrently with others.
     concurrent: Vec<u32>,
-    /// What calls give to numbers of routines, by routine and call.
-    pub(super) given: HashMap<u32, BTreeMap<At, Vec<(u32, Written<'a>)>>>,
-    /// The calls of routines, once a position in one asks.
-    pub(super) contexts: RefCell<HashMap<u32, Rc<[Context]>>>,
+    /// What calls give to numbers of routines.
+    pub given: Given<Written<'a>>,
     /// By loop, once a statement in it asks: whether what it counts with is written nowhere else
     /// before it ends.
     alone: RefCell<HashMap<At, bool>>,
@@ -300,30 +299,17 @@ impl<'a> Entries<'a> {
     pub(super) fn give(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         self.handed.extend(back.map(|back| (own, back)));
         let written = Written::Text(given);
-        self.note_given(callee, own, written);
+        self.given.note(callee, self.here(), own, written);
         let written = (written, self.here());
         let site = Site::at_start(callee);
         self.numbers.write(own, written, Some(site));
-    }
-
-    fn note_given(&mut self, callee: u32, own: u32, written: Written<'a>) {
-        let here = self.here();
-        let calls = self.given.entry(callee).or_default();
-        calls.entry(here).or_default().push((own, written));
-    }
-
-    /// Whether calls of a routine give it a number, and nothing else writes that.
-    pub(super) fn is_given_to(&self, routine: u32, number: u32) -> bool {
-        let calls = self.given.get(&routine);
-        let mut given = calls.into_iter().flat_map(BTreeMap::values).flatten();
-        given.any(|(own, _)| *own == number) && self.is_only_given(number)
     }
 
     /// Likewise a transformation.
     pub(super) fn give_all(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         for at in 0..EACH {
             let written = Written::Part(given, at as usize);
-            self.note_given(callee, own + at, written);
+            self.given.note(callee, self.here(), own + at, written);
             let written = (written, self.here());
             let site = Site::at_start(callee);
             self.numbers.write(own + at, written, Some(site));
@@ -403,7 +389,7 @@ impl<'a> Entries<'a> {
     }
 
     /// What a number may be whenever it is looked at.
-    pub(super) fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
+    fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
         let written = |(written, at): &(Written<'a>, At), of: &mut Of| {
             let mut of_counted = |number| self.value_at(number, *at, reads, of);
             self.written(*written, *at, reads, &mut of_counted)
@@ -412,7 +398,7 @@ impl<'a> Entries<'a> {
     }
 
     /// What is written comes to.
-    pub(super) fn written(
+    fn written(
         &self,
         written: Written<'a>,
         (routine, _): At,
@@ -434,13 +420,7 @@ impl<'a> Entries<'a> {
     }
 
     /// What a number is at a statement: in a loop that counts with it, what that counts.
-    pub(super) fn value_at(
-        &self,
-        number: u32,
-        at: At,
-        reads: &dyn Reads<'a>,
-        of: &mut Of,
-    ) -> Quantity {
+    fn value_at(&self, number: u32, at: At, reads: &dyn Reads<'a>, of: &mut Of) -> Quantity {
         let Some(counter) = self.counting(number, at) else {
             return of(number);
         };
@@ -475,6 +455,33 @@ impl<'a> Entries<'a> {
             })
         });
         is_alone.then_some(found)
+    }
+}
+
+/// The numbers of entries, as a language reads them.
+pub(super) struct Numbering<'e, 'a>(pub &'e dyn Reads<'a>);
+
+impl<'a> Numbered for Numbering<'_, 'a> {
+    type W = Written<'a>;
+
+    fn given(&self) -> &Given<Written<'a>> {
+        &self.0.entries().given
+    }
+
+    fn is_only_given(&self, number: u32) -> bool {
+        self.0.entries().is_only_given(number)
+    }
+
+    fn whenever(&self, number: u32) -> Quantity {
+        self.0.entries().whenever(number, self.0)
+    }
+
+    fn value_at(&self, number: u32, at: At, of: &mut Of) -> Quantity {
+        self.0.entries().value_at(number, at, self.0, of)
+    }
+
+    fn written(&self, written: Written<'a>, at: At, of: &mut Of) -> Quantity {
+        self.0.entries().written(written, at, self.0, of)
     }
 }
 

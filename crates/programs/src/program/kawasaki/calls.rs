@@ -237,7 +237,7 @@ impl<'a> Reader<'a> {
     pub(super) fn hand_over_calls(&mut self) {
         let by_calls = std::mem::take(&mut self.by_calls);
         if let Some(known) = self.known.get() {
-            by_calls.hand_over(&known.entries, &COMPUTED, &mut self.builder.script);
+            by_calls.hand_over(&known.entries.given, &mut self.builder.script);
         }
     }
 

@@ -9,10 +9,12 @@ use super::targets::Name;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::TargetId;
-use crate::program::contexts::Varied;
+use crate::program::contexts::{Varied, varied};
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, RoutineId, short};
-use crate::program::transformations::{EACH, Entries, Of, Reads, Steps, Written, exactly};
+use crate::program::transformations::{
+    EACH, Entries, Numbering, Of, Reads, Steps, Written, exactly,
+};
 use crate::program::words::Words;
 use foldhash::HashMap;
 
@@ -327,7 +329,7 @@ impl<'a> Reader<'a> {
     /// What comes of numbers at the present statement, call by call.
     fn varied<T>(&self, evaluate: &mut dyn FnMut(&mut Of) -> T) -> Varied<T> {
         let at = (self.here.routine, short(self.here.at));
-        Entries::varied(|| &self.known().entries, at, self, evaluate)
+        varied(&Numbering(self), at, evaluate)
     }
 
     /// What is added to a position at the present statement; names whose numbers are taken keep
@@ -432,6 +434,10 @@ impl<'a> Reader<'a> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
+    fn entries(&self) -> &Entries<'a> {
+        &self.known().entries
+    }
+
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity> {
         let is_in_name = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | 128..);
         let end = operand.iter().take_while(|b| is_in_name(b)).count();

@@ -442,7 +442,7 @@ impl<'a> Reader<'a> {
     pub(super) fn expr(&mut self, position: &Position) -> Expr {
         let (routine, by) = (self.here.routine, position.by.clone());
         let script = &mut self.builder.script;
-        (self.by_calls).displaced(position.base, by, routine, &COMPUTED, script)
+        (self.by_calls).displaced(position.base, by, routine, script)
     }
 
     // ---- tools and bases

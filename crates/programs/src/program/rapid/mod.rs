@@ -17,6 +17,7 @@ mod ahead;
 mod arguments;
 mod blocks;
 mod builtins;
+mod by_calls;
 mod calls;
 mod conditions;
 mod confdata;

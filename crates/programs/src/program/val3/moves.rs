@@ -2,7 +2,7 @@
 
 use super::data::Kind;
 use super::reader::Reader;
-use super::remarks::{COMPUTED, move_not_known};
+use super::remarks::move_not_known;
 use crate::program::script::{Expr, Instruction, Modal, Script, Span, short};
 use crate::program::words::Words;
 use crate::program::{Motion, Source, SpeedZone};
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
     /// The script, once all copies are known.
     pub(super) fn finish(mut self) -> Script {
         let by_calls = std::mem::take(&mut self.by_calls);
-        by_calls.hand_over(&self.entries, &COMPUTED, &mut self.builder.script);
+        by_calls.hand_over(&self.entries.given, &mut self.builder.script);
         self.settle_composed();
         self.refuse_arrays();
         self.frame_points();

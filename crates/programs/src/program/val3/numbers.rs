@@ -4,12 +4,14 @@ use super::code::{PLAIN, Reference};
 use super::data::{Kind, POSE};
 use super::reader::{Reader, functions, written_argument};
 use super::targets::{Known, Of};
-use crate::program::contexts::Varied;
+use crate::program::contexts::{Varied, varied};
 use crate::program::notation::turned_by;
 use crate::program::numbers::{Operand, evaluated};
 use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::{RoutineId, short};
-use crate::program::transformations::{EACH, Entries, Of as Value, Reads, Steps, Written, exactly};
+use crate::program::transformations::{
+    EACH, Entries, Numbering, Of as Value, Reads, Steps, Written, exactly,
+};
 use crate::program::words::Words;
 use crate::program::{Displacement, Stride};
 
@@ -173,7 +175,7 @@ impl<'a> Reader<'a> {
     /// The transformation that words of the present statement are, call by call.
     pub(super) fn varied_steps(&self, words: Words<'a, '_>) -> Varied<Steps> {
         let (routine, at) = (self.here.routine, self.here.at);
-        Entries::varied(|| &self.entries, (routine, at), self, &mut |of| {
+        varied(&Numbering(self), (routine, at), &mut |of| {
             self.product(words, routine, 0, of)
         })
     }
@@ -318,6 +320,10 @@ pub(super) fn axis(field: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
+    fn entries(&self) -> &Entries<'a> {
+        &self.entries
+    }
+
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Value) -> Option<Quantity> {
         let mut found = Vec::new();
         PLAIN.add(operand, 0..operand.len(), &mut found);

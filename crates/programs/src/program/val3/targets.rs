@@ -493,7 +493,7 @@ impl<'a> Reader<'a> {
                 let mut displacing = nothing();
                 let base = self.approached(words, depth, &mut displacing);
                 let (routine, script) = (self.here.routine, &mut self.builder.script);
-                (self.by_calls).displaced(base, displacing, routine, &COMPUTED, script)
+                (self.by_calls).displaced(base, displacing, routine, script)
             }
             (b"compose", Some([point, frame, by])) => {
                 let base = self.position_within(*point, depth + 1);
