@@ -475,7 +475,7 @@ impl<'a> Reader<'a> {
         };
         let base = self.approached(*point, depth + 1, displacing);
         displacing.with(self.varied_steps(*by), |displacing, by| {
-            by.in_tool(displacing)
+            by.in_tool(displacing);
         });
         base
     }
