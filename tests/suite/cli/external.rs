@@ -1,7 +1,8 @@
 //! `profile add-track`, `add-positioner`, `import-moc`, `import-krc` from outside.
 
 use crate::support::{poseshift, repository, scratch};
-use poseshift::model::profile::Profile;
+use poseshift::model::Conditions;
+use poseshift::model::profile::{Mounted, Profile};
 use std::path::Path;
 
 /// Runs a command in a folder; status, and what was printed to both.
@@ -298,6 +299,42 @@ fn an_archive_of_a_kuka_controller_says_what_its_axes_carry() {
         &found.world_from_base.rotation.axis(0),
         &[0.0, 1.0, 0.0]
     ));
+    // where the chain begins upside down the base is turned over, and the arm stands as upright
+    let shipped =
+        std::fs::read_to_string(repository("robots/kuka_kr6_r900.yaml")).expect("shipped");
+    let over = |text: &str| {
+        let lines = text.lines().map(|line| {
+            let first = line.contains("d_mm: 400");
+            let line = match line.trim_start() {
+                base if base.starts_with("base:") => line.replace("rx_deg: 0", "rx_deg: 180"),
+                _ if first => line.replace("400", "-400").replace("sign: -1", "sign: 1"),
+                _ => line.replace("{alpha_deg: -90, a_mm: 25", "{alpha_deg: 90, a_mm: 25"),
+            };
+            line + "\n"
+        });
+        lines.collect::<String>()
+    };
+    std::fs::write(folder.path().join("over.yaml"), over(&shipped)).expect("a writable folder");
+    let turned = [
+        "profile",
+        "import-krc",
+        "KRC",
+        "--profile",
+        "over.yaml",
+        "-o",
+        "o.yaml",
+    ];
+    let (status, reported) = run(folder.path(), &turned);
+    assert_eq!(status, 0, "{reported}");
+    let (_, other) = read(&folder.path().join("o.yaml"));
+    assert_ne!(other.world_from_base, found.world_from_base);
+    let flange = |profile: &Profile| {
+        let mounted = Mounted::flange();
+        let model = profile.real_model(&mounted, &Conditions::default());
+        model.forward(&[0.3, -1.2, 1.4, 0.5, 0.6, 0.7], &Conditions::default())
+    };
+    let gap = flange(&found).separation(&flange(&other));
+    assert!(gap.distance_m < 1e-9 && gap.angle_rad < 1e-9, "{gap:?}");
     let station = &found.external.positioners[0];
     assert_eq!(
         (station.name.as_str(), station.axes[0].axis.as_str()),

@@ -168,3 +168,18 @@ fn text_that_nothing_reaches_needs_no_tool() {
     assert_eq!(errors(&of_case), [""; 0]);
     assert!(said(&of_case, "nothing reaches go to q"));
 }
+
+#[test]
+fn approaches_with_several_elements_of_an_array_name_each() {
+    let lines = "FOR .i = 1 TO 2\nBASE b[.i]\nLMOVE p\nEND";
+    let text = program(lines).replace(
+        ".TRANS\n",
+        ".TRANS\nb[1] 0 0 0 0 0 0\nb[2] -120 90 0 0 0 0\n",
+    );
+    let found = done(&[PLAIN], &[("t.as", &text)]);
+    let shared = message(&found, "target-shared");
+    for name in ["b[1]", "b[2]"] {
+        let part = format!("t.as line 7 with the work frame `{name}` of line 6");
+        assert!(shared.contains(&part), "{shared}");
+    }
+}

@@ -5,7 +5,12 @@ use super::approach::{Approach, SAME_RAD, Solved};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::motion::walk::NOWHERE;
+use crate::program::Move;
+use crate::program::script::Place;
 use foldhash::HashSet;
+
+/// What sets the tool or the work frame of a move, and the name of that.
+type Set<'a> = dyn Fn(&Move) -> (Option<Place>, &'a str) + 'a;
 
 /// Approaches that a message names.
 const MOST_NAMED: usize = 6;
@@ -99,7 +104,7 @@ pub(super) fn message(job: &Job, group: &[Solved], misses: &[Separation]) -> Str
     let differing = Differing::of(job, group);
     let each = group.iter().zip(misses);
     let mut each: Vec<String> = each
-        .map(|(solved, miss)| one(job, solved.approach, miss, differing))
+        .map(|(solved, miss)| one(job, solved.approach, group, miss, differing))
         .collect();
     let mut named = HashSet::default();
     each.retain(|one| named.insert(one.clone()));
@@ -119,7 +124,13 @@ pub(super) fn message(job: &Job, group: &[Solved], misses: &[Separation]) -> Str
 }
 
 /// One approach, by what distinguishes it from the others.
-fn one(job: &Job, approach: &Approach, miss: &Separation, differing: Differing) -> String {
+fn one(
+    job: &Job,
+    approach: &Approach,
+    group: &[Solved],
+    miss: &Separation,
+    differing: Differing,
+) -> String {
     let ground = &job.ground;
     let by = format!(
         "{:.3} mm, {:.3} deg",
@@ -132,16 +143,39 @@ fn one(job: &Job, approach: &Approach, miss: &Separation, differing: Differing) 
     let motion = &ground.program.moves[approach.motion as usize];
     let file = &ground.sources[motion.file as usize].name;
     let mut text = format!("{file} line {}", ground.line_of(motion));
+    let tool = |of: &Move| (of.tool_written, ground.program.tools[of.tool].name.as_str());
+    let frame = |of: &Move| {
+        (
+            of.frame_written,
+            ground.program.frames[of.frame].name.as_str(),
+        )
+    };
+    let (tool, frame): (&Set, &Set) = (&tool, &frame);
     let written = [
-        (differing.tool, "tool", motion.tool_written),
-        (differing.frame, "work frame", motion.frame_written),
+        (differing.tool, "tool", tool),
+        (differing.frame, "work frame", frame),
     ];
-    for (_, what, place) in written.into_iter().filter(|(differs, ..)| *differs) {
-        if let Some(place) = place {
-            let source = &ground.sources[place.file as usize];
-            let (line, _) = source.line_column(place.offset as usize);
-            text += &format!(" with the {what} of line {line}");
-        }
+    for (_, what, set) in written.into_iter().filter(|(differs, ..)| *differs) {
+        let (Some(place), name) = set(motion) else {
+            continue;
+        };
+        // one statement may set each of several
+        let mut others = group.iter().map(|solved| solved.approach.motion);
+        let is_one = others.all(|other| {
+            let moves = &ground.program.moves;
+            moves.get(other as usize).is_none_or(|other| {
+                let (at, of) = set(other);
+                at != Some(place) || of == name
+            })
+        });
+        let name = if is_one {
+            String::new()
+        } else {
+            format!(" `{name}`")
+        };
+        let source = &ground.sources[place.file as usize];
+        let (line, _) = source.line_column(place.offset as usize);
+        text += &format!(" with the {what}{name} of line {line}");
     }
     if differing.load {
         text += &match mass_kg(job, approach) {

@@ -139,6 +139,10 @@ fn each_variable(
         Expr::Displaced { base, .. } => {
             each_variable(script, script.lists[base as usize], lists, visit);
         }
+        Expr::DisplacedByCall { base, by } => {
+            visit(script.by_calls[by as usize].call);
+            each_variable(script, script.lists[base as usize], lists, visit);
+        }
         Expr::Any { first, end } => {
             if lists.insert(first) {
                 for inner in &script.lists[first as usize..end as usize] {

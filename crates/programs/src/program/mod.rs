@@ -21,6 +21,7 @@
 //! # Ok::<(), poseshift_programs::program::ReadError>(())
 //! ```
 
+mod contexts;
 pub mod csv;
 mod deciding;
 mod displacement;

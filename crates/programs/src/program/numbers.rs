@@ -195,6 +195,16 @@ impl<W> Numbers<W> {
         self.facts.contains_key(&self.one(number))
     }
 
+    /// Whether nothing writes a number but so many texts.
+    pub(super) fn is_only_written(&self, number: u32, times: usize) -> bool {
+        let facts = self.facts.get(&self.one(number));
+        let is_own = self.one(number) == number && !self.same.values().any(|of| *of == number);
+        is_own
+            && facts.is_some_and(|facts| {
+                facts.writes.len() == times && !facts.is_lost && !facts.is_endless
+            })
+    }
+
     /// What only the running program knows writes a number.
     pub(super) fn lose(&mut self, number: u32) {
         self.facts_of(number).is_lost = true;
@@ -208,6 +218,22 @@ impl<W> Numbers<W> {
     /// The program jumps inside a routine.
     pub(super) fn jumps(&mut self, routine: u32) {
         self.jumping.insert(routine);
+    }
+
+    /// Whether the program jumps inside a routine.
+    pub(super) fn has_jumps(&self, routine: u32) -> bool {
+        self.jumping.contains(&routine)
+    }
+
+    /// Whether a routine may run while another does: that calls it, or one of the two runs
+    /// concurrently with others.
+    pub(super) fn runs_while(&self, routine: u32, other: u32, concurrent: &[u32]) -> bool {
+        if self.called_by(vec![other]).contains(&routine) {
+            return true;
+        }
+        let mut at_any_time = self.called_by(concurrent.to_vec());
+        at_any_time.extend(concurrent);
+        routine != other && (at_any_time.contains(&routine) || at_any_time.contains(&other))
     }
 
     /// A block, by its routine and number, runs any number of times.

@@ -1,14 +1,17 @@
 //! Numbers and transformations of languages that write a transformation as six numbers (VAL 3, AS):
 //! what the text writes into them, and what they add to a position.
 
+use super::contexts::{Given, Numbered};
 use super::displacing::Displacing;
 use super::notation::pose_of_turning_angles;
 use super::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, rounds};
 use super::quantity::{Arithmetic, Quantity, evaluate};
+use super::script::short;
 use super::words::Words;
 use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation};
-use foldhash::HashSet;
+use foldhash::{HashMap, HashSet};
+use std::cell::RefCell;
 
 /// Numbers of a transformation: positions in mm, angles in degrees. What is one number has the
 /// first of six.
@@ -118,6 +121,9 @@ pub(super) type Of<'o> = dyn FnMut(u32) -> Quantity + 'o;
 
 /// How a language reads the texts that are written into numbers.
 pub(super) trait Reads<'a> {
+    /// What all texts write into numbers.
+    fn entries(&self) -> &Entries<'a>;
+
     /// The value of an operand in an expression of a routine: a name with its index, a function
     /// with its brackets; `None` of one that is none of the language alone.
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity>;
@@ -152,15 +158,41 @@ pub(super) enum Written<'a> {
     Somehow,
 }
 
+/// A routine, and the byte of its file at which one of its statements begins.
+pub(super) type At = (u32, u32);
+
+/// A loop that counts.
+#[derive(Debug)]
+struct Counter<'a> {
+    number: u32,
+    /// Whether that is all that has its name, and no array.
+    is_whole: bool,
+    /// From, to, and the step.
+    texts: [&'a [u8]; 3],
+    block: (u32, u32),
+    routine: u32,
+    /// Where the loop begins, and where it ends.
+    start: u32,
+    end: u32,
+}
+
 /// What all texts write into numbers.
 #[derive(Debug, Default)]
 pub(super) struct Entries<'a> {
-    /// With the routine whose text it is.
-    numbers: Numbers<(Written<'a>, u32)>,
-    pub blocks: Blocks,
+    /// With the statement whose text it is.
+    numbers: Numbers<(Written<'a>, At)>,
+    blocks: Blocks,
     routine: u32,
-    /// Counters and the blocks of their loops.
-    counters: Vec<(u32, (u32, u32))>,
+    /// Where the present statement begins.
+    at: u32,
+    counters: Vec<Counter<'a>>,
+    /// Routines that run concurrently with others.
+    concurrent: Vec<u32>,
+    /// What calls give to numbers of routines.
+    pub given: Given<Written<'a>>,
+    /// By loop, once a statement in it asks: whether what it counts with is written nowhere else
+    /// before it ends.
+    alone: RefCell<HashMap<At, bool>>,
     /// Numbers that not only loops and calls write.
     assigned: HashSet<u32>,
     /// Numbers that routines are handed: the routine's own, and the caller's.
@@ -175,11 +207,39 @@ impl<'a> Entries<'a> {
         self.blocks.begin(routine);
     }
 
+    /// A statement begins at a byte of its file.
+    pub(super) fn begin_statement(&mut self, at: usize) {
+        self.at = short(at);
+    }
+
+    fn here(&self) -> At {
+        (self.routine, self.at)
+    }
+
+    /// A block begins that runs so often at most.
+    pub(super) fn open(&mut self, most: Option<u32>) {
+        self.blocks.open(most);
+    }
+
+    /// Another branch of it begins.
+    pub(super) fn branch(&mut self) {
+        self.blocks.branch();
+    }
+
+    pub(super) fn close(&mut self) {
+        let last = self.blocks.last();
+        let mut counters = self.counters.iter_mut().rev();
+        if let Some(counter) = counters.find(|counter| counter.block == last) {
+            counter.end = self.at;
+        }
+        self.blocks.close();
+    }
+
     /// What a number is before anything runs.
     pub(super) fn declare(&mut self, number: u32, value: Option<f64>) {
         match value {
             Some(value) => {
-                let written = (Written::Exactly(value), self.routine);
+                let written = (Written::Exactly(value), self.here());
                 self.numbers.write(number, written, None);
             }
             None => self.blank.push((number, None)),
@@ -195,7 +255,7 @@ impl<'a> Entries<'a> {
     pub(super) fn assign(&mut self, number: u32, written: Written<'a>, is_whole: bool) {
         self.assigned.insert(number);
         let site = is_whole.then(|| self.blocks.site());
-        self.numbers.write(number, (written, self.routine), site);
+        self.numbers.write(number, (written, self.here()), site);
     }
 
     /// Likewise a transformation.
@@ -217,7 +277,7 @@ impl<'a> Entries<'a> {
 
     /// Whether nothing but calls writes a number.
     pub(super) fn is_only_given(&self, number: u32) -> bool {
-        let is_counted = self.counters.iter().any(|(counter, _)| *counter == number);
+        let is_counted = self.counters.iter().any(|counter| counter.number == number);
         !is_counted && !self.assigned.contains(&number)
     }
 
@@ -230,28 +290,38 @@ impl<'a> Entries<'a> {
         self.numbers.calls(self.routine, callee);
     }
 
+    /// A routine runs concurrently with others.
+    pub(super) fn starts(&mut self, routine: u32) {
+        self.concurrent.push(routine);
+    }
+
     /// A routine is given a number, which is `own` to it, and what is `back` of the caller.
     pub(super) fn give(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         self.handed.extend(back.map(|back| (own, back)));
+        let written = Written::Text(given);
+        self.given.note(callee, self.here(), own, written);
+        let written = (written, self.here());
         let site = Site::at_start(callee);
-        let written = (Written::Text(given), self.routine);
         self.numbers.write(own, written, Some(site));
     }
 
     /// Likewise a transformation.
     pub(super) fn give_all(&mut self, callee: u32, own: u32, given: &'a [u8], back: Option<u32>) {
         for at in 0..EACH {
-            let written = (Written::Part(given, at as usize), self.routine);
+            let written = Written::Part(given, at as usize);
+            self.given.note(callee, self.here(), own + at, written);
+            let written = (written, self.here());
             let site = Site::at_start(callee);
             self.numbers.write(own + at, written, Some(site));
             self.handed.extend(back.map(|back| (own + at, back + at)));
         }
     }
 
-    /// A loop begins that counts: `1 TO 10 STEP 2` with its counter; `None` where it is not known.
-    pub(super) fn count(&mut self, counter: Option<u32>, words: Words<'a, '_>) {
+    /// A loop begins that counts: `1 TO 10 STEP 2` with its counter, and whether that is all that
+    /// has its name; `None` where it is not known.
+    pub(super) fn count(&mut self, counter: Option<(u32, bool)>, words: Words<'a, '_>) {
         let to = words.find(b"TO");
-        let (Some(counter), Some(to)) = (counter, to) else {
+        let (Some((counter, is_whole)), Some(to)) = (counter, to) else {
             return self.blocks.open(None);
         };
         let step = words.find(b"STEP").filter(|step| *step > to);
@@ -261,7 +331,7 @@ impl<'a> Entries<'a> {
             words.part(to + 1..end).whole(),
             words.behind(end + 1).whole(),
         ];
-        let written = (Written::Counted(of), self.routine);
+        let written = (Written::Counted(of), self.here());
         let site = self.blocks.site();
         self.numbers.write(counter, written, Some(site));
         let plain = |text: &[u8]| evaluate(text, &mut |_| Quantity::unknown())?.exact();
@@ -270,14 +340,22 @@ impl<'a> Entries<'a> {
         let most = from.zip(to).zip(step);
         let most = most.and_then(|((from, to), step)| rounds(from, to, step));
         self.blocks.open(most);
-        self.counters.push((counter, self.blocks.last()));
+        self.counters.push(Counter {
+            number: counter,
+            is_whole,
+            texts: of,
+            block: self.blocks.last(),
+            routine: self.routine,
+            start: self.at,
+            end: self.at,
+        });
     }
 
     /// All texts are entries: what routines write into what they are handed comes back, and loops whose
     /// counter something else writes run any number of times.
     pub(super) fn finish(&mut self) {
         let mut open = std::mem::take(&mut self.handed);
-        let counted: HashSet<u32> = self.counters.iter().map(|(own, _)| *own).collect();
+        let counted: HashSet<u32> = self.counters.iter().map(|of| of.number).collect();
         loop {
             let is_written = |own: &u32| self.assigned.contains(own) || counted.contains(own);
             let (written, others): (Vec<_>, Vec<_>) =
@@ -290,43 +368,138 @@ impl<'a> Entries<'a> {
             }
             open = others;
         }
-        for (counter, block) in &self.counters {
-            if self.assigned.contains(counter) {
-                self.numbers.unbounded(*block);
+        for counter in &self.counters {
+            if self.assigned.contains(&counter.number) {
+                self.numbers.unbounded(counter.block);
             }
         }
         for (number, site) in std::mem::take(&mut self.blank) {
             // where nothing writes them nothing is meant by that
             if self.numbers.is_written(number) {
-                let zero = (Written::Exactly(0.0), self.routine);
+                let zero = (Written::Exactly(0.0), self.here());
                 self.numbers.write(number, zero, site);
             }
         }
     }
 
-    /// What a number may be.
-    pub(super) fn value(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
-        let written = |(written, routine): &(Written<'a>, u32), of: &mut Of| match *written {
-            Written::Exactly(value) => Quantity::exactly(value),
-            Written::Text(text) => reads.quantity(text, *routine, of),
-            Written::Part(text, at) => reads.part(text, at, *routine, of),
-            Written::Number(number) => of(number),
-            Written::Somehow => Quantity::endless(),
-            Written::Counted(texts) => {
-                let [from, to, step] = texts.map(|text| reads.quantity(text, *routine, of));
-                let step = if texts[2].is_empty() {
-                    Quantity::exactly(1.0)
-                } else {
-                    step
-                };
-                // behind the loop the counter is beyond its last value
-                let beyond = step.exact().unwrap_or(1.0);
-                let all = counted(&from, &to, Some(step));
-                all.plus(Quantity::counted(0.0, beyond, Some(1)))
-            }
+    /// What a number may be at a statement.
+    pub(super) fn value(&self, number: u32, at: At, reads: &dyn Reads<'a>) -> Quantity {
+        let whenever = &mut |number| self.whenever(number, reads);
+        self.value_at(number, at, reads, whenever)
+    }
+
+    /// What a number may be whenever it is looked at.
+    fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
+        let written = |(written, at): &(Written<'a>, At), of: &mut Of| {
+            let mut of_counted = |number| self.value_at(number, *at, reads, of);
+            self.written(*written, *at, reads, &mut of_counted)
         };
         self.numbers.value(number, &written)
     }
+
+    /// What is written comes to.
+    fn written(
+        &self,
+        written: Written<'a>,
+        (routine, _): At,
+        reads: &dyn Reads<'a>,
+        of: &mut Of,
+    ) -> Quantity {
+        match written {
+            Written::Exactly(value) => Quantity::exactly(value),
+            Written::Text(text) => reads.quantity(text, routine, of),
+            Written::Part(text, part) => reads.part(text, part, routine, of),
+            Written::Number(number) => of(number),
+            Written::Somehow => Quantity::endless(),
+            Written::Counted(texts) => {
+                let (all, beyond) = counted_by(texts, routine, reads, of);
+                // behind the loop the counter is beyond its last value
+                all.plus(Quantity::counted(0.0, beyond, Some(1)))
+            }
+        }
+    }
+
+    /// What a number is at a statement: in a loop that counts with it, what that counts.
+    fn value_at(&self, number: u32, at: At, reads: &dyn Reads<'a>, of: &mut Of) -> Quantity {
+        let Some(counter) = self.counting(number, at) else {
+            return of(number);
+        };
+        let start = (counter.routine, counter.start);
+        let mut before = |other| {
+            if other == number {
+                of(other)
+            } else {
+                self.value_at(other, start, reads, of)
+            }
+        };
+        counted_by(counter.texts, at.0, reads, &mut before).0
+    }
+
+    /// The loop around a statement that counts with a number, where nothing else writes that before
+    /// the loop ends.
+    fn counting(&self, number: u32, (routine, at): At) -> Option<&Counter<'a>> {
+        let loops = || self.counters.iter().filter(|of| of.number == number);
+        let around = |of: &&Counter| of.routine == routine && of.start < at && at < of.end;
+        let found = loops().filter(around).max_by_key(|of| of.start)?;
+        if !found.is_whole || self.assigned.contains(&number) || self.numbers.has_jumps(routine) {
+            return None;
+        }
+        let mut alone = self.alone.borrow_mut();
+        let is_alone = alone.entry((routine, found.start)).or_insert_with(|| {
+            let is_inside = |of: &Counter| found.start < of.start && of.start < found.end;
+            !loops().any(|of| {
+                of.routine == routine && is_inside(of)
+                    || self
+                        .numbers
+                        .runs_while(of.routine, routine, &self.concurrent)
+            })
+        });
+        is_alone.then_some(found)
+    }
+}
+
+/// The numbers of entries, as a language reads them.
+pub(super) struct Numbering<'e, 'a>(pub &'e dyn Reads<'a>);
+
+impl<'a> Numbered for Numbering<'_, 'a> {
+    type W = Written<'a>;
+
+    fn given(&self) -> &Given<Written<'a>> {
+        &self.0.entries().given
+    }
+
+    fn is_only_given(&self, number: u32) -> bool {
+        self.0.entries().is_only_given(number)
+    }
+
+    fn whenever(&self, number: u32) -> Quantity {
+        self.0.entries().whenever(number, self.0)
+    }
+
+    fn value_at(&self, number: u32, at: At, of: &mut Of) -> Quantity {
+        self.0.entries().value_at(number, at, self.0, of)
+    }
+
+    fn written(&self, written: Written<'a>, at: At, of: &mut Of) -> Quantity {
+        self.0.entries().written(written, at, self.0, of)
+    }
+}
+
+/// What a loop counts, and by how much a step leads beyond it.
+fn counted_by<'a>(
+    texts: [&'a [u8]; 3],
+    routine: u32,
+    reads: &dyn Reads<'a>,
+    of: &mut Of,
+) -> (Quantity, f64) {
+    let [from, to, step] = texts.map(|text| reads.quantity(text, routine, of));
+    let step = if texts[2].is_empty() {
+        Quantity::exactly(1.0)
+    } else {
+        step
+    };
+    let beyond = step.exact().unwrap_or(1.0);
+    (counted(&from, &to, Some(step)), beyond)
 }
 
 #[cfg(test)]

@@ -295,7 +295,7 @@ impl Flow<'_> {
         let script = self.script;
         let of = &script.routines[routine];
         let mut target = script.instructions[instruction as usize].target;
-        while let Expr::Displaced { base, .. } = target {
+        while let Expr::Displaced { base, .. } | Expr::DisplacedByCall { base, .. } = target {
             target = script.lists[base as usize];
         }
         let Expr::Variable(parameter) = target else {

@@ -393,7 +393,10 @@ impl<'a> Flow<'a> {
                 self.evaluate(state, value, DECLARED)
             }
             Expr::Variable(_) => self.evaluate(state, value, site),
-            Expr::Element { .. } | Expr::Any { .. } | Expr::Displaced { .. } => {
+            Expr::Element { .. }
+            | Expr::Any { .. }
+            | Expr::Displaced { .. }
+            | Expr::DisplacedByCall { .. } => {
                 is_anywhere = false;
                 self.evaluate(state, value, site)
             }
@@ -420,7 +423,9 @@ impl<'a> Flow<'a> {
     pub(super) fn is_choice(&self, value: Expr) -> bool {
         match value {
             Expr::Any { .. } => true,
-            Expr::Displaced { base, .. } => self.is_choice(self.script.lists[base as usize]),
+            Expr::Displaced { base, .. } | Expr::DisplacedByCall { base, .. } => {
+                self.is_choice(self.script.lists[base as usize])
+            }
             _ => false,
         }
     }
@@ -489,6 +494,11 @@ impl<'a> Flow<'a> {
             }
             Expr::Element { .. } => false,
             Expr::Displaced { base, .. } => self.is_fixed(self.script.lists[base as usize]),
+            Expr::DisplacedByCall { base, by } => {
+                let call = self.script.by_calls[by as usize].call;
+                self.is_fixed(self.script.lists[base as usize])
+                    && self.is_fixed(Expr::Variable(call))
+            }
             Expr::Any { first, end } => self.script.lists[first as usize..end as usize]
                 .iter()
                 .all(|inner| self.is_fixed(*inner)),

@@ -5,8 +5,8 @@ use crate::motion::before::Stop;
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::Displacement;
 use crate::program::script::{
-    DisplacementId, Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId, VariableId,
-    Written, short,
+    ByCall, DisplacementId, Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId,
+    VariableId, Written, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
@@ -164,32 +164,18 @@ impl Flow<'_> {
             }
             Expr::Displaced { base, by } => {
                 let base = of_variable(self, script.lists[base as usize]);
-                let atoms = self.holdings.of(base).to_vec();
-                let mut displaced = Vec::with_capacity(atoms.len());
-                for (atom, of) in atoms {
-                    match atom {
-                        Atom::Target {
-                            target,
-                            displacement,
-                        } => {
-                            let all = self.displaced_again(displacement, by, site);
-                            displaced.extend(all.into_iter().map(|displacement| {
-                                (
-                                    Atom::Target {
-                                        target,
-                                        displacement,
-                                    },
-                                    of,
-                                )
-                            }));
-                        }
-                        Atom::Value(value) if self.is_of_robot(value) => {
-                            displaced.push((self.near_robot(value, by), of));
-                        }
-                        other => displaced.push((other, of)),
-                    }
+                self.displaced(base, by, site)
+            }
+            Expr::DisplacedByCall { base, by } => {
+                let base = of_variable(self, script.lists[base as usize]);
+                let by = &script.by_calls[by as usize];
+                let call = of_variable(self, Expr::Variable(by.call));
+                let mut all = NOTHING;
+                for by in self.by_call(by, call) {
+                    let one = self.displaced(base, by, site);
+                    all = self.holdings.join(all, one);
                 }
-                self.holdings.intern(displaced)
+                all
             }
             Expr::Variable(_) => of_variable(self, value),
             Expr::Element { table, number } => {
@@ -223,6 +209,55 @@ impl Flow<'_> {
                 all
             }
         }
+    }
+
+    /// Positions, displaced at a place.
+    fn displaced(&mut self, base: Holding, by: DisplacementId, site: Site) -> Holding {
+        let atoms = self.holdings.of(base).to_vec();
+        let mut displaced = Vec::with_capacity(atoms.len());
+        for (atom, of) in atoms {
+            match atom {
+                Atom::Target {
+                    target,
+                    displacement,
+                } => {
+                    let all = self.displaced_again(displacement, by, site);
+                    displaced.extend(all.into_iter().map(|displacement| {
+                        (
+                            Atom::Target {
+                                target,
+                                displacement,
+                            },
+                            of,
+                        )
+                    }));
+                }
+                Atom::Value(value) if self.is_of_robot(value) => {
+                    displaced.push((self.near_robot(value, by), of));
+                }
+                other => displaced.push((other, of)),
+            }
+        }
+        self.holdings.intern(displaced)
+    }
+
+    /// What displaces in the calls whose numbers a variable may hold.
+    pub(in crate::motion) fn by_call(&self, of: &ByCall, calls: Holding) -> Vec<DisplacementId> {
+        let number = |(atom, _): &(Atom, Site)| match atom {
+            Atom::Value(value) => match self.value(*value) {
+                Held::Number(number) => of.by.get(number).copied(),
+                _ => None,
+            },
+            _ => None,
+        };
+        let known: Option<Vec<_>> = self.holdings.of(calls).iter().map(number).collect();
+        let mut all = known.unwrap_or_default();
+        if all.is_empty() {
+            all.push(of.otherwise);
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 
     /// The value of where the robot is, whatever holds its tool and its work frame.

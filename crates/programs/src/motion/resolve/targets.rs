@@ -26,6 +26,15 @@ impl Resolver<'_, '_> {
                     self.fixed(script.lists[base as usize], by, listed);
                 }
             }
+            Expr::DisplacedByCall { base, by } => {
+                let of = &script.by_calls[by as usize];
+                let call = self.flow.chosen_at(listed.stop, of.call);
+                for by in self.flow.by_call(of, call) {
+                    for by in self.flow.displaced_again(by, displacement, OF_MOVE) {
+                        self.fixed(script.lists[base as usize], by, listed);
+                    }
+                }
+            }
             Expr::Any { first, end } => {
                 let many = self.report.program.moves.len() + (end - first) as usize > MOST_USES;
                 for inner in &script.lists[first as usize..end as usize] {

@@ -79,6 +79,18 @@ impl Any {
     }
 }
 
+/// Whether the controller runs a program of this name where it is switched on.
+pub(super) fn is_started(name: &[u8]) -> bool {
+    let name = name.to_ascii_lowercase();
+    name.starts_with(b"autostart") && name.ends_with(b".pc")
+}
+
+/// The program that `PCEXECUTE 2: name` starts: the number of the process may stand before it.
+pub(super) fn started<'a, 'w>(rest: Words<'a, 'w>) -> Words<'a, 'w> {
+    let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
+    rest.behind(colon.map_or(0, |at| at + 1))
+}
+
 impl<'a> Reader<'a> {
     /// Names that are handed to programs that write them are written, too; likewise those whose
     /// numbers are read out of them.
@@ -219,6 +231,14 @@ impl<'a> Reader<'a> {
             leads: true,
             ..Call::of(place, [routine].into(), Source::text(part.whole()), 0..0)
         });
+    }
+
+    /// Calls say which they are to programs that ask.
+    pub(super) fn hand_over_calls(&mut self) {
+        let by_calls = std::mem::take(&mut self.by_calls);
+        if let Some(known) = self.known.get() {
+            by_calls.hand_over(&known.entries.given, &mut self.builder.script);
+        }
     }
 
     /// What stands for any program: a routine that calls one of them.

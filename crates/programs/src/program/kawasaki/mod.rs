@@ -26,6 +26,7 @@ mod calls;
 mod deciding;
 mod insert;
 mod keywords;
+mod loads;
 mod moves;
 mod numbers;
 mod plates;

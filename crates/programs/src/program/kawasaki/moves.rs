@@ -4,7 +4,7 @@ use super::reader::Reader;
 use super::remarks::{OTHER_MOVE, RELATIVE, SEARCH};
 use super::sections::Statement;
 use super::targets::Position;
-use crate::program::quantity::Quantity;
+use crate::program::contexts::Varied;
 use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
 use crate::program::transformations::{Steps, exactly};
 use crate::program::words::Words;
@@ -148,14 +148,15 @@ impl<'a> Reader<'a> {
             }
             Verb::Draw(in_tool) => {
                 let last = self.stands();
-                let by @ [x, y, z, turned @ ..] = &self.quantities(&list);
-                let is_turned = || turned.iter().any(|angle| angle.exact() != Some(0.0));
+                let by = self.quantities(&list);
+                let mut turned = by.all[3..].iter();
+                let is_turned = turned.any(|angle| angle.exact() != Some(0.0));
                 let found = if in_tool {
-                    last.in_tool(Steps::one(by.clone()))
-                } else if is_turned() {
-                    last.in_tool(Steps::endless())
+                    last.in_tool(by.map(Steps::one))
+                } else if is_turned {
+                    last.in_tool(Varied::one(Steps::endless()))
                 } else {
-                    last.along(&[x, y, z].map(Quantity::clone))
+                    last.along(by.map(|[x, y, z, ..]| [x, y, z]))
                 };
                 self.relative(part, &found, Motion::Linear);
             }
@@ -267,10 +268,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Back along the tool, mm.
-    fn back(&self, by: Words<'a, '_>) -> Steps {
-        let mut step = exactly([0.0; 6]);
-        step[2] = self.quantity(by).times(-1.0);
-        Steps::one(step)
+    fn back(&self, by: Words<'a, '_>) -> Varied<Steps> {
+        self.quantities(&[by]).map(|[by, ..]| {
+            let mut step = exactly([0.0; 6]);
+            step[2] = by.times(-1.0);
+            Steps::one(step)
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! What reals and transformations are, by what statements write into them.
 
+use super::calls::{is_started, started};
 use super::keywords::find;
 use super::moves::is_joints;
 use super::reader::Reader;
@@ -8,16 +9,19 @@ use super::targets::Name;
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::TargetId;
+use crate::program::contexts::{Varied, varied};
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, RoutineId, short};
-use crate::program::transformations::{EACH, Entries, Of, Reads, Steps, Written, exactly};
+use crate::program::transformations::{
+    EACH, Entries, Numbering, Of, Reads, Steps, Written, exactly,
+};
 use crate::program::words::Words;
 use foldhash::HashMap;
 
 /// What is known of reals and transformations.
 #[derive(Debug, Default)]
 pub(super) struct Known<'a> {
-    entries: Entries<'a>,
+    pub entries: Entries<'a>,
     /// The first number of each name, by the program that it belongs to and its stem.
     names: HashMap<(Option<RoutineId>, Vec<u8>), u32>,
 }
@@ -97,6 +101,9 @@ impl<'a> Reader<'a> {
             for (routine, program) in (0..).zip(&self.sections.programs) {
                 let bytes = &self.sources[program.place.file as usize].bytes;
                 known.entries.begin(routine);
+                if is_started(program.name) {
+                    known.entries.starts(routine);
+                }
                 let tell = |line: &Statement<'a, '_>| self.tell(line, routine, &mut known);
                 program.each(bytes, |_| true, tell);
             }
@@ -120,18 +127,26 @@ impl<'a> Reader<'a> {
     fn tell(&self, line: &Statement<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
         let part = line.words;
         let rest = part.behind(1);
+        if !part.is_empty() {
+            known.entries.begin_statement(part.span().start);
+        }
         if find(part, "GOto").is_some() {
             known.entries.jumps();
         }
         match line.keyword {
-            "IF" if part.find(b"THEN").is_some() => known.entries.blocks.open(Some(1)),
-            "CASE" | "SCASE" => known.entries.blocks.open(Some(1)),
-            "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.blocks.branch(),
-            "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.blocks.branch(),
-            "WHile" | "DO" => known.entries.blocks.open(None),
+            "IF" if part.find(b"THEN").is_some() => known.entries.open(Some(1)),
+            "CASE" | "SCASE" => known.entries.open(Some(1)),
+            "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.branch(),
+            "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.branch(),
+            "WHile" | "DO" => known.entries.open(None),
             "FOR" => self.tell_loop(rest, routine, known),
-            "ENd" | "UNtil" => known.entries.blocks.close(),
+            "ENd" | "UNtil" => known.entries.close(),
             "POint" => self.tell_point(rest, routine, known),
+            "PCEXecute" | "ONE" => {
+                for callee in self.programs_of(started(rest).text(0)) {
+                    known.entries.starts(callee);
+                }
+            }
             "HEre" => {
                 // where the robot is may be anywhere
                 if let Some((name, _)) = Name::defined(rest) {
@@ -141,7 +156,8 @@ impl<'a> Reader<'a> {
             }
             _ if find(part, "CAll").is_some() => {
                 let call = part.behind(find(part, "CAll").map_or(0, |at| at + 1));
-                self.tell_call(call, routine, known);
+                let is_at_any_time = matches!(line.keyword, "ON" | "ONI");
+                self.tell_call(call, is_at_any_time, routine, known);
             }
             "" | "HSENSE" => self.tell_other(part, routine, known),
             _ => {}
@@ -152,7 +168,10 @@ impl<'a> Reader<'a> {
     fn tell_loop(&self, part: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
         let name = Name::of(part).filter(|(_, words)| part.is(*words, b'='));
         let range = part.behind(name.as_ref().map_or(0, |(_, words)| words + 1));
-        let counter = name.map(|(name, _)| self.number_of(&name, routine, known));
+        let counter = name.map(|(name, _)| {
+            let is_whole = name.key.as_ref().is_some_and(Vec::is_empty);
+            (self.number_of(&name, routine, known), is_whole)
+        });
         known.entries.count(counter, range);
     }
 
@@ -181,10 +200,19 @@ impl<'a> Reader<'a> {
     }
 
     /// `name(a,b)`
-    fn tell_call(&self, call: Words<'a, '_>, routine: RoutineId, known: &mut Known<'a>) {
+    fn tell_call(
+        &self,
+        call: Words<'a, '_>,
+        is_at_any_time: bool,
+        routine: RoutineId,
+        known: &mut Known<'a>,
+    ) {
         let callees = self.programs_of(call.text(0));
         for &callee in &callees {
             known.entries.calls(callee);
+            if is_at_any_time {
+                known.entries.starts(callee);
+            }
         }
         if !call.is(1, b'(') {
             return;
@@ -270,35 +298,44 @@ impl<'a> Reader<'a> {
 
     /// What words of the present statement come to.
     pub(super) fn quantity(&self, part: Words<'a, '_>) -> Quantity {
+        self.quantity_of(part, &mut |number| {
+            let at = (self.here.routine, short(self.here.at));
+            self.known().entries.value(number, at, self)
+        })
+    }
+
+    fn quantity_of(&self, part: Words<'a, '_>, of: &mut Of) -> Quantity {
         // most are numbers
         if let Some(value) = part.value() {
             return Quantity::exactly(value);
         }
-        Reads::quantity(self, part.whole(), self.here.routine, &mut |number| {
-            self.value(number)
-        })
+        Reads::quantity(self, part.whole(), self.here.routine, of)
     }
 
     /// The numbers of a list, blanks as 0; what is behind the sixth is not followed.
-    pub(super) fn quantities(&self, list: &[Words<'a, '_>]) -> [Quantity; 6] {
+    pub(super) fn quantities(&self, list: &[Words<'a, '_>]) -> Varied<[Quantity; 6]> {
         if list.len() > EACH as usize {
-            return [(); 6].map(|()| Quantity::endless());
+            return Varied::one([(); 6].map(|()| Quantity::endless()));
         }
-        let mut found = exactly([0.0; 6]);
-        for (number, part) in found.iter_mut().zip(list) {
-            *number = self.quantity(*part);
-        }
-        found
+        self.varied(&mut |of| {
+            let mut found = exactly([0.0; 6]);
+            for (number, part) in found.iter_mut().zip(list) {
+                *number = self.quantity_of(*part, of);
+            }
+            found
+        })
     }
 
-    fn value(&self, number: u32) -> Quantity {
-        self.known().entries.value(number, self)
+    /// What comes of numbers at the present statement, call by call.
+    fn varied<T>(&self, evaluate: &mut dyn FnMut(&mut Of) -> T) -> Varied<T> {
+        let at = (self.here.routine, short(self.here.at));
+        varied(&Numbering(self), at, evaluate)
     }
 
     /// What is added to a position at the present statement; names whose numbers are taken keep
     /// them.
-    pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Steps {
-        let found = self.sum(part, self.here.routine, &mut |number| self.value(number));
+    pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Varied<Steps> {
+        let found = self.varied(&mut |of| self.sum(part, self.here.routine, of));
         let taken = self.taken.take();
         if !taken.is_empty() {
             self.refuse_taken(taken);
@@ -397,6 +434,10 @@ impl<'a> Reader<'a> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
+    fn entries(&self) -> &Entries<'a> {
+        &self.known().entries
+    }
+
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Of) -> Option<Quantity> {
         let is_in_name = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | 128..);
         let end = operand.iter().take_while(|b| is_in_name(b)).count();

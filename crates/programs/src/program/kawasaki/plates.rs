@@ -1,5 +1,6 @@
 //! Objects on a plate: `LMOVE plate+obj` where no move goes to `plate` itself. The plate is a work
-//! frame on the base then, and the object the target in it.
+//! frame on the base then, and the object the target in it. A plate may be a sum itself:
+//! `LMOVE pallet+place+obj`.
 
 use super::moves::Verb;
 use super::pose_of;
@@ -21,10 +22,20 @@ pub(super) struct Plate {
     pub frame: VariableId,
 }
 
-/// The plates of all programs.
-pub(super) type Plates = HashMap<Name, Plate>;
-/// Plates, and what is added to each: names without their indices.
-type Sums = HashMap<Name, HashSet<Vec<u8>>>;
+/// The plates of all programs, by the names that are added up.
+pub(super) type Plates = HashMap<Vec<Name>, Plate>;
+
+/// What stands on each plate.
+#[derive(Debug, Default)]
+struct Sums {
+    /// Names without their indices.
+    objects: HashMap<Vec<Name>, HashSet<Vec<u8>>>,
+    /// Objects that `HERE` teaches on their plate.
+    taught: HashSet<Vec<u8>>,
+}
+
+/// Whether names that are added up are one plate.
+type IsPlate<'p> = &'p dyn Fn(&[Name]) -> bool;
 
 /// What stands on a plate.
 #[derive(Clone, Debug)]
@@ -43,82 +54,138 @@ impl Object {
     }
 }
 
-/// The plate and the object that a sum begins with, and the words of the object.
-fn sum<'a, 'w>(position: Words<'a, 'w>) -> Option<(Name, Object, Words<'a, 'w>)> {
+/// The plate and the object that a sum begins with, and the words of the object. Of several names
+/// the last is the object where those before it are one plate, else the second.
+fn sum<'a, 'w>(
+    position: Words<'a, 'w>,
+    is_plate: IsPlate,
+) -> Option<(Vec<Name>, Object, Words<'a, 'w>)> {
     let terms = position.terms();
-    let [(_, first), (b'+', second), ..] = terms[..] else {
-        return None;
-    };
     let name = |part: Words| {
         let (name, words) = Name::of(part)?;
         let is_pose = !name.is_joints() && !name.stem.starts_with(b".");
         (is_pose && words == part.len()).then_some(name)
     };
-    let plate = name(first).filter(|plate| plate.key.is_some())?;
+    let mut names = Vec::new();
+    for (at, (sign, term)) in terms.iter().enumerate() {
+        match name(*term).filter(|_| *sign == b'+' || at == 0) {
+            Some(name) => names.push(name),
+            None => break,
+        }
+    }
+    let known = names.iter().take_while(|name| name.key.is_some()).count();
+    let count = names.len().saturating_sub(1);
+    if count > 1 && known >= count && is_plate(&names[..count]) {
+        let object = Object::Named(names.pop()?);
+        return Some((names, object, terms[count].1));
+    }
+    let [_, (b'+', second), ..] = terms[..] else {
+        return None;
+    };
+    if known == 0 {
+        return None;
+    }
     let is_literal = || {
         let numbers = second.rest_list(1).and_then(|list| six(&list));
         second.is_word(0, b"TRANS") && second.is(1, b'(') && numbers.is_some()
     };
-    let object = match name(second) {
-        Some(name) => Object::Named(name),
-        None if is_literal() => Object::Literal,
-        None => return None,
+    names.truncate(2);
+    let object = match (names.len(), is_literal()) {
+        (2, _) => Object::Named(names.pop()?),
+        (_, true) => Object::Literal,
+        _ => return None,
     };
-    Some((plate, object, second))
+    Some((names, object, second))
 }
 
-/// The sum that a move goes to, in a SHIFT or not.
-fn sum_of_move<'a, 'w>(
+/// The sum that a move goes to, in a SHIFT or not, or that `HERE` teaches.
+fn sum_of<'a, 'w>(
     statement: &Statement<'a, 'w>,
     own: &[Vec<u8>],
-) -> Option<(Name, Object, Words<'a, 'w>)> {
-    let verb = Verb::of(statement)?;
+    is_plate: IsPlate,
+) -> Option<(Vec<Name>, Object, Words<'a, 'w>)> {
     let first = *statement.words.behind(1).list().first()?;
-    let goes = matches!(verb, Verb::To(..) | Verb::Arc(_) | Verb::Near(_));
-    let position = if first.is_word(0, b"SHIFT") && first.is(1, b'(') {
-        let (inside, _) = first.inside(1);
-        inside.part(0..inside.find(b"BY")?)
-    } else {
+    let position = if statement.keyword == "HEre" {
         first
+    } else {
+        let verb = Verb::of(statement)?;
+        if !matches!(verb, Verb::To(..) | Verb::Arc(_) | Verb::Near(_)) {
+            return None;
+        }
+        if first.is_word(0, b"SHIFT") && first.is(1, b'(') {
+            let (inside, _) = first.inside(1);
+            inside.part(0..inside.find(b"BY")?)
+        } else {
+            first
+        }
     };
     // parameters of the program are what its callers say
     let is_own = |stem: &[u8]| own.iter().any(|own| own == stem);
-    let found = sum(position).filter(|_| goes);
-    found.filter(|(plate, object, _)| !is_own(&plate.stem) && !object.stem().is_some_and(is_own))
+    sum(position, is_plate).filter(|(plate, object, _)| {
+        let mut stems = plate.iter().map(|name| &*name.stem).chain(object.stem());
+        !stems.any(is_own)
+    })
 }
 
 impl<'a> Reader<'a> {
     /// Finds the plates: names that all moves only add objects to, which no other plate has and
     /// nothing else uses. Where no file tells any base they would hide that it is missing.
     pub(super) fn find_plates(&mut self, start: Option<Pose>) {
-        let mut sums = Sums::default();
-        let has_sum = |line: &[u8]| memchr::memchr(b'+', line).is_some();
-        self.each_line(has_sum, |line, own| {
-            if let Some((plate, object, _)) = sum_of_move(line, own) {
-                let objects = sums.entry(plate).or_default();
-                objects.extend(object.stem().map(<[u8]>::to_vec));
+        let mut found = self.free_plates(&|_| true, start.is_some());
+        let is_sum = |(names, _): &(Vec<Name>, Pose)| names.len() > 1;
+        loop {
+            let sums: HashSet<Vec<Name>> = (found.iter().filter(|one| is_sum(one)))
+                .map(|(names, _)| names.clone())
+                .collect();
+            found = self.free_plates(&|names| sums.contains(names), start.is_some());
+            if found.iter().filter(|one| is_sum(one)).count() == sums.len() {
+                break;
             }
-        });
-        if sums.is_empty() {
-            return;
         }
-        let mut found = self.free_plates(&sums, start.is_some());
-        found.sort_unstable_by(|(a, _), (b, _)| (&a.stem, &a.key).cmp(&(&b.stem, &b.key)));
-        for (name, pose) in found {
-            let text = name.text();
+        let key = |names: &[Name]| -> Vec<_> {
+            let keys = names
+                .iter()
+                .map(|name| (name.stem.clone(), name.key.clone()));
+            keys.collect()
+        };
+        found.sort_by_cached_key(|(names, _)| key(names));
+        for (names, pose) in found {
+            let texts: Vec<String> = names.iter().map(Name::text).collect();
+            let text = texts.join("+");
             let value = self.frame_value(&format!("BASE+{text}"), start.map(|base| base * pose));
             let place = Place::NOWHERE;
             let frame = Variable::new(text.as_str(), place, value);
             let frame = self.builder.script.variable(frame);
-            self.plates.insert(name, Plate { text, pose, frame });
+            self.plates.insert(names, Plate { text, pose, frame });
         }
     }
 
+    /// The sums of all programs.
+    fn sums(&self, is_plate: IsPlate) -> Sums {
+        let mut sums = Sums::default();
+        let has_sum = |line: &[u8]| memchr::memchr(b'+', line).is_some();
+        self.each_line(has_sum, |line, own| {
+            let Some((plate, object, _)) = sum_of(line, own, is_plate) else {
+                return;
+            };
+            let object = object.stem().map(<[u8]>::to_vec);
+            if line.keyword == "HEre" {
+                sums.taught.extend(object.clone());
+            }
+            sums.objects.entry(plate).or_default().extend(object);
+        });
+        sums
+    }
+
     /// Those of sums whose names nothing else uses, and where they are.
-    fn free_plates(&self, sums: &Sums, mut has_base: bool) -> Vec<(Name, Pose)> {
-        let plates: HashSet<&[u8]> = sums.keys().map(|plate| &*plate.stem).collect();
+    fn free_plates(&self, is_plate: IsPlate, mut has_base: bool) -> Vec<(Vec<Name>, Pose)> {
+        let Sums { objects, taught } = self.sums(is_plate);
+        if objects.is_empty() {
+            return Vec::new();
+        }
+        let plates: HashSet<&[u8]> = objects.keys().flatten().map(|name| &*name.stem).collect();
         let mut times: HashMap<&[u8], u32> = HashMap::default();
-        for object in sums.values().flatten() {
+        for object in objects.values().flatten() {
             *times.entry(object).or_default() += 1;
         }
         let mut others: HashSet<Vec<u8>> = HashSet::default();
@@ -127,7 +194,7 @@ impl<'a> Reader<'a> {
             |line, own| {
                 let part = line.words;
                 has_base |= line.keyword == "BAse";
-                let sum = sum_of_move(line, own);
+                let sum = sum_of(line, own, is_plate);
                 let end = sum.map_or(0, |(_, _, object)| object.span().end);
                 for at in 1..part.len() {
                     // the first names behind the verb are the sum
@@ -140,28 +207,35 @@ impl<'a> Reader<'a> {
                 }
             },
         );
-        let is_free = |stem: &[u8]| !others.contains(stem) && !self.assigned.contains(stem);
+        let is_free = |stem: &[u8]| {
+            let is_assigned = self.assigned.contains(stem) && !taught.contains(stem);
+            !others.contains(stem) && !is_assigned
+        };
         let shared = self.names.get(&None);
         let is_object = |stem: &Vec<u8>| {
             let elements = shared.and_then(|names| names.get(stem));
             let elements = elements.map(|of| &of.variables);
             let mut all = elements.into_iter().flat_map(HashMap::values);
             let is_known = elements.is_some_and(|all| !all.is_empty())
-                && all.all(|one| self.declared_pose(*one).is_some());
+                && all.all(|one| self.declared_pose(*one).is_some() || taught.contains(stem));
             is_known && is_free(stem) && times[&**stem] == 1 && !plates.contains(&**stem)
         };
         let pose_at = |name: &Name| {
             let variables = &shared?.get(&name.stem)?.variables;
             self.declared_pose(*variables.get(name.key.as_deref()?)?)
         };
-        let place = |(name, objects): (&Name, &HashSet<Vec<u8>>)| {
-            let is_plate = !times.contains_key(&*name.stem)
-                && is_free(&name.stem)
-                && objects.iter().all(is_object);
-            let pose = is_plate.then(|| pose_at(name));
-            Some((name.clone(), pose??))
+        let place = |(names, objects): (&Vec<Name>, &HashSet<Vec<u8>>)| {
+            let is_plate = |name: &Name| !times.contains_key(&*name.stem) && is_free(&name.stem);
+            if !names.iter().all(is_plate) || !objects.iter().all(is_object) {
+                return None;
+            }
+            let mut pose = Pose::identity();
+            for name in names {
+                pose = pose * pose_at(name)?;
+            }
+            Some((names.clone(), pose))
         };
-        let found = sums.iter().filter_map(place);
+        let found = objects.iter().filter_map(place);
         found.filter(|_| has_base).collect()
     }
 
@@ -187,18 +261,19 @@ impl<'a> Reader<'a> {
         (numbers.len() == 6).then(|| pose_of(std::array::from_fn(|i| numbers[i].value)))
     }
 
-    /// The plate that a sum begins with (the work frame, and where that is on the base), its object,
-    /// and the words of that.
+    /// The plate that a sum begins with (the work frame, where that is on the base, and how many
+    /// names it has), its object, and the words of that.
     pub(super) fn on_plate<'w>(
         &self,
         position: Words<'a, 'w>,
-    ) -> Option<((VariableId, Pose), Object, Words<'a, 'w>)> {
+    ) -> Option<((VariableId, Pose, usize), Object, Words<'a, 'w>)> {
         if self.plates.is_empty() {
             return None;
         }
-        let (plate, object, words) = sum(position)?;
-        let plate = self.plates.get(&plate)?;
-        Some(((plate.frame, plate.pose), object, words))
+        let is_plate = |names: &[Name]| self.plates.contains_key(names);
+        let (names, object, words) = sum(position, &is_plate)?;
+        let plate = self.plates.get(&names)?;
+        Some(((plate.frame, plate.pose, names.len()), object, words))
     }
 
     /// The base is another: so are the plates on it.
@@ -216,7 +291,7 @@ impl<'a> Reader<'a> {
         } else {
             let first = words.list().first().copied().unwrap_or(words);
             let name = crate::program::Source::text(first.whole());
-            let pose = self.steps(first).exact();
+            let pose = self.steps(first).all.exact();
             pose.map(|pose| (name.into(), Some(pose)))
         };
         for plate in plates {

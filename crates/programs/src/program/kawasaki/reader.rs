@@ -1,18 +1,18 @@
 //! Programs as statements: blocks, labels, calls, and what they write.
 
 use super::arrays::Given;
-use super::calls::{Any, Handed, Runs};
+use super::calls::{Any, Handed, Runs, is_started, started};
 use super::keywords::find;
 use super::moves::{Verb, is_joints};
 use super::numbers::Known;
 use super::plates::Plates;
-use super::remarks::{ARC_CHAIN, COMPUTED, LOAD, SAVED, SWITCHED, declared_again};
+use super::remarks::{ARC_CHAIN, COMPUTED, SAVED, SWITCHED, declared_again};
 use super::sections::{Entry, Program, Sections, Statement};
 use super::shown::Shown;
 use super::targets::{Elements, Name, Position};
 use super::watches::{Watch, watches};
 use crate::geometry::Pose;
-use crate::geometry::units::m_from_mm;
+use crate::program::contexts::Calls;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
@@ -69,6 +69,8 @@ pub(super) struct Reader<'a> {
     pub copied: Vec<(Owned, Owned)>,
     /// Names that are work frames of objects on them.
     pub plates: Plates,
+    /// Which calls of programs say by what these displace.
+    pub by_calls: Calls,
     /// Elements of arrays that calls hand over.
     pub given: Given,
     /// Programs that another calls by name.
@@ -80,7 +82,7 @@ pub(super) struct Reader<'a> {
     /// What `WEIGHT` says that the flange carries.
     pub load: VariableId,
     /// The loads that it said: what is one load is one value.
-    loads: Vec<(Load, Expr)>,
+    pub loads: Vec<(Load, Expr)>,
     /// Hold a reason while tool and base are as they were when the controller was saved.
     saved: [VariableId; 2],
     /// Holds a reason where the arm's configuration was switched, and the index of that in the
@@ -152,6 +154,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         copied: Vec::new(),
         taken: RefCell::default(),
         plates: Plates::default(),
+        by_calls: Calls::default(),
         given: Given::default(),
         called: HashSet::default(),
         any: Vec::new(),
@@ -171,8 +174,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     for (routine, program) in (0..).zip(&sections.programs) {
         let name = Source::text(program.name);
         let key = program.name.to_ascii_lowercase();
-        // the controller runs it where it is switched on
-        let start = if key.starts_with(b"autostart") && key.ends_with(b".pc") {
+        let start = if is_started(&key) {
             Start::Concurrent
         } else {
             Start::Called
@@ -196,6 +198,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     reader.refuse_apart();
     reader.start_uncalled();
     reader.write_any();
+    reader.hand_over_calls();
     let mut script = reader.builder.finish();
     let all = vec![true; script.targets.len()];
     script.keep(&all);
@@ -411,9 +414,7 @@ impl<'a> Reader<'a> {
                 }
             }
             "PCEXecute" | "ONE" => {
-                // the number of the process may stand before the name
-                let colon = (0..rest.len()).find(|at| rest.is(*at, b':'));
-                let named = rest.behind(colon.map_or(0, |at| at + 1));
+                let named = started(rest);
                 if named.is_name(0) {
                     self.call(named, Runs::WithoutMoves);
                 }
@@ -437,36 +438,6 @@ impl<'a> Reader<'a> {
         // of where the robot stands the text tells no target with the new one
         self.here.last = None;
         value
-    }
-
-    /// `WEIGHT mass,x,y,z`, kg and mm: what the flange carries, in its axes; moments of inertia may
-    /// follow.
-    ///
-    /// # Source
-    /// Kawasaki AS Language Reference Manual (90209-1022DED): the mass of tool and workpiece
-    /// together. *Not verified on a controller*: that the centre counts from the flange.
-    fn weight(&mut self, words: Words<'a, '_>) {
-        let list = words.list();
-        let said = list.iter().take(4).filter(|part| !part.is_empty());
-        let said: Vec<f64> = said.filter_map(|one| self.quantity(*one).exact()).collect();
-        let load = match said[..] {
-            [mass_kg, x, y, z] if mass_kg >= 0.0 => {
-                let cog_m = [x, y, z].map(m_from_mm);
-                self.held_load(Load { mass_kg, cog_m })
-            }
-            _ => self.unknown(LOAD),
-        };
-        self.write(Written::One(self.load), How::Whole(load));
-    }
-
-    fn held_load(&mut self, load: Load) -> Expr {
-        let known = self.loads.iter().find(|(known, _)| *known == load);
-        if let Some((_, held)) = known {
-            return *held;
-        }
-        let held = self.builder.script.held(Held::Load(Some(load)));
-        self.loads.push((load, held));
-        held
     }
 
     /// The arm's configuration is switched, or known again.
@@ -514,7 +485,9 @@ impl<'a> Reader<'a> {
                 let mut entries = script.tables[table as usize].entries.values();
                 entries.any(|one| *one == variable)
             }
-            (Expr::Displaced { base, .. }, _) => self.may_be(script.lists[base as usize], written),
+            (Expr::Displaced { base, .. } | Expr::DisplacedByCall { base, .. }, _) => {
+                self.may_be(script.lists[base as usize], written)
+            }
             (Expr::Any { first, end }, _) => {
                 let all = &script.lists[first as usize..end as usize];
                 all.iter().any(|one| self.may_be(*one, written))

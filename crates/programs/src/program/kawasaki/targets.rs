@@ -5,6 +5,7 @@ use super::reader::Reader;
 use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, no_element, not_in_files};
 use super::sections::Entry;
 use crate::geometry::Pose;
+use crate::program::contexts::{Varied, nothing};
 use crate::program::displacing::Displacing;
 use crate::program::kit::angle_too_large;
 use crate::program::quantity::Quantity;
@@ -97,8 +98,8 @@ pub(super) struct Elements {
 #[derive(Clone, Debug)]
 pub(super) struct Position {
     pub base: Expr,
-    /// What is added.
-    by: Displacing,
+    /// What is added, call by call of the program.
+    by: Varied<Displacing>,
     /// The plate that it is on: the work frame, and where that is on the base.
     pub on: Option<(VariableId, Pose)>,
 }
@@ -107,21 +108,22 @@ impl Position {
     pub(super) fn plain(base: Expr) -> Self {
         Self {
             base,
-            by: Displacing::new(),
+            by: nothing(),
             on: None,
         }
     }
 
     /// With steps in the tool frame added.
-    pub(super) fn in_tool(mut self, steps: Steps) -> Self {
-        steps.in_tool(&mut self.by);
+    pub(super) fn in_tool(mut self, steps: Varied<Steps>) -> Self {
+        self.by.with(steps, |by, steps| steps.in_tool(by));
         self
     }
 
     /// With a way in the base frame added, mm.
-    pub(super) fn along(mut self, way: &[Quantity; 3]) -> Self {
+    pub(super) fn along(mut self, way: Varied<[Quantity; 3]>) -> Self {
         let plate = self.on.map_or(Pose::identity(), |(_, plate)| plate);
-        along(way, &plate.rotation.transpose(), &mut self.by);
+        let turned = plate.rotation.transpose();
+        self.by.with(way, |by, way| along(&way, &turned, by));
         self
     }
 }
@@ -330,20 +332,21 @@ impl<'a> Reader<'a> {
     /// The position that words are: `p`, `#p[1]`, `TRANS(…)`, `#[…]`, `p+q-r`, `SHIFT(p BY x,y,z)`.
     pub(super) fn position(&mut self, part: Words<'a, '_>) -> Position {
         if let Some((way, behind)) = self.in_front(part) {
-            return self.position(behind).along(&way);
+            return self.position(behind).along(way);
         }
         let terms = part.terms();
         let Some(((_, first), mut others)) = terms.split_first() else {
             return Position::plain(self.unknown(COMPUTED));
         };
         let mut found = if let Some((plate, object, words)) = self.on_plate(part) {
-            others = &others[1..];
+            let (frame, pose, names) = plate;
+            others = &others[names..];
             let base = match object {
                 Object::Named(name) => self.named(&name),
-                Object::Literal => self.literal(words, Shape::Pose),
+                Object::Literal => self.literal(words, 1, Shape::Pose),
             };
             Position {
-                on: Some(plate),
+                on: Some((frame, pose)),
                 ..Position::plain(base)
             }
         } else {
@@ -352,14 +355,18 @@ impl<'a> Reader<'a> {
         for (sign, term) in others {
             let steps = self.steps(*term);
             let is_back = *sign == b'-';
-            found = found.in_tool(if is_back { steps.inverse() } else { steps });
+            found = found.in_tool(if is_back {
+                steps.map(Steps::inverse)
+            } else {
+                steps
+            });
         }
         found
     }
 
     /// What stands in front of a named position and only shifts it in the axes of the base: `NULL`,
     /// `TRANS(x,y,z)`; and that position.
-    fn in_front<'w>(&self, part: Words<'a, 'w>) -> Option<([Quantity; 3], Words<'a, 'w>)> {
+    fn in_front<'w>(&self, part: Words<'a, 'w>) -> Option<(Varied<[Quantity; 3]>, Words<'a, 'w>)> {
         let is_transformation = part.is_word(0, b"TRANS") && part.is(1, b'(');
         let is_alone = is_transformation && part.closing(1) + 1 == part.len();
         if is_alone || !is_transformation && !part.is_word(0, b"NULL") {
@@ -379,23 +386,27 @@ impl<'a> Reader<'a> {
         let is_null = first.len() == 1;
         let is_zero = |angle: &Words| angle.is_empty() || angle.value() == Some(0.0);
         let is_straight = list.iter().skip(3).all(is_zero);
-        let [x, y, z, ..] = self.quantities(&list);
+        let way = self.quantities(&list).map(|[x, y, z, ..]| [x, y, z]);
         let is_only = is_null || is_transformation && is_straight;
-        is_only.then_some(([x, y, z], behind))
+        is_only.then_some((way, behind))
     }
 
     fn term(&mut self, part: Words<'a, '_>) -> Position {
         if part.is(0, b'#') && part.is(1, b'[') {
-            return Position::plain(self.literal(part, Shape::Joints));
+            return Position::plain(self.literal(part, 1, Shape::Joints));
+        }
+        if part.is(0, b'#') && part.is_word(1, b"PPOINT") && part.is(2, b'(') {
+            return Position::plain(self.literal(part, 2, Shape::Joints));
         }
         if part.is_word(0, b"TRANS") && part.is(1, b'(') {
-            return Position::plain(self.literal(part, Shape::Pose));
+            return Position::plain(self.literal(part, 1, Shape::Pose));
         }
         if part.is_word(0, b"SHIFT") && part.is(1, b'(') {
             let (inside, _) = part.inside(1);
             if let Some(by) = inside.find(b"BY") {
-                let [x, y, z, ..] = self.quantities(&inside.behind(by + 1).list());
-                return self.position(inside.part(0..by)).along(&[x, y, z]);
+                let way = self.quantities(&inside.behind(by + 1).list());
+                let way = way.map(|[x, y, z, ..]| [x, y, z]);
+                return self.position(inside.part(0..by)).along(way);
             }
         }
         let is_joints = part.is(0, b'#');
@@ -408,9 +419,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A target that is written out.
-    fn literal(&mut self, whole: Words<'a, '_>, shape: Shape) -> Expr {
-        let list = whole.rest_list(1).unwrap_or_default();
+    /// A target that is written out, in the brackets that open at a word.
+    fn literal(&mut self, whole: Words<'a, '_>, open: usize, shape: Shape) -> Expr {
+        let list = whole.rest_list(open).unwrap_or_default();
         if let Some(numbers) = six(&list) {
             let Range { start, end } = whole.span();
             let place = self.place(start);
@@ -429,9 +440,9 @@ impl<'a> Reader<'a> {
 
     /// A position as the script has it.
     pub(super) fn expr(&mut self, position: &Position) -> Expr {
+        let (routine, by) = (self.here.routine, position.by.clone());
         let script = &mut self.builder.script;
-        let by = script.displacement(position.by.clone().displacement());
-        script.displaced(position.base, by)
+        (self.by_calls).displaced(position.base, by, routine, script)
     }
 
     // ---- tools and bases
@@ -462,7 +473,7 @@ impl<'a> Reader<'a> {
                     self.frame_value(&name.text(), None)
                 }
             }
-            _ => match self.steps(part).exact() {
+            _ => match self.steps(part).all.exact() {
                 Some(pose) => self.frame_value(&Source::text(part.whole()), Some(pose)),
                 None => self.unknown(ASSIGNED),
             },

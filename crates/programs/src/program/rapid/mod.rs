@@ -18,6 +18,7 @@ mod arguments;
 mod axes;
 mod blocks;
 mod builtins;
+mod by_calls;
 mod calls;
 mod conditions;
 mod confdata;

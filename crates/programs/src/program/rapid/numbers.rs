@@ -7,6 +7,7 @@ use super::syntax::{
     Argument, Called, Callee, Component, Counting, Expression, Function, Index, StatementKind,
     Storage, Type, Verb, indices,
 };
+use crate::program::contexts::{Given, Numbered};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, word};
 use crate::program::quantity::{Arithmetic, Quantity, is_letter};
@@ -51,6 +52,7 @@ pub(super) enum Written {
 #[derive(Default)]
 struct Noted {
     numbers: Numbers<Written>,
+    given: Given<Written>,
     places: Vec<PlaceWrite>,
 }
 
@@ -119,7 +121,8 @@ impl Resolved<'_> {
                     if is_built_in {
                         self.function(&of, context, &mut noted);
                     } else {
-                        self.give(callee, (true, of.arguments), context, file, &mut noted);
+                        let at = (file, statement.offset);
+                        self.give(callee, (true, of.arguments), context, at, &mut noted);
                     }
                 }
                 StatementKind::Call(Called {
@@ -152,7 +155,8 @@ impl Resolved<'_> {
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {
                             let given = (false, arguments);
-                            self.give(callee, given, context, file, &mut noted);
+                            let at = (file, statement.offset);
+                            self.give(callee, given, context, at, &mut noted);
                         }
                         _ => {}
                     }
@@ -187,6 +191,7 @@ impl Resolved<'_> {
         }
         let Noted {
             mut numbers,
+            given,
             places,
         } = noted;
         // data without a value begin with 0; where nothing writes them nothing is meant by that
@@ -199,6 +204,7 @@ impl Resolved<'_> {
         }
         self.coordinates = self.coordinates(&places, &mut numbers);
         self.numbers = numbers;
+        self.given = given;
     }
 
     /// Notes what numbers are declared with; those without a value are left.
@@ -364,15 +370,20 @@ impl Resolved<'_> {
         callee: Callee,
         (of_function, arguments): (bool, (u32, u32)),
         context: Context,
-        file: u32,
+        (file, offset): (u32, u32),
         noted: &mut Noted,
     ) {
+        let call = (context.routine.unwrap_or(u32::MAX), offset);
         let callees = self.callees(callee, arguments, context, file);
         if callees.foreign {
             self.lose_all(of_function, arguments, context, noted);
         }
         let given = &self.list(of_function)[indices(arguments)];
-        let Noted { numbers, places } = noted;
+        let Noted {
+            numbers,
+            given: by_call,
+            places,
+        } = noted;
         for &routine in &callees.routines {
             numbers.calls(context.routine.unwrap_or(u32::MAX), routine);
             for (datum, argument) in self.parameters(routine, given) {
@@ -390,6 +401,7 @@ impl Resolved<'_> {
                             bytes,
                             context,
                         };
+                        by_call.note(routine, call, self.number(datum), written);
                         numbers.write(self.number(datum), written, Some(site));
                     }
                     continue;
@@ -420,15 +432,15 @@ impl Resolved<'_> {
         context: Context,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let mut of = |number| {
-            let written =
-                |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(*what, of);
-            self.numbers.value(number, &written)
-        };
-        self.evaluated(text, at, context, &mut of, own)
+        let of = &mut |number| self.whenever(number);
+        self.evaluated(text, at, context, of, own)
     }
 
-    fn written_value(&self, what: Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
+    pub(super) fn written_value(
+        &self,
+        what: Written,
+        of: &mut dyn FnMut(u32) -> Quantity,
+    ) -> Quantity {
         match what {
             Written::Zero => Quantity::exactly(0.0),
             Written::Unfollowed => Quantity::endless(),
@@ -468,7 +480,7 @@ impl Resolved<'_> {
         }
     }
 
-    fn evaluated(
+    pub(super) fn evaluated(
         &self,
         text: &[u8],
         at: Place,

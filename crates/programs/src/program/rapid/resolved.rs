@@ -11,6 +11,7 @@ use super::syntax::{
 };
 use super::verbs::Verbs;
 use crate::program::Source;
+use crate::program::contexts::Given as GivenNumbers;
 use crate::program::names::{Context, Meaning, Scopes, Symbol};
 use crate::program::numbers::Numbers;
 use crate::program::script::short;
@@ -38,6 +39,8 @@ pub(super) struct Resolved<'a> {
     pub(super) derived: HashSet<Holder>,
     /// What is written into numbers.
     pub(super) numbers: Numbers<Written>,
+    /// What calls give to them.
+    pub(super) given: GivenNumbers<Written>,
     /// What the coordinates of `pos` data are called in the numbers.
     pub(super) coordinates: Coordinates,
     /// The group of each datum that tasks share, and whether its declarations are alike.
@@ -115,6 +118,7 @@ impl<'a> Resolved<'a> {
             in_parts: HashSet::new(),
             derived: HashSet::new(),
             numbers: Numbers::default(),
+            given: GivenNumbers::default(),
             coordinates: Coordinates::default(),
             shared,
             late_bound: HashSet::new(),

@@ -318,7 +318,9 @@ impl Translator<'_> {
                 let mut all = lists[first as usize..end as usize].iter();
                 all.any(|inner| self.depends(*inner))
             }
-            Expr::Displaced { base, .. } => self.depends(lists[base as usize]),
+            Expr::Displaced { base, .. } | Expr::DisplacedByCall { base, .. } => {
+                self.depends(lists[base as usize])
+            }
             _ => false,
         }
     }

@@ -6,6 +6,7 @@ use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
 use super::syntax::{StatementKind, Storage, Type};
+use crate::program::contexts::Calls;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
@@ -58,6 +59,8 @@ pub(super) struct Translator<'a> {
     pub gathered: HashMap<Entity, TableId>,
     pub gathers: HashMap<VariableId, TableId>,
     pub remarks: HashMap<(&'static str, Symbol), RemarkId>,
+    /// Which calls of routines say by what these displace.
+    pub by_calls: Calls,
     /// What functions of the files give, by routine.
     pub results: HashMap<u32, VariableId>,
     /// What functions that the present statement calls give, where that is kept apart.
@@ -146,6 +149,7 @@ pub(super) fn translate(
         gathered: HashMap::new(),
         gathers: HashMap::new(),
         remarks: HashMap::new(),
+        by_calls: Calls::default(),
         results: HashMap::new(),
         kept_results: HashMap::new(),
         presences: HashMap::new(),
@@ -169,6 +173,8 @@ pub(super) fn translate(
     }
     translator.close();
     translator.run_meanwhile();
+    let by_calls = std::mem::take(&mut translator.by_calls);
+    by_calls.hand_over(&resolved.given, &mut translator.builder.script);
     translator.builder.finish()
 }
 

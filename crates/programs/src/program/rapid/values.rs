@@ -15,9 +15,10 @@ use crate::program::kit;
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::quantity::Quantity;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NOT_DISPLACED, OVERWRITTEN, Place, Remark,
-    RemarkId, UNBOUNDED, Variable, VariableId, short,
+    DISPLACED_SOMEHOW, Expr, Held, OVERWRITTEN, Place, Remark, RemarkId, UNBOUNDED, Variable,
+    VariableId, short,
 };
+use crate::program::transformations::Of;
 
 /// Copies of copies of a target that are followed.
 pub(super) const DEEPEST: u32 = 8;
@@ -209,8 +210,7 @@ impl Translator<'_> {
                     Base::Target(target) => Expr::Target(target as usize),
                     Base::Function(function) => self.given_by(function, wanted),
                 };
-                let by = self.displacement(steps);
-                self.builder.script.displaced(base, by)
+                self.stepped(base, steps)
             }
             Expression::Member { name, .. } => self.computed_name(name),
             Expression::Composed(composed) => self.composed_apart(composed),
@@ -535,23 +535,35 @@ impl Translator<'_> {
 
     // ---- displacements
 
-    /// What these steps add; Offs shifts in the work object and `RelTool` in the tool, so their
-    /// order among each other does not matter.
-    fn displacement(&mut self, steps: Part) -> DisplacementId {
+    /// A position with these steps added; Offs shifts in the work object and `RelTool` in the tool,
+    /// so their order among each other does not matter.
+    fn stepped(&mut self, base: Expr, steps: Part) -> Expr {
         if steps.0 == steps.1 {
-            return NOT_DISPLACED;
+            return base;
         }
+        let (here, context) = (self.here, self.context);
+        let steps = &self.resolved.parsed.steps[indices(steps)];
+        let by = (self.resolved).varied(here, context, &mut |of| self.displacing(steps, of));
+        let script = &mut self.builder.script;
+        let Some(routine) = context.routine else {
+            let by = script.displacement(by.all.displacement());
+            return script.displaced(base, by);
+        };
+        (self.by_calls).displaced(base, by, routine, script)
+    }
+
+    fn displacing(&self, steps: &[Step], of: &mut Of) -> Displacing {
         let mut by = Displacing::new();
         let mut frame_mm = [0.0; 3].map(Quantity::exactly);
-        for step in &self.resolved.parsed.steps[indices(steps)] {
+        for step in steps {
             match step {
                 Step::Offs(amounts) => {
-                    for (sum, amount) in frame_mm.iter_mut().zip(self.amounts(amounts)) {
+                    for (sum, amount) in frame_mm.iter_mut().zip(self.amounts(amounts, of)) {
                         *sum = sum.clone().plus(amount);
                     }
                 }
                 Step::RelTool(amounts) => {
-                    let [x, y, z, rx, ry, rz] = self.amounts(amounts);
+                    let [x, y, z, rx, ry, rz] = self.amounts(amounts, of);
                     let [x, y, z] = [x, y, z].map(|mm| mm.in_unit(MM));
                     let [rx, ry, rz] = [rx, ry, rz].map(|degrees| degrees.in_unit(DEG));
                     by.in_tool(&[x, y, z, rx, ry, rz]);
@@ -559,10 +571,10 @@ impl Translator<'_> {
             }
         }
         by.along_frame(&frame_mm.map(|mm| mm.in_unit(MM)));
-        self.builder.script.displacement(by.displacement())
+        by
     }
 
-    fn amounts<const N: usize>(&self, amounts: &[Amount; N]) -> [Quantity; N] {
+    fn amounts<const N: usize>(&self, amounts: &[Amount; N], of: &mut Of) -> [Quantity; N] {
         amounts.map(|amount| match amount {
             Amount::Number(number) => Quantity::exactly(number),
             Amount::Text(start, end) => {
@@ -572,8 +584,7 @@ impl Translator<'_> {
                 };
                 let bytes = &self.resolved.sources[here.file as usize].bytes;
                 let text = &bytes[start as usize..end as usize];
-                self.resolved
-                    .quantity(text, here, self.context, &mut |_| None)
+                self.resolved.quantity_of(text, here, self.context, of)
             }
         })
     }

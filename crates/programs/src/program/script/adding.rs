@@ -1,9 +1,9 @@
 //! Puts parts into a script.
 
 use super::{
-    Argument, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId, NOT_DISPLACED,
-    NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId, UNBOUNDED, ValueId,
-    Variable, VariableId, short,
+    Argument, ByCall, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
+    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId,
+    UNBOUNDED, ValueId, Variable, VariableId, short,
 };
 use crate::geometry::Pose;
 use crate::program::{Displacement, Number, Source, Target, TargetId};
@@ -166,6 +166,16 @@ impl Script {
         Expr::Any {
             first,
             end: short(self.lists.len()),
+        }
+    }
+
+    /// A position, displaced by what the call says.
+    pub fn displaced_by_call(&mut self, base: Expr, by: ByCall) -> Expr {
+        self.lists.push(base);
+        self.by_calls.push(by);
+        Expr::DisplacedByCall {
+            base: short(self.lists.len() - 1),
+            by: short(self.by_calls.len() - 1),
         }
     }
 

@@ -94,6 +94,8 @@ pub struct Script {
     pub remarks: Vec<Remark>,
     /// What moves add to their targets.
     pub displacements: Vec<Displacement>,
+    /// What calls make moves add to their targets.
+    pub by_calls: Vec<ByCall>,
     /// Routines, by file and place; text outside routines is one too.
     pub routines: Vec<Routine>,
     /// The statements of all routines.
@@ -158,6 +160,7 @@ impl Default for Script {
                 Displacement::Unbounded,
                 Displacement::Within(Box::new([Stride::Turned(None)])),
             ],
+            by_calls: Vec::new(),
             routines: Vec::new(),
             statements: Vec::new(),
             instructions: Vec::new(),
@@ -364,6 +367,14 @@ pub enum Expr {
         /// By what.
         by: DisplacementId,
     },
+    /// Another position, the `base`-th of [`Script::lists`], displaced by what the call of the routine
+    /// says.
+    DisplacedByCall {
+        /// Index in [`Script::lists`].
+        base: u32,
+        /// Index in [`Script::by_calls`].
+        by: u32,
+    },
     /// Only the running program knows, or nobody does.
     Unknown(RemarkId),
 }
@@ -377,6 +388,17 @@ impl Expr {
             _ => None,
         }
     }
+}
+
+/// By what a position is displaced, by the call of its routine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ByCall {
+    /// Holds the number of the call.
+    pub call: VariableId,
+    /// By number.
+    pub by: BTreeMap<i64, DisplacementId>,
+    /// In a call that has no number, or where the routine is not called.
+    pub otherwise: DisplacementId,
 }
 
 /// Why something is unknown, refused, or worth a word.

@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
     pub(super) fn keys(&self, known: Known, name: &[u8]) -> Option<Vec<&'a [u8]>> {
         let routine = match known.of {
             Of::Project(datum) => {
-                let is_written = self.assigned.contains(&datum);
+                let is_written = self.assigned.contains_key(&datum);
                 let all = self.world.data[datum as usize].elements.iter();
                 // spare ones that were never taught are left out
                 let used = all.filter(|one| one.is_given || is_written || !known.kind.is_place());

@@ -3,7 +3,7 @@
 use super::code::Reference;
 use super::data::{Element, Father, Kind};
 use super::reader::Reader;
-use super::remarks::{FRAME_CHOSEN, frame_assigned};
+use super::remarks::{FRAME_CHOSEN, endless_fathers, frame_assigned};
 use super::targets::{Of, pose_of};
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
@@ -191,13 +191,16 @@ impl<'a> Reader<'a> {
         };
         let of = &self.world.data[datum as usize];
         let name = Source::text(of.name);
-        if self.assigned.contains(&datum) {
-            return Err(frame_assigned(&name));
+        if let Some(place) = self.assigned.get(&datum) {
+            let source = &self.sources[place.file as usize];
+            let (line, _) = source.line_column(place.offset as usize);
+            return Err(frame_assigned(&name, Some((&source.name, line))));
         }
         match of.element(father.index) {
             Some(at) if of.kind == kind && depth < LONGEST_CHAIN => {
                 self.placed(datum, at, &name, depth + 1)
             }
+            Some(_) if of.kind == kind => Err(endless_fathers(&name)),
             _ => Ok(None),
         }
     }

@@ -115,6 +115,8 @@ impl<'a> Reader<'a> {
 
     /// The script, once all copies are known.
     pub(super) fn finish(mut self) -> Script {
+        let by_calls = std::mem::take(&mut self.by_calls);
+        by_calls.hand_over(&self.entries.given, &mut self.builder.script);
         self.settle_composed();
         self.refuse_arrays();
         self.frame_points();

@@ -4,11 +4,14 @@ use super::code::{PLAIN, Reference};
 use super::data::{Kind, POSE};
 use super::reader::{Reader, functions, written_argument};
 use super::targets::{Known, Of};
+use crate::program::contexts::{Varied, varied};
 use crate::program::notation::turned_by;
 use crate::program::numbers::{Operand, evaluated};
 use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::{RoutineId, short};
-use crate::program::transformations::{EACH, Of as Value, Reads, Steps, Written, exactly};
+use crate::program::transformations::{
+    EACH, Entries, Numbering, Of as Value, Reads, Steps, Written, exactly,
+};
 use crate::program::words::Words;
 use crate::program::{Displacement, Stride};
 
@@ -80,12 +83,13 @@ impl<'a> Reader<'a> {
     /// Notes what a statement writes into numbers.
     pub(super) fn tell(&mut self, line: Words<'a, '_>) {
         let routine = self.here.routine;
+        self.entries.begin_statement(line.span().start);
         match line.text(0) {
-            b"if" | b"switch" => self.entries.blocks.open(Some(1)),
-            b"elseIf" | b"case" | b"else" | b"default" => self.entries.blocks.branch(),
-            b"while" | b"do" => self.entries.blocks.open(None),
+            b"if" | b"switch" => self.entries.open(Some(1)),
+            b"elseIf" | b"case" | b"else" | b"default" => self.entries.branch(),
+            b"while" | b"do" => self.entries.open(None),
             b"endIf" | b"endSwitch" | b"endWhile" | b"endFor" | b"until" => {
-                self.entries.blocks.close();
+                self.entries.close();
             }
             b"for" => self.tell_loop(line.behind(1)),
             _ => {}
@@ -98,6 +102,12 @@ impl<'a> Reader<'a> {
                     self.entries.lose(number);
                 }
             } else if let Some((callee, _)) = self.callee(line, at) {
+                if let Some(callee) = callee {
+                    self.entries.calls(callee);
+                    if line.text(0) != b"call" {
+                        self.entries.starts(callee);
+                    }
+                }
                 for (number, given) in given().into_iter().enumerate() {
                     self.tell_given(callee, number, given);
                 }
@@ -125,7 +135,10 @@ impl<'a> Reader<'a> {
     /// `for n=0 to 5 step 2`
     fn tell_loop(&mut self, line: Words<'a, '_>) {
         let counter = Reference::of(line).filter(|name| line.is(name.words, b'='));
-        let number = counter.and_then(|name| self.number(&name, self.here.routine));
+        let number = counter.and_then(|name| {
+            let is_whole = !(0..name.words).any(|at| line.is(at, b'['));
+            Some((self.number(&name, self.here.routine)?, is_whole))
+        });
         let range = line.behind(counter.map_or(0, |name| name.words + 1));
         self.entries.count(number, range);
     }
@@ -140,7 +153,6 @@ impl<'a> Reader<'a> {
             }
             return;
         };
-        self.entries.calls(callee);
         let Some(parameter) = self.parameter(callee, number) else {
             return;
         };
@@ -156,7 +168,16 @@ impl<'a> Reader<'a> {
     // ---- values
 
     fn value(&self, number: u32) -> Quantity {
-        self.entries.value(number, self)
+        let at = (self.here.routine, self.here.at);
+        self.entries.value(number, at, self)
+    }
+
+    /// The transformation that words of the present statement are, call by call.
+    pub(super) fn varied_steps(&self, words: Words<'a, '_>) -> Varied<Steps> {
+        let (routine, at) = (self.here.routine, self.here.at);
+        varied(&Numbering(self), (routine, at), &mut |of| {
+            self.product(words, routine, 0, of)
+        })
     }
 
     /// The transformation that words of the present statement are.
@@ -299,6 +320,10 @@ pub(super) fn axis(field: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Reads<'a> for Reader<'a> {
+    fn entries(&self) -> &Entries<'a> {
+        &self.entries
+    }
+
     fn operand(&self, operand: &[u8], routine: u32, of: &mut Value) -> Option<Quantity> {
         let mut found = Vec::new();
         PLAIN.add(operand, 0..operand.len(), &mut found);
@@ -325,7 +350,7 @@ impl<'a> Reads<'a> for Reader<'a> {
                 // one of an array that nothing writes is what is declared
                 if let Of::Project(datum) = owner
                     && let Some(key) = name.key
-                    && !self.assigned.contains(&datum)
+                    && !self.assigned.contains_key(&datum)
                 {
                     let of = &self.world.data[datum as usize];
                     if let Some(at) = of.element(key).filter(|at| of.elements[*at].is_given) {

@@ -10,6 +10,7 @@ use super::project::{Program, World};
 use super::remarks::{COMPUTED, REORDERED, frame_assigned, library};
 use super::targets::{Known, Of, Variables};
 use crate::program::Source;
+use crate::program::contexts::Calls;
 use crate::program::displacing::grown_by_any;
 use crate::program::notation::mentions;
 use crate::program::script::{
@@ -18,7 +19,7 @@ use crate::program::script::{
 };
 use crate::program::transformations::{EACH, Entries};
 use crate::program::words::{self, Words, unquoted};
-use foldhash::{HashMap, HashSet};
+use foldhash::HashMap;
 
 /// Built-in instructions, and which of their arguments they write.
 ///
@@ -53,6 +54,8 @@ pub(super) struct Here {
     pub project: u32,
     pub routine: RoutineId,
     pub file: u32,
+    /// The byte that the statement begins at.
+    pub at: u32,
 }
 
 #[derive(Default)]
@@ -62,8 +65,8 @@ pub(super) struct Reader<'a> {
     pub builder: Builder,
     pub variables: Variables<'a>,
     /// Frames, transformations, descriptors and tools that the running program changes, by index
-    /// in [`World::data`].
-    pub assigned: HashSet<u32>,
+    /// in [`World::data`], and where first.
+    pub assigned: HashMap<u32, Place>,
     /// Values of data that programs write, by key.
     filled: Vec<(Known, &'a [u8])>,
     /// What each variable may be a copy of.
@@ -77,6 +80,8 @@ pub(super) struct Reader<'a> {
     pub asked: Vec<(Expr, (String, String), u32)>,
     /// What numbers and transformations are.
     pub entries: Entries<'a>,
+    /// Which calls of programs say by what these displace.
+    pub by_calls: Calls,
     pub here: Here,
 }
 
@@ -136,9 +141,12 @@ impl<'a> Reader<'a> {
             project: of.project,
             routine: short(program),
             file: of.file,
+            at: 0,
         };
-        code.statements()
-            .for_each(|statement| each(self, statement));
+        for statement in code.statements() {
+            self.here.at = short(statement.span().start);
+            each(self, statement);
+        }
     }
 
     pub(super) fn place(&self, offset: usize) -> Place {
@@ -180,7 +188,8 @@ impl<'a> Reader<'a> {
             return;
         };
         if let Of::Project(datum) = known.of {
-            self.assigned.insert(datum);
+            let place = self.place(self.here.at as usize);
+            self.assigned.entry(datum).or_insert(place);
             if known.kind.is_place() || known.kind == Kind::Tool {
                 self.filled.extend(target.key.map(|key| (known, key)));
             }
@@ -435,8 +444,12 @@ impl<'a> Reader<'a> {
     /// A built-in instruction changes something in a manner of its own.
     fn write_something(&mut self, target: &Reference<'a>, offset: usize, relinks: bool) {
         let remark = match self.kind_of(target) {
-            Kind::Tool => frame_assigned(&Source::text(target.name)),
-            Kind::Point if relinks => frame_assigned(&Source::text(target.name)),
+            Kind::Tool => frame_assigned(&Source::text(target.name), None),
+            // its numbers are in another frame then
+            Kind::Point if relinks => {
+                let remark = self.builder.script.remark(COMPUTED);
+                return self.write(target, offset, How::PartSomehow(remark));
+            }
             kind if kind.is_place() => COMPUTED,
             _ => return,
         };

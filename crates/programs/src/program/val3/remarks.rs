@@ -109,11 +109,24 @@ pub(super) fn other_arm(name: &str) -> Remark {
     )
 }
 
-/// A tool or frame that the running program changes.
-pub(super) fn frame_assigned(name: &str) -> Remark {
+/// A tool or frame whose fathers lead back to it, or that has more than are followed.
+pub(super) fn endless_fathers(name: &str) -> Remark {
+    Remark::error_about(
+        "frame-unknown",
+        format!("the fathers of {name} in the .dtx lead back to it, or there are too many of them"),
+        "give one of them a father that hangs on world, a tool one that hangs on flange",
+    )
+}
+
+/// A tool or frame that the running program changes, and in which file and line where the move does
+/// not say it.
+pub(super) fn frame_assigned(name: &str, place: Option<(&str, usize)>) -> Remark {
+    let at = place.map_or(String::new(), |(file, line)| {
+        format!(" ({file} line {line})")
+    });
     Remark::error_about(
         "frame-assigned-at-run-time",
-        format!("the running program changes the tool or frame {name}"),
+        format!("the running program changes the tool or frame {name}{at}"),
         "set it in the .dtx, or keep the moves with it out of the compensation",
     )
 }

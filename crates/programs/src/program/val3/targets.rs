@@ -9,6 +9,7 @@ use super::remarks::{
     some_not_taught,
 };
 use crate::geometry::Pose;
+use crate::program::contexts::{Varied, nothing};
 use crate::program::displacing::Displacing;
 use crate::program::script::{
     Builder, Expr, Held, Place, Remark, RoutineId, TableId, ValueId, Variable, VariableId, Written,
@@ -237,7 +238,7 @@ impl<'a> Reader<'a> {
         };
         let of = &self.world.data[datum as usize];
         let at = of.element(name.key?)?;
-        (!self.assigned.contains(&datum)).then(|| &of.elements[at])
+        (!self.assigned.contains_key(&datum)).then(|| &of.elements[at])
     }
 
     /// A parameter of a program by its number.
@@ -324,7 +325,7 @@ impl<'a> Reader<'a> {
                 Some(target) => Expr::Target(target),
                 None if key == ANY => self.builder.script.unknown(unknown_value(of.kind)),
                 None if of.kind == Kind::Joint => self.unknown(joints_not_taught(&name)),
-                None => self.unknown(not_taught(&name, self.assigned.contains(&datum))),
+                None => self.unknown(not_taught(&name, self.assigned.contains_key(&datum))),
             },
         };
         // the controller keeps data as long as the project is loaded
@@ -418,7 +419,7 @@ impl<'a> Reader<'a> {
             Some(Known {
                 of: Of::Project(datum),
                 ..
-            }) if !self.assigned.contains(&datum) => datum,
+            }) if !self.assigned.contains_key(&datum) => datum,
             _ => return all,
         };
         let is_taught = |one: &VariableId| {
@@ -444,7 +445,9 @@ impl<'a> Reader<'a> {
         let script = &self.builder.script;
         match of {
             Expr::Variable(variable) => vec![variable],
-            Expr::Displaced { base, .. } => self.roots(script.lists[base as usize]),
+            Expr::Displaced { base, .. } | Expr::DisplacedByCall { base, .. } => {
+                self.roots(script.lists[base as usize])
+            }
             Expr::Any { first, end } => {
                 let all = &script.lists[first as usize..end as usize];
                 all.iter().flat_map(|one| self.roots(*one)).collect()
@@ -463,7 +466,7 @@ impl<'a> Reader<'a> {
         &mut self,
         words: Words<'a, '_>,
         depth: u32,
-        displacing: &mut Displacing,
+        displacing: &mut Varied<Displacing>,
     ) -> Expr {
         let is_appro = words.text(0) == b"appro" && words.is(1, b'(') && depth < DEEPEST;
         let arguments = if is_appro { words.rest_list(1) } else { None };
@@ -471,7 +474,9 @@ impl<'a> Reader<'a> {
             return self.position_within(words, depth);
         };
         let base = self.approached(*point, depth + 1, displacing);
-        self.steps(*by).in_tool(displacing);
+        displacing.with(self.varied_steps(*by), |displacing, by| {
+            by.in_tool(displacing);
+        });
         base
     }
 
@@ -485,11 +490,10 @@ impl<'a> Reader<'a> {
                 self.builder.script.held(Held::ActualWith { tool, frame })
             }
             (b"appro", Some([_, _])) => {
-                let mut displacing = Displacing::new();
+                let mut displacing = nothing();
                 let base = self.approached(words, depth, &mut displacing);
-                let script = &mut self.builder.script;
-                let by = script.displacement(displacing.displacement());
-                script.displaced(base, by)
+                let (routine, script) = (self.here.routine, &mut self.builder.script);
+                (self.by_calls).displaced(base, displacing, routine, script)
             }
             (b"compose", Some([point, frame, by])) => {
                 let base = self.position_within(*point, depth + 1);

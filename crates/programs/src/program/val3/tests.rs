@@ -379,6 +379,62 @@ fn what_the_running_program_changes_is_refused_or_reported() {
 }
 
 #[test]
+fn a_change_of_a_frame_is_named_where_it_stands() {
+    let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fB[0]\""])
+        + &data("fB", "frame", &["key=\"0\" fatherId=\"fA[0]\""])
+        + &data("tB", "tool", &["key=\"0\" fatherId=\"tA[0]\""]);
+    for change in [
+        "fA.trsf.x=610",
+        "link(fB,fA)",
+        "setFrame(pA,pA,pA,fA)",
+        "tA.trsf.z=100",
+    ] {
+        let program = project(
+            &points,
+            &format!("movej(jR,tB,m)\n{change}\nmovel(pA,tB,m)"),
+        );
+        let found = program.findings.iter();
+        let mut found = found.filter(|found| found.id == "frame-assigned-at-run-time");
+        let message = &found.next().expect("refused").message;
+        assert!(message.contains("(m/start.pgx line 4)"), "{message}");
+    }
+}
+
+#[test]
+fn a_point_that_is_hung_elsewhere_is_named() {
+    let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fA[0]\""])
+        + &data("pB", "pointRx", &["key=\"0\" x=\"2\" fatherId=\"fA[0]\""])
+        + &data("fB", "frame", &["key=\"0\" z=\"9\""]);
+    let program = project(&points, "link(pA,fB)\nmovej(pA,tA,m)\nmovel(pB,tA,m)");
+    let [only] = &program.findings[..] else {
+        panic!("{:?}", program.findings);
+    };
+    assert_eq!(only.id, "target-assigned-at-run-time");
+    assert!(only.message.starts_with("`pA`") || only.message.starts_with("pA"));
+    assert!(only.message.contains("line 3"), "{}", only.message);
+    // the correction of a copy is that of another place then
+    let program = project(
+        &points,
+        "pB=pA\nlink(pB,fB)\nmovej(pB,tA,m)\nmovel(pA,tA,m)",
+    );
+    assert_eq!(program.moves[0].displacement, Displacement::Unbounded);
+}
+
+#[test]
+fn fathers_in_a_circle_are_reported_as_that() {
+    let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fB[0]\""])
+        + &data("fB", "frame", &["key=\"0\" fatherId=\"fC[0]\""])
+        + &data("fC", "frame", &["key=\"0\" fatherId=\"fB[0]\""]);
+    let program = project(&points, "movel(pA,tA,m)");
+    let found = program
+        .findings
+        .iter()
+        .find(|found| found.id == "frame-unknown");
+    let message = &found.expect("refused").message;
+    assert!(message.contains("lead back to it"), "{message}");
+}
+
+#[test]
 fn libraries_are_found_by_their_paths() {
     let pjx = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
         millimeterUnit=\"true\" />\

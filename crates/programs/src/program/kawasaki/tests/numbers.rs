@@ -73,7 +73,6 @@ fn what_may_be_several_is_judged_as_each() {
             panic!("{found:?}");
         };
         let reach = shift.in_frame.translation[2] * f64::from(most.expect("counted"));
-        // the counter of the first is 5 behind its loop
         assert!(
             (0.16 - 1e-9..0.2 + 1e-9).contains(&reach),
             "{code}: {found:?}"
@@ -84,6 +83,161 @@ fn what_may_be_several_is_judged_as_each() {
         panic!("{:?}", by(either, ""));
     };
     assert_eq!(found[..], [step(0.01, 1), step(0.04, 1)]);
+}
+
+/// How far along z the farthest of the steps of a displacement leads, mm.
+fn reach_mm(code: &str, others: &str) -> f64 {
+    match by(code, others) {
+        Displacement::By(shift) => shift.in_frame.translation[2] * 1e3,
+        Displacement::Within(found) => {
+            let each = found.iter().map(|stride| match stride {
+                Stride::By { shift, most } => {
+                    shift.in_frame.translation[2] * f64::from(most.expect("counted"))
+                }
+                Stride::Turned(_) => panic!("nothing turns"),
+            });
+            each.sum::<f64>() * 1e3
+        }
+        other => panic!("{code}: {other:?}"),
+    }
+}
+
+#[test]
+fn inside_its_loop_a_counter_is_what_the_loop_counts() {
+    let go = "LMOVE SHIFT(p1 BY 0,0,i*30)";
+    let other = ".PROGRAM go()\nFOR i = 0 TO 8\nEND\n.END\n";
+    let up = ".PROGRAM up(.h)\nLMOVE SHIFT(p1 BY 0,0,.h)\n.END\n";
+    for (code, others, expected) in [
+        (format!("FOR i = 0 TO 1\n{go}\nEND"), "", 30.0),
+        (format!("FOR i = 0 TO 5 STEP 2\n{go}\nEND"), "", 120.0),
+        (
+            "FOR i = 1 TO 2\nLMOVE SHIFT(p1 BY 0,0,(i-1)*30)\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        (
+            "FOR j = 0 TO 1\nFOR i = 0 TO j\nLMOVE SHIFT(p1 BY 0,0,i*30)\nEND\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        (
+            "FOR i = 0 TO 1\nh = i*30\nLMOVE SHIFT(p1 BY 0,0,h)\nEND".to_owned(),
+            "",
+            30.0,
+        ),
+        ("FOR i = 0 TO 1\nCALL up(i*30)\nEND".to_owned(), up, 30.0),
+        // other loops of the same name run before and behind it
+        (
+            format!("FOR i = 0 TO 8\nEND\nFOR i = 0 TO 1\n{go}\nEND"),
+            other,
+            30.0,
+        ),
+        // behind its loop it is a step further
+        (format!("FOR i = 0 TO 1\nEND\n{go}"), "", 60.0),
+        // what writes it in the loop counts, too
+        (
+            format!("FOR i = 0 TO 1\nFOR i = 0 TO 8\nEND\n{go}\nEND"),
+            "",
+            270.0,
+        ),
+        (format!("FOR i = 0 TO 1\nCALL go\n{go}\nEND"), other, 270.0),
+        (
+            format!("PCEXECUTE 1: go\nFOR i = 0 TO 1\n{go}\nEND"),
+            other,
+            270.0,
+        ),
+        (
+            format!("FOR i = 0 TO 1\n10 {go}\nEND\nIF x GOTO 10"),
+            "",
+            60.0,
+        ),
+    ] {
+        let found = reach_mm(&code, others);
+        assert!((found - expected).abs() < 1e-9, "{code}: {found}");
+    }
+}
+
+/// Where moves go, and how far back along the tool, mm: each once.
+fn backs(code: &str, others: &str) -> Vec<(String, f64)> {
+    let text =
+        format!(".PROGRAM main()\nTOOL grip\nBASE NULL\n{code}\n.END\n{others}{POINTS}.END\n");
+    let program = read_files(&[&text]).expect("programs");
+    let mut all = Vec::new();
+    for one in &program.moves {
+        let back = match &one.displacement {
+            Displacement::None => 0.0,
+            Displacement::By(shift) => {
+                let [x, y, z] = shift.in_tool.translation;
+                assert_eq!((x, y), (0.0, 0.0));
+                (-z * 1e6).round() / 1e3
+            }
+            _ => f64::NAN,
+        };
+        let one = (target(&program, one).expect("a target").to_owned(), back);
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    }
+    all
+}
+
+#[test]
+fn numbers_of_a_call_are_those_of_that_call() {
+    let pick = ".PROGRAM pick(.p,.h)\nLAPPRO .p,.h\nLMOVE .p\nLDEPART .h/2\n.END\n";
+    let of = |name: &str, back: f64| {
+        [
+            (name.to_owned(), back),
+            (name.to_owned(), 0.0),
+            (name.to_owned(), back / 2.0),
+        ]
+    };
+    let mut both = [of("p1", 10.0), of("p[1]", 80.0)].concat();
+    let sort = |all: &mut Vec<(String, f64)>| {
+        all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    };
+    sort(&mut both);
+    let through = ".PROGRAM go(.q,.n)\nCALL pick(.q,.n+10)\n.END\n";
+    let through = format!("{through}{pick}");
+    let deeper = format!(".PROGRAM by(.q,.n)\nCALL go(.q,.n*2)\n.END\n{through}");
+    for (code, others) in [
+        ("CALL pick(p1,10)\nCALL pick(p[1],80)", pick),
+        ("h = 80\nCALL pick(p1,10)\nCALL pick(p[1],h)", pick),
+        ("CALL go(p1,0)\nCALL go(p[1],70)", &through),
+        ("CALL pick(p1,10)\nCALL go(p[1],70)", &through),
+        ("CALL by(p1,0)\nCALL by(p[1],35)", &deeper),
+    ] {
+        let mut found = backs(code, others);
+        sort(&mut found);
+        assert_eq!(found, both, "{code}");
+    }
+    // a shift that a statement writes, and what a transformation brings
+    let kept = ".PROGRAM pick(.p,.h)\nPOINT .q = .p-TRANS(0,0,.h)\nLMOVE .q\n.END\n";
+    let brought = ".PROGRAM pick(.p,.t)\nLMOVE .p+.t\n.END\n";
+    let each = [("p1".to_owned(), 10.0), ("p[1]".to_owned(), 80.0)];
+    assert_eq!(backs("CALL pick(p1,10)\nCALL pick(p[1],80)", kept), each);
+    let code = "POINT a = TRANS(0,0,-10)\nPOINT b = TRANS(0,0,-80)\nCALL pick(p1,a)\nCALL \
+        pick(p[1],b)";
+    assert_eq!(backs(code, brought), each);
+    // one call may give several
+    let by = "IF x > 1 THEN\nh = 10\nELSE\nh = 50\nEND\nCALL pick(p1,h)\nCALL pick(p[1],80)";
+    let found = backs(by, pick);
+    assert!(
+        found
+            .iter()
+            .any(|(name, back)| name == "p1" && back.is_nan())
+    );
+    assert!(found.contains(&("p[1]".to_owned(), 80.0)));
+    // what something else writes is as all calls have it
+    let own = ".PROGRAM pick(.p,.h)\n.h = .h+1\nLAPPRO .p,.h\n.END\n";
+    let found = backs("CALL pick(p1,10)\nCALL pick(p[1],80)", own);
+    assert!(found.iter().all(|(_, back)| back.is_nan()), "{found:?}");
+    // a program that calls itself
+    let own = ".PROGRAM pick(.p,.h)\nLAPPRO .p,.h\nIF x THEN\nCALL pick(.p,.h+1)\nEND\n.END\n";
+    let found = backs("CALL pick(p1,10)\nCALL pick(p[1],80)", own);
+    for (name, back) in each {
+        let of = |(at, of): &(String, f64)| *at == name && (*of == back || of.is_nan());
+        assert!(found.iter().filter(|one| of(one)).count() >= 2, "{found:?}");
+    }
 }
 
 #[test]

@@ -365,6 +365,96 @@ fn what_is_added_to_a_plate_is_a_target_on_it() {
     }
 }
 
+/// Target, work frame and its place of each move, mm.
+fn on_frames(program: &Program) -> Vec<(String, String, Option<[i64; 3]>)> {
+    let each = program.moves.iter().map(|one| {
+        let frame = &program.frames[one.frame];
+        let at = frame.world_from_frame.map(|pose| pose.translation);
+        #[allow(clippy::cast_possible_truncation)]
+        let at = at.map(|at| at.map(|along| (along * 1e3).round() as i64));
+        let name = target(program, one).unwrap_or_default().to_owned();
+        (name, frame.name.clone(), at)
+    });
+    each.collect()
+}
+
+#[test]
+fn a_plate_may_be_a_sum_itself() {
+    let points = ".TRANS\npal 100 900 200 0 0 0\nat 10 0 5 0 0 0\no1 1 2 3 4 5 6\no2 1 2 3 4 5 \
+         7\nup 0 0 -50 0 0 0\ngrip 0 0 150 0 0 0\n.END\n";
+    let with = |code: &str| {
+        let text = format!(".PROGRAM a()\nTOOL grip\nBASE NULL\n{code}\n.END\n{points}");
+        read_files(&[&text]).expect("programs")
+    };
+    let on = |name: &str, frame: &str, at: [i64; 3]| (name.to_owned(), frame.to_owned(), Some(at));
+    let both = [
+        on("o1", "pal+at", [110, 900, 205]),
+        on("o2", "pal+at", [110, 900, 205]),
+    ];
+    let program = with("LMOVE pal+at+o1\nLMOVE pal+at+o2");
+    assert_eq!(on_frames(&program), both);
+    assert_eq!(ids(&program), [""; 0]);
+    let program = with("LAPPRO pal+at+o1,50\nLMOVE SHIFT(pal+at+o2 BY 0,0,10)\nDRAW 0,0,1");
+    assert_eq!(on_frames(&program)[..2], both);
+    assert!(
+        program
+            .moves
+            .iter()
+            .all(|one| matches!(one.displacement, Displacement::By(_)))
+    );
+    // one of them is a plate by itself, too
+    let program = with("LMOVE pal+at+o1\nLMOVE pal+o2");
+    assert_eq!(
+        on_frames(&program),
+        [both[0].clone(), on("o2", "pal", [100, 900, 200])]
+    );
+    // what is added to several objects is no object
+    let program = with("LMOVE pal+o1+up\nLMOVE pal+o1\nLMOVE pal+o2+up");
+    let plain = ["o1", "o1", "o2"].map(|name| on(name, "pal", [100, 900, 200]));
+    assert_eq!(on_frames(&program), plain);
+    let displaced = |at: usize| matches!(program.moves[at].displacement, Displacement::By(_));
+    assert_eq!([0, 1, 2].map(displaced), [true, false, true]);
+}
+
+#[test]
+fn what_is_taught_on_a_plate_is_the_object() {
+    let main = "LMOVE p1+p[1]";
+    let (name, frame) = ("p[1]".to_owned(), "p1".to_owned());
+    let gone = |code: &str, other: &str| {
+        let program = read_two(code, other);
+        let all = on_frames(&program).into_iter();
+        let all = all.map(|(name, frame, _)| (name, frame));
+        all.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        gone(main, "teach()\nHERE p1+p[2]"),
+        [(name.clone(), frame.clone())]
+    );
+    // the last name is written, and nothing else
+    let program = read_two("HERE p1+p[1]\nLMOVE p1+p[1]\nLMOVE p1+p[2]", "other()");
+    assert_eq!(
+        on_frames(&program)
+            .last()
+            .map(|(name, frame, _)| (&**name, &**frame)),
+        Some(("p[2]", "p1"))
+    );
+    assert!(!targets(&program).contains(&"p1"), "{program:?}");
+    let program = read_two("LMOVE p1+q\nLMOVE p1+p[2]", "teach()\nHERE p1+q");
+    assert_eq!(targets(&program), ["p[2]"]);
+}
+
+#[test]
+fn six_literals_of_a_point_of_joints_are_joints() {
+    let program = read("TOOL grip\nBASE NULL\nJMOVE #PPOINT(10,20,-90,0,-60,0)\nLMOVE p1");
+    let first = program.target_of(&program.moves[0]).expect("joints");
+    assert_eq!(first.layout.shape, Shape::Joints);
+    let numbers = program.numbers_of(first).iter().map(|number| number.value);
+    assert!(numbers.eq([10.0, 20.0, -90.0, 0.0, -60.0, 0.0]));
+    assert_eq!(ids(&program), [""; 0]);
+    let program = read("TOOL grip\nBASE NULL\nJMOVE #PPOINT(x,20,-90,0,-60,0)");
+    assert_eq!(ids(&program), ["computed-target"]);
+}
+
 #[test]
 fn the_program_that_the_controller_starts_by_itself_runs_at_any_time() {
     let program = read_two("LMOVE p1", "AutoStart2.pc\nPOINT p1 = p[2]");

@@ -330,3 +330,44 @@ fn a_point_that_the_text_displaces_from_where_the_robot_was_stays_with_a_warning
         assert!(program.findings[0].message.contains("displaced"));
     }
 }
+
+#[test]
+fn numbers_of_a_call_are_those_of_that_call() {
+    let up = |z: f64| Displacement::By(Box::new(Shift::along([0.0, 0.0, z / 1e3])));
+    let go = |main: &str, routines: &str| -> Vec<(String, Displacement)> {
+        let program = path(&format!("{main}\nENDPROC\n{routines}\nPROC last()"));
+        let moves = program.moves.iter().filter(|one| one.target.is_some());
+        let named = |one: &crate::program::Move| {
+            let target = program.target_of(one).expect("a target");
+            target.name.as_deref().unwrap_or_default().to_owned()
+        };
+        let mut all: Vec<_> = moves
+            .map(|one| (named(one), one.displacement.clone()))
+            .collect();
+        all.sort_by(|(a, _), (b, _)| a.cmp(b));
+        all
+    };
+    let each = [("p1".to_owned(), up(10.0)), ("p2".to_owned(), up(80.0))];
+    let near = "PROC pick(robtarget p,num h)\nMoveL Offs(p,0,0,h),v5,z5,t;\nENDPROC\n";
+    let by = "PROC by(robtarget p,num n)\npick p,n*2;\nENDPROC\n";
+    let kept = "PROC pick(robtarget p,num h)\nVAR robtarget q;\nq:=Offs(p,0,0,h);\nMoveL \
+        q,v5,z5,t;\nENDPROC\n";
+    let option = "PROC pick(robtarget p\\num h)\nMoveL Offs(p,0,0,h),v5,z5,t;\nENDPROC\n";
+    for (main, routines) in [
+        ("pick p1,10;\npick p2,80;", near.to_owned()),
+        ("pick p1,10;\npick p2,80;", kept.to_owned()),
+        ("by p1,5;\nby p2,40;", format!("{by}{near}")),
+        ("by p1,5;\npick p2,80;", format!("{by}{near}")),
+        ("pick p1\\h:=10;\npick p2\\h:=80;", option.to_owned()),
+    ] {
+        assert_eq!(go(main, &routines), each, "{main}\n{routines}");
+    }
+    // what the routine writes itself is as all calls have it
+    let own = near.replace("MoveL", "h:=h+1;\nMoveL");
+    let found = go("pick p1,10;\npick p2,80;", &own);
+    assert!(
+        found
+            .iter()
+            .all(|(_, by)| !matches!(by, Displacement::By(_)))
+    );
+}

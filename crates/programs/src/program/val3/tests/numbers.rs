@@ -86,6 +86,57 @@ fn what_the_text_writes_displaces_by_that() {
 }
 
 #[test]
+fn numbers_of_a_call_are_those_of_that_call() {
+    let own = "<Parameters><Parameter name=\"x_p\" type=\"pointRx\" use=\"value\" xsi:type=\"element\" /><Parameter \
+        name=\"x_n\" type=\"num\" use=\"value\" xsi:type=\"element\" /></Parameters>";
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let go = |code: &str, pick: &str| -> Vec<(String, Displacement)> {
+        let program = read_files(&[
+            ("m/m.dtx", dtx(&all)),
+            ("m/start.pgx", pgx("start", "", code)),
+            ("m/pick.pgx", pgx("pick", own, pick)),
+            ("m/by.pgx", pgx("by", own, "call pick(x_p,x_n*2)")),
+        ])
+        .expect("a project");
+        // nothing calls one of them in some
+        let moves = program.moves.iter().filter(|one| one.target.is_some());
+        let named = |one: &Move| target(&program, one).unwrap_or_default().to_owned();
+        moves
+            .map(|one| (named(one), one.displacement.clone()))
+            .collect()
+    };
+    let each = [
+        ("pA".to_owned(), in_tool([0.0, 0.0, -0.02])),
+        ("pB".to_owned(), in_tool([0.0, 0.0, -0.06])),
+    ];
+    let near = "movel(appro(x_p,{0,0,-x_n,0,0,0}),tA,m)";
+    for (code, pick) in [
+        ("call pick(pA,20)\ncall pick(pB,60)", near),
+        ("call by(pA,10)\ncall pick(pB,60)", near),
+        ("call by(pA,10)\ncall by(pB,30)", near),
+    ] {
+        let found = go(code, pick);
+        assert_eq!(found, each, "{code}");
+    }
+    // a number that something else writes is any of them
+    let found = go(
+        "call pick(pA,20)\ncall pick(pB,60)",
+        &format!("x_n=x_n+1\n{near}"),
+    );
+    assert!(
+        found
+            .iter()
+            .all(|(_, by)| !matches!(by, Displacement::By(_)))
+    );
+}
+
+#[test]
+fn a_copy_in_another_configuration_has_the_correction_of_this_one() {
+    let other = by("pB=pA\npB.config.shoulder=lefty\nmovel(pA,tA,m)\nmovej(pB,tA,m)");
+    assert_eq!(other, Displacement::Overwritten);
+}
+
+#[test]
 fn what_a_program_writes_into_a_transformation_counts() {
     // it begins as what the data say, and is that or the other
     for code in [
@@ -143,6 +194,31 @@ fn a_counter_that_the_data_give_a_value_is_what_its_loop_counts() {
     ] {
         let reach = at_most(&by(&code));
         assert!(reach >= 90.0 - 1e-9, "{code}: {reach}");
+    }
+    for (code, expected) in [
+        (
+            format!("for nI=0 to 1\n{}\nendFor", go.replace("nUp", "nI")),
+            30.0,
+        ),
+        (
+            format!("for nI=1 to 2\n{}\nendFor", go.replace("nUp", "(nI-1)")),
+            30.0,
+        ),
+        (
+            format!(
+                "for nI=0 to 1\nfor nI=0 to 8\nendFor\n{}\nendFor",
+                go.replace("nUp", "nI")
+            ),
+            270.0,
+        ),
+        // an element of an array that is another
+        (
+            format!("for nI[0]=0 to 1\n{}\nendFor", go.replace("nUp", "nI[1]")),
+            60.0,
+        ),
+    ] {
+        let reach = at_most(&by(&code));
+        assert!((reach - expected).abs() < 1e-9, "{code}: {reach}");
     }
     for code in [
         "for nUp=0 to 3\npX=compose(pB,fA,{nUp*30,0,0,0,0,0})\nmovel(pX,tA,m)\nendFor",
