@@ -107,7 +107,7 @@ fn with(name: &str, text: &str, path: &str, value: &str) -> Result<String, Failu
 /// The change with what differs.
 pub(super) fn changed(file: &ProfileFile, text: String, output: &str) -> Result<Changed, Failure> {
     let profile =
-        Profile::from_yaml(&text).map_err(|error| Failure::profile(output, &text, &error))?;
+        Profile::from_yaml(&text).map_err(|error| Failure::profile(&file.name, &text, &error))?;
     let mut notes = Vec::new();
     if profile.provenance.is_some() && profile.links != file.profile.links {
         notes.push(

@@ -187,3 +187,19 @@ fn a_negative_number_is_the_value_of_its_option() {
     let made = std::fs::read_to_string(folder.path().join("m.csv")).expect("written");
     assert!(made.contains("-5"), "{made}");
 }
+
+#[test]
+fn a_value_that_a_profile_cannot_have_is_shown_in_the_file_that_is_there() {
+    let folder = scratch();
+    let shipped = repository("robots/abb_irb120.yaml");
+    std::fs::copy(shipped, folder.path().join("p.yaml")).expect("scratch");
+    let key = "kinematics.joints.1.max_deg=abc";
+    let set = ["profile", "set", "p.yaml", key, "-o", "new.yaml"];
+    let (status, _, said) = reported(folder.path(), &set);
+    assert_eq!(status, Some(2));
+    assert!(
+        said.contains("p.yaml:") && !said.contains("new.yaml"),
+        "{said}"
+    );
+    assert!(!folder.path().join("new.yaml").exists());
+}
