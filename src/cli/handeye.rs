@@ -15,9 +15,9 @@ use std::path::PathBuf;
 #[command(
     after_help = "ROBOT: poses base_from_flange (x_mm,y_mm,z_mm,qw,qx,qy,qz), or joints \
         q1_deg…q6_deg with --profile: then the \
-calibrated model says where the flange is. BOARD: poses camera_from_board, row by row.\nCorners: \
+calibrated model says where the flange is, in the controller's world as fk has it. BOARD: poses camera_from_board, row by row.\nCorners: \
     x_mm,y_mm,z_mm as touched by \
-the robot in its base, cx_mm,cy_mm,cz_mm as seen by the camera; eye in hand also row, the row of \
+the robot, in the frame of ROBOT, cx_mm,cy_mm,cz_mm as seen by the camera; eye in hand also row, the row of \
     ROBOT from which it was seen."
 )]
 pub(super) struct Handeye {

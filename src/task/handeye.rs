@@ -75,7 +75,7 @@ pub struct Row {
     pub left_out_mm: f64,
     /// `PoseResidual` out of it.
     pub left_out_deg: f64,
-    /// Where the flange was in the robot's base.
+    /// Where the flange was, in the frame of the robot's poses; of joints the controller's world.
     pub place_mm: [f64; 3],
 }
 
@@ -99,7 +99,8 @@ pub struct Corners {
 pub struct HandEye {
     /// `eye-to-hand` or `eye-in-hand`.
     pub setup: &'static str,
-    /// `base_from_camera`, or `flange_from_camera` of an eye in hand.
+    /// `base_from_camera`, or `flange_from_camera` of an eye in hand; the base is the frame that the
+    /// robot's poses are in, and of joints the controller's world.
     pub camera: Pose,
     /// `flange_from_board`, or `base_from_board` of an eye in hand.
     pub board: Pose,

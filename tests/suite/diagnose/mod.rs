@@ -123,13 +123,7 @@ fn distances_that_are_wrong_in_proportion_are_no_error_of_the_links() {
     let case = case(group("devices"), 18, 314, ROWS);
     assert_eq!(case.answer, ["measurement_scale"]);
     assert!(case.csv.starts_with("q1_deg") && case.csv.contains("distance_mm"));
-    let found = diagnose(
-        &case.profile,
-        &case.measurements,
-        &Options::default(),
-        &mut |_| {},
-    );
-    let found = found.expect("enough rows");
+    let found = standing::found(&case, &Options::default());
     assert_eq!(found.verdict, Verdict::Explained, "{:?}", found.reasons);
     assert_eq!(found.found.len(), 1);
     let effect = &found.found[0].effect;
@@ -144,13 +138,7 @@ fn what_moves_places_is_seen_where_poses_are_measured_with_orientations_that_it_
     for number in [19, 56] {
         let case = case(group("devices"), number, 314, ROWS);
         assert!(case.csv.contains("qw") && !case.csv.contains("sigma_deg"));
-        let found = diagnose(
-            &case.profile,
-            &case.measurements,
-            &Options::default(),
-            &mut |_| {},
-        );
-        let found = found.expect("enough rows");
+        let found = standing::found(&case, &Options::default());
         assert_eq!(found.verdict, Verdict::Explained, "{:?}", found.reasons);
         let named: Vec<String> = found.found.iter().map(|f| label(&f.effect)).collect();
         assert_eq!(named, case.answer);
@@ -180,13 +168,7 @@ fn a_value_that_no_arm_has_is_not_certain() {
     // the tool's compliance is larger than any arm's, so that another stands in its place
     let case = case(group("devices"), 36, 21, ROWS);
     assert!(case.effects[0].beyond_usual().is_some());
-    let found = diagnose(
-        &case.profile,
-        &case.measurements,
-        &Options::default(),
-        &mut |_| {},
-    );
-    let found = found.expect("enough rows");
+    let found = standing::found(&case, &Options::default());
     assert_ne!(found.verdict, Verdict::Explained);
     let named = found
         .found

@@ -1,7 +1,7 @@
 //! The noise of poses measured more than once: found again, and used.
 
 use super::commands::diagnosed;
-use super::{group, with_csv, without_sigma};
+use super::{group, standing, with_csv, without_sigma};
 use crate::trial::{Case, Group, NOISE_MM, case, case_of};
 use poseshift::diagnose::estimator::table::Layout;
 use poseshift::diagnose::question::noise::{Repeats, of_repeats};
@@ -281,13 +281,7 @@ fn what_the_rows_of_a_pose_share_is_no_evidence() {
             .collect();
         let plain = case_of(group("clean"), number, 8, (100, 3));
         let case = moved(plain, |row| own[row / 3]);
-        let found = diagnose(
-            &case.profile,
-            &case.measurements,
-            &Options::default(),
-            &mut |_| {},
-        );
-        let found = found.expect("enough rows");
+        let found = standing::found(&case, &Options::default());
         let sure = |f: &&Found| f.standing == Standing::Certain;
         assert_eq!(found.found.iter().filter(sure).count(), 0);
         assert_ne!(found.verdict, Verdict::Improved, "{:?}", found.reasons);

@@ -57,17 +57,16 @@ fn poses(all: &[Pose]) -> String {
     text
 }
 
-/// Joint angles of a calibrated arm and where it stands then.
-fn postures(random: &mut StdRng, count: usize) -> (String, Vec<Pose>) {
-    let profile = Profile::from_yaml(&text(THESIS)).expect("a shipped profile");
+/// Joint angles of an arm and where its flange stands then.
+fn postures(random: &mut StdRng, profile: &str, count: usize) -> (String, Vec<Pose>) {
+    let profile = Profile::from_yaml(profile).expect("a profile");
     let arm = profile.real_model(&Mounted::flange(), &Conditions::default());
-    let base_from_world = profile.world_from_base.inverse();
     let mut table = String::from("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n");
     let mut flanges = Vec::new();
     for _ in 0..count {
         let q = random_joints(random, &profile);
         table += &(q.map(|q| q.to_degrees().to_string()).join(",") + "\n");
-        flanges.push(base_from_world * arm.forward(&q, &Conditions::default()));
+        flanges.push(arm.forward(&q, &Conditions::default()));
     }
     (table, flanges)
 }
@@ -81,7 +80,7 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
         Pose::from_xyz_rxryrz([0.05, -0.03, 0.09, 0.4, -0.2, 1.0]),
         Pose::from_xyz_rxryrz([0.6, 0.1, 0.02, 0.05, 0.0, 0.7]),
     );
-    let (joints, flanges) = postures(&mut random, 24);
+    let (joints, flanges) = postures(&mut random, &text(THESIS), 24);
     let seen: Vec<Pose> = flanges
         .iter()
         .map(|f| camera.inverse() * f.inverse() * board)
@@ -133,6 +132,38 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
         status == Some(2) && reported.contains("--profile"),
         "{reported}"
     );
+}
+
+#[test]
+fn with_joints_frames_are_where_fk_has_the_flange_wherever_the_chain_begins() {
+    let folder = scratch();
+    let at = folder.path();
+    let mut random = seeded(41);
+    let (camera, board) = (
+        Pose::from_xyz_rxryrz([1.5, 0.1, 1.2, 3.0, 0.2, -0.3]),
+        Pose::from_xyz_rxryrz([0.02, 0.01, 0.1, 0.1, 0.0, 0.7]),
+    );
+    // FANUC's world is as high as axis 2, and other chains begin upside down
+    let moved = "base: {x_mm: 100, y_mm: 0, z_mm: -450, rx_deg: 180";
+    let profile = text(THESIS).replace("base: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0", moved);
+    assert!(profile.contains(moved));
+    let (joints, flanges) = postures(&mut random, &profile, 24);
+    let seen: Vec<Pose> = flanges
+        .iter()
+        .map(|f| camera.inverse() * *f * board)
+        .collect();
+    std::fs::write(at.join("profile.yaml"), profile).expect("scratch");
+    std::fs::write(at.join("joints.csv"), joints).expect("scratch");
+    std::fs::write(at.join("poses.csv"), poses(&flanges)).expect("scratch");
+    std::fs::write(at.join("board.csv"), poses(&seen)).expect("scratch");
+    let setup = ["board.csv", "--setup", "eye-to-hand"];
+    let by_poses = [&["poses.csv"][..], &setup].concat();
+    let by_joints = [&["joints.csv"][..], &setup, &["--profile", "profile.yaml"]].concat();
+    for arguments in [by_poses, by_joints] {
+        let found = report(at, &arguments);
+        let off = miss_mm(&found["camera"], &camera, [0.0; 3]);
+        assert!(off < 1e-6, "{arguments:?}: {}", found["camera"]);
+    }
 }
 
 /// Rows `touched, seen` of corners, as the command reads them.
@@ -281,7 +312,7 @@ fn other_units_and_rows_that_stand_out_do_not_pass_in_silence() {
         Pose::from_xyz_rxryrz([0.05, -0.03, 0.09, 0.4, -0.2, 1.0]),
         Pose::from_xyz_rxryrz([0.6, 0.1, 0.02, 0.05, 0.0, 0.7]),
     );
-    let (_, flanges) = postures(&mut random, 20);
+    let (_, flanges) = postures(&mut random, &text(THESIS), 20);
     let mut seen: Vec<Pose> = flanges
         .iter()
         .map(|f| camera.inverse() * f.inverse() * board)
