@@ -191,9 +191,9 @@ impl Command {
             Self::Effects(command) => command.run(output),
             Self::Languages(command) => command.run(output),
             Self::Explain(command) => command.run(output),
-            Self::Schema(command) => command.run(),
-            Self::Completions(command) => command.run(),
-            Self::Man(command) => command.run(),
+            Self::Schema(command) => command.run(output),
+            Self::Completions(command) => command.run(output),
+            Self::Man(command) => command.run(output),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! `schema`: the JSON Schema of a file or a report.
 
-use super::ending::print_schema;
-use super::{Answer, layout, screen};
+use super::ending::{Said, deliver, print_schema};
+use super::files::Files;
+use super::{Answer, Output, layout, screen};
 use crate::nearest;
-use crate::task::{Failure, SCHEMAS};
+use crate::task::{Failure, SCHEMAS, schemas};
 use clap::Args;
 
 /// Print the JSON Schema of a file or a report; without a name, the names
@@ -14,8 +15,12 @@ pub(super) struct Schema {
 }
 
 impl Schema {
-    pub(super) fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let Some(name) = &self.name else {
+            if output.json {
+                let said = Said::json(&schemas())?;
+                return deliver(&Files::default(), &[], said, Answer::Yes);
+            }
             let lines = SCHEMAS
                 .iter()
                 .map(|format| format!("{:14} {}\n", format.name, format.what));

@@ -1,7 +1,9 @@
 //! `completions` and `man`: what shells and readers want to know of the command line.
 
-use super::{Answer, CommandLine, screen};
-use crate::task::Failure;
+use super::ending::{Said, deliver};
+use super::files::Files;
+use super::{Answer, CommandLine, Output};
+use crate::task::{Failure, shell};
 use clap::{Args, CommandFactory};
 
 /// Print a completion script for a shell
@@ -16,7 +18,7 @@ pub(super) struct Completions {
 pub(super) struct Man {}
 
 impl Completions {
-    pub(super) fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let mut text = Vec::new();
         clap_complete::generate(
             self.shell,
@@ -24,13 +26,20 @@ impl Completions {
             "poseshift",
             &mut text,
         );
-        screen::print_data(&mut text.as_slice())?;
-        Ok(Answer::Yes)
+        let said = if output.json {
+            Said::json(&shell::Completions {
+                shell: self.shell.to_string(),
+                script: whole(text)?,
+            })?
+        } else {
+            Said::data(text)
+        };
+        deliver(&Files::default(), &[], said, Answer::Yes)
     }
 }
 
 impl Man {
-    pub(super) fn run(&self) -> Result<Answer, Failure> {
+    pub(super) fn run(&self, output: Output) -> Result<Answer, Failure> {
         let mut text = Vec::new();
         let command = CommandLine::command();
         let mut page = |command: clap::Command| {
@@ -42,7 +51,15 @@ impl Man {
         for sub in command.get_subcommands() {
             page(sub.clone())?;
         }
-        screen::print_data(&mut text.as_slice())?;
-        Ok(Answer::Yes)
+        let said = if output.json {
+            Said::json(&shell::Manual { page: whole(text)? })?
+        } else {
+            Said::data(text)
+        };
+        deliver(&Files::default(), &[], said, Answer::Yes)
     }
+}
+
+fn whole(text: Vec<u8>) -> Result<String, Failure> {
+    String::from_utf8(text).map_err(|error| Failure::internal(error.to_string()))
 }

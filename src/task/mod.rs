@@ -44,6 +44,7 @@ pub mod programs;
 pub mod reading;
 pub mod register;
 mod schema;
+pub mod shell;
 pub mod simulate;
 mod table;
 pub mod validate;
@@ -51,7 +52,7 @@ pub mod validate;
 pub use failure::{Blame, Excerpt, Failure};
 pub use measurements::{Rows, Said};
 pub use profile_file::{ProfileFile, frame, text};
-pub use schema::{SCHEMAS, schema};
+pub use schema::{SCHEMAS, schema, schemas};
 
 use schemars::JsonSchema;
 use serde::Serialize;

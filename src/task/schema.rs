@@ -2,12 +2,14 @@
 
 use super::{
     Document, axes, calibrate, catalogue, check, compensate, diagnose, explain, fk, handeye,
-    hexapod, ik, plan, profile, register, simulate, validate,
+    hexapod, ik, plan, profile, register, shell, simulate, validate,
 };
 use crate::check::cell::Cell;
 use crate::model::profile::Profile;
 use crate::register::frame_file::Frame;
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// A format with a schema.
@@ -84,7 +86,46 @@ pub const SCHEMAS: &[Format] = &[
     format("effects", "effects --json", of::<catalogue::Effects>),
     format("languages", "languages --json", of::<catalogue::Languages>),
     format("findings", "explain --json", of::<explain::Explanations>),
+    format("schemas", "schema --json", of::<Schemas>),
+    format(
+        "completions",
+        "completions --json",
+        of::<shell::Completions>,
+    ),
+    format("manual", "man --json", of::<shell::Manual>),
 ];
+
+/// Which formats have a schema.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Schemas {
+    /// Files before reports.
+    pub schemas: Vec<Named>,
+}
+
+/// A format by its name.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Named {
+    /// What stands before the `/` of its first key.
+    pub name: &'static str,
+    /// Which files or reports have it.
+    pub what: &'static str,
+}
+
+impl Document for Schemas {
+    const KIND: &'static str = "schemas/1";
+}
+
+/// The names of all formats.
+#[must_use]
+pub fn schemas() -> Schemas {
+    let named = SCHEMAS.iter().map(|format| Named {
+        name: format.name,
+        what: format.what,
+    });
+    Schemas {
+        schemas: named.collect(),
+    }
+}
 
 /// The JSON Schema of a report, its kind in the first key.
 #[must_use]

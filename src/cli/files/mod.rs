@@ -429,7 +429,13 @@ impl Files {
         let mut said = Vec::new();
         let disk = &self.disk;
         let stage = || Transaction::stage(disk, &new, &mut said);
-        let (staged, verified) = rayon::join(stage, verify);
+        // what waits for a disk takes no thread from what computes
+        let (staged, verified) = std::thread::scope(|scope| {
+            let staged = scope.spawn(stage);
+            let verified = verify();
+            (staged.join(), verified)
+        });
+        let staged = staged.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         for line in said {
             screen::warn(&line);
         }

@@ -28,7 +28,14 @@ const MORE: &[&str] = &[
 ];
 
 /// These print data, which are as long as they are.
-const DATA: &[&str] = &["fk ", "ik ", "profile new ", "hexapod --taught "];
+const DATA: &[&str] = &[
+    "fk ",
+    "ik ",
+    "profile new ",
+    "hexapod --taught ",
+    "completions ",
+    "man",
+];
 
 /// The first line that is too wide, not counting names of files.
 fn too_wide(text: &str, width: usize) -> Option<&str> {

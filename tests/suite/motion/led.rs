@@ -2,7 +2,7 @@
 //! joints with backlash come behind them, and the posture.
 
 use super::given::{CONFIG, DATA, START};
-use super::{P, PLAIN, done, given, profile};
+use super::{P, PLAIN, done, given, profile, profile_of, registers};
 use poseshift::compensate::compensate;
 use poseshift::program::{Source, language_of};
 
@@ -150,6 +150,56 @@ fn an_interrupt_that_moves_the_robot_makes_directions_uncertain() {
     );
     assert_eq!(said(&[backlash], "TPWrite \"x\";"), []);
     assert_eq!(said(&[PLAIN], moves), []);
+}
+
+#[test]
+fn what_fanuc_monitors_or_resumes_with_may_move_the_robot() {
+    let point = |number: u32, z: f64| registers::point(number, [450.0, 60.0, z, 180.0, 0.0, 20.0]);
+    let points = point(1, 250.0) + &point(2, 230.0) + &point(3, 180.0);
+    let main = |lines: &str| {
+        let lines = format!(
+            "UFRAME_NUM=0\nUTOOL_NUM=1\nJ P[1] 10% FINE\n{lines}\nL P[2] 9mm/sec FINE\nL P[3] \
+             9mm/sec FINE"
+        );
+        registers::listing("T", &lines, &points)
+    };
+    let condition = "/PROG CH1\n/MN\n : WHEN DI[1]=ON,CALL UP ;\n/POS\n/END\n";
+    let up = |lines: &str| registers::listing("UP", lines, &point(1, 300.0));
+    let backlash = "{effect: backlash, joint: 2, width_deg: -0.1}";
+    let said = |lines: &str, up: Option<&str>| {
+        let mut files = vec![("t.ls", main(lines)), ("c.ls", condition.to_owned())];
+        files.extend(up.map(|up| ("u.ls", up.to_owned())));
+        let sources = files.into_iter();
+        let sources = sources.map(|(name, text)| Source::new(name, text.into_bytes()));
+        let sources: Vec<Source> = sources.collect();
+        let language = language_of(&sources[0]).expect("FANUC");
+        let robot = profile_of("robots/fanuc_lrmate200ic.yaml", &[backlash]);
+        let done = compensate(language, &sources, &robot, &given()).expect("read");
+        let found = done.findings.into_iter();
+        // where the program starts no side is known either
+        let found =
+            found.filter(|f| f.id == "direction-uncertain" && f.message.contains("any two moves"));
+        found.map(|f| (f.line, f.message)).collect::<Vec<_>>()
+    };
+    let moves = up("UFRAME_NUM=0\nUTOOL_NUM=1\nL P[1] 9mm/sec FINE");
+    for lines in [
+        "MONITOR CH1",
+        "RESUME_PROG[1]=UP",
+        "RESUME_PROG=UP",
+        "ERROR_PROG=UP",
+    ] {
+        let found = said(lines, Some(&moves));
+        assert!(!found.is_empty(), "{lines}");
+        assert!(found.iter().all(|(_, said)| said.contains("joint 2")));
+        // what it runs moves nothing, or ends
+        assert_eq!(said(lines, Some(&up("DO[1]=ON"))), [], "{lines}");
+    }
+    assert_eq!(said("MONITOR END CH1", Some(&moves)), []);
+    let unknown = said("MONITOR CH1", None);
+    assert!(
+        matches!(&unknown[..], [(_, said), ..] if said.contains("`UP`")),
+        "{unknown:?}"
+    );
 }
 
 /// Another error on each side of the wrist.

@@ -6,9 +6,10 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::{Branch, Outcome};
 use crate::model::Conditions;
-use crate::motion::walk::{Arrivals, NOWHERE};
+use crate::motion::walk::{Arrival, Arrivals, NOWHERE};
 use crate::program::script::short;
 use crate::program::{Displacement, Move, Shape, TargetId, Value};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Joints that differ by less are the same, radians.
@@ -154,8 +155,6 @@ pub(super) fn needs(
 pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>) -> Vec<Approach> {
     let ground = &job.ground;
     let program = ground.program;
-    let mut approaches: Vec<Approach> = Vec::with_capacity(arrivals.all.len());
-    let mut derived: Vec<Approach> = Vec::new();
     let mut led = Led::of(job, arrivals);
     let mut used = vec![false; program.targets.len()];
     for motion in &program.moves {
@@ -163,15 +162,13 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             used[target] = true;
         }
     }
-    for (at, arrival) in arrivals.all.iter().enumerate() {
+    let of = |(at, arrival): (usize, &Arrival)| {
         let motion = &program.moves[arrival.motion as usize];
-        let Some(target) = motion.target.filter(|target| !stays(job, *target)) else {
-            continue;
-        };
+        let target = motion.target.filter(|target| !stays(job, *target))?;
         if !arrival.known || ground.equipped(motion.tool).is_none() {
-            continue;
+            return None;
         }
-        let approach = Approach {
+        Some(Approach {
             nominal_q: arrival.q,
             target: short(target),
             motion: arrival.motion,
@@ -182,14 +179,18 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             direction: arrival.direction,
             honoured: arrival.honoured,
             middle: arrival.middle.clone(),
-        };
-        led.look(job, &approach);
-        if motion.displacement == Displacement::None {
-            approaches.push(approach);
-        } else {
-            derived.push(approach);
-        }
+        })
+    };
+    let all = arrivals.all.par_iter().enumerate().map(of);
+    let all: Vec<Option<Approach>> = all.collect();
+    let mut approaches: Vec<Approach> = all.into_iter().flatten().collect();
+    for approach in &approaches {
+        led.look(job, approach);
     }
+    let is_derived = |approach: &mut Approach| {
+        program.moves[approach.motion as usize].displacement != Displacement::None
+    };
+    let derived: Vec<Approach> = approaches.extract_if(.., is_derived).collect();
     led.report(job, findings);
     sort(&mut approaches);
     add_derived(job, derived, &mut approaches);

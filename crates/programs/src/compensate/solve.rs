@@ -38,7 +38,8 @@ pub(super) fn solve(
     findings: &mut Vec<Finding>,
 ) -> (Vec<Outcome>, Option<Ends>) {
     let all: Vec<u32> = (0..short(approaches.len())).collect();
-    let mut outcomes: Vec<Option<Outcome>> = vec![None; approaches.len()];
+    let none = approaches.par_iter().map(|_| None);
+    let mut outcomes: Vec<Option<Outcome>> = none.collect();
     solve_some(job, approaches, &all, &mut outcomes);
     let mut last = None;
     if walk_options.directed {
@@ -188,13 +189,17 @@ fn leaning(job: &Job, approach: &Approach) -> [u64; 3] {
 
 /// Solves some approaches, those with the same tool and conditions side by side, on all processors.
 fn solve_some(job: &Job, approaches: &[Approach], which: &[u32], outcomes: &mut [Option<Outcome>]) {
+    let is_alike = |a: &u32, b: &u32| {
+        let [a, b] = [a, b].map(|at| &approaches[*at as usize]);
+        (a.tool, a.frame, a.direction) == (b.tool, b.frame, b.direction)
+    };
     let mut alike: BTreeMap<(u32, [i8; 6], [u64; 3]), Vec<u32>> = BTreeMap::new();
-    for &at in which {
-        let approach = &approaches[at as usize];
+    for row in which.chunk_by(is_alike) {
+        let approach = &approaches[row[0] as usize];
         let same = alike
             .entry((approach.tool, approach.direction, leaning(job, approach)))
             .or_default();
-        same.push(at);
+        same.extend_from_slice(row);
     }
     let chunks: Vec<&[u32]> = alike.values().flat_map(|same| same.chunks(CHUNK)).collect();
     let solve = |chunk: &&[u32]| {

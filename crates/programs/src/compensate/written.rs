@@ -4,6 +4,8 @@
 use super::{Added, Compensation};
 use crate::program::script::Script;
 use crate::program::{Edits, Language, Marker, Number, Role, Settings, Source, Target, number};
+use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -305,18 +307,28 @@ impl Meant {
                 self.numbers.len()
             ));
         }
-        let meant = self.numbers.iter().enumerate();
-        let meant = meant.filter(|(at, _)| all_there || !self.freed.contains(at));
-        for (index, (_, meant)) in found.iter().zip(meant) {
-            let number = &after.numbers[*index as usize];
-            if number.value != *meant {
-                return Err(format!(
+        let numbers = if all_there {
+            Cow::from(&self.numbers)
+        } else {
+            let meant = self.numbers.iter().enumerate();
+            let meant = meant.filter(|(at, _)| !self.freed.contains(at));
+            meant.map(|(_, meant)| *meant).collect()
+        };
+        let pairs = found.par_iter().zip(&*numbers);
+        let wrong = pairs.find_first(|(index, meant)| {
+            // what is no number equals none
+            after.numbers[**index as usize].value != **meant
+        });
+        match wrong {
+            None => Ok(()),
+            Some((index, meant)) => {
+                let number = &after.numbers[*index as usize];
+                Err(format!(
                     "{} at byte {} where {meant} is meant",
                     number.value, number.start
-                ));
+                ))
             }
         }
-        Ok(())
     }
 }
 
@@ -338,6 +350,16 @@ pub(super) fn without_configuration(
 /// The numbers of each file's targets in the order of the file, each place once.
 fn numbers_by_file(targets: &[Target], numbers: &[Number], files: usize) -> Vec<Vec<u32>> {
     let start = |index: &u32| numbers[*index as usize].start;
+    // mostly one file has the numbers in their order
+    let follow = |pair: &[Target]| pair[0].numbers.end == pair[1].numbers.start;
+    let is_in_order = files == 1
+        && targets.par_windows(2).all(follow)
+        && numbers
+            .par_windows(2)
+            .all(|pair| pair[0].start < pair[1].start);
+    if let (true, [first, .., last]) = (is_in_order, targets) {
+        return vec![(first.numbers.start..last.numbers.end).collect()];
+    }
     let mut room = vec![0; files];
     for target in targets {
         room[target.file as usize] += target.numbers.len();

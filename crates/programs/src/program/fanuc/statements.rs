@@ -127,9 +127,17 @@ impl Reader<'_> {
                 self.behind_comma(rest, 0);
             }
             (b"CALL" | b"AUFRUF", _) => self.call(rest),
-            (b"RUN" | b"MONITOR", _) => {
+            (b"RUN", _) => {
                 self.known.clear();
                 self.start(rest);
+            }
+            (b"MONITOR", _) => {
+                self.known.clear();
+                self.monitor(&name, rest);
+            }
+            (b"ERROR_PROG" | b"RESUME_PROG", Some(b'=' | b'[')) => {
+                let program = memchr::memchr(b'=', rest).map(|at| rest[at + 1..].trim_ascii());
+                self.monitor(&name, program.unwrap_or_default());
             }
             (b"END" | b"ENDE", None) => self.builder.back(),
             (b"ABORT" | b"ABBRUCH", None) => self.builder.exit(),
@@ -293,6 +301,20 @@ impl Reader<'_> {
             self.known.starts(routine);
             self.builder.script.routines[routine as usize].start = Start::Concurrent;
         }
+    }
+
+    /// `MONITOR CONDITION`, `RESUME_PROG[1]=PROGRAM`: from here on it may run between two moves, or
+    /// in the middle of one, and move the robot. `MONITOR END CONDITION` ends that.
+    fn monitor(&mut self, verb: &[u8], text: &[u8]) {
+        let name = &text[..word_length(text)];
+        if name.is_empty() || is_one_of(&name.to_ascii_uppercase(), "END ENDE") {
+            return;
+        }
+        self.start(text);
+        let routines = self.callees(text).into_iter().map(|(routine, _)| routine);
+        let shown = if is_chosen(text) { verb } else { name };
+        let call = Call::of(self.place, routines.collect(), called(shown), 0..0);
+        self.builder.start(call, true);
     }
 
     /// An instruction of which only its name is known, such as a macro: a call, which is given the

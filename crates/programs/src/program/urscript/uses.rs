@@ -151,11 +151,12 @@ impl Variables<'_, '_> {
         }
         let mut changed = None;
         let mut found = Vec::new();
-        let mut seen = vec![self.meaning(name, function)?];
+        let mut seen = vec![(self.meaning(name, function)?, at)];
         let mut is_one = true;
         let mut next = 0;
-        while let Some(&variable) = seen.get(next) {
+        while let Some(&(variable, at)) = seen.get(next) {
             next += 1;
+            let mut given = Vec::new();
             for (number, source) in self.sources(variable).enumerate() {
                 is_one &= number == 0 && !source.way.is_part();
                 if source.way == Assigned::Deep {
@@ -169,23 +170,23 @@ impl Variables<'_, '_> {
                     // lists have no members, structures no numbers
                     if part == at || !matches!((part, at), (At::Member(_), _) | (_, At::Member(_)))
                     {
-                        found.push((source.value, source.function));
+                        given.push((source.value, source.function));
                     }
                     continue;
                 }
                 match self.parsed.expression(source.value) {
                     Expr::Call(call) if self.is_structure(call) => {
                         let At::Member(member) = at else { return None };
-                        let given = self.parsed.arguments_of(&self.parsed.calls[call as usize]);
-                        let own = given.iter().find(|(name, _)| *name == Some(member));
-                        found.extend(own.map(|(_, value)| (*value, source.function)));
+                        let parts = self.parsed.arguments_of(&self.parsed.calls[call as usize]);
+                        let own = parts.iter().find(|(name, _)| *name == Some(member));
+                        given.extend(own.map(|(_, value)| (*value, source.function)));
                     }
                     Expr::List(list) if !matches!(at, At::Member(_)) => {
                         let elements = &self.parsed.lists[list as usize].elements;
-                        found.extend(elements.iter().map(|value| (*value, source.function)));
+                        given.extend(elements.iter().map(|value| (*value, source.function)));
                     }
                     Expr::Name(name, _) => {
-                        let of = self.meaning(name, source.function)?;
+                        let of = (self.meaning(name, source.function)?, at);
                         if !seen.contains(&of) {
                             seen.push(of);
                         }
@@ -198,7 +199,25 @@ impl Variables<'_, '_> {
                     return None;
                 }
             }
+            for (value, function) in given {
+                // a member of a structure may be what another member is
+                let expression = self.parsed.expression(value);
+                if let (At::Member(_), Expr::Element(name, other @ At::Member(_))) =
+                    (at, expression)
+                {
+                    if is_deep(other) {
+                        return None;
+                    }
+                    let of = (self.meaning(name, function)?, other);
+                    if !seen.contains(&of) {
+                        seen.push(of);
+                    }
+                } else {
+                    found.push((value, function));
+                }
+            }
         }
+        let seen: Vec<VarId> = seen.into_iter().map(|(variable, _)| variable).collect();
         if let Some(at) = at.number().filter(|_| is_one) {
             found = vec![*found.get(at as usize)?];
         }

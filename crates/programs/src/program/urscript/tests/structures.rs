@@ -49,6 +49,41 @@ fn members_of_structures_are_what_they_are_made_of() {
 }
 
 #[test]
+fn a_member_is_also_what_another_member_was() {
+    let s = format!("{W}v=p[.1,.2,.4,0,0,1]\ns=struct(a=w,b=v)\n");
+    let set = "s.a=s.b\n";
+    for go in [
+        "s.a=s.b\nmovel(s.a)",
+        "t=s\nt.a=t.b\nmovel(t.a)",
+        "def f():\ns.a=s.b\nend\nf()\nmovel(s.a)",
+        "def f(t):\nmovel(t.a)\nend\ns.a=s.b\nf(s)",
+        "s.c=s.b\ns.a=s.c\nmovel(s.a)",
+        "s.a=s.b\ns.b=s.a\nmovel(s.a)",
+    ] {
+        assert_eq!(to(&path(&format!("{s}{go}"))), ["w", "v"], "{go}");
+    }
+    // through another variable it is refused
+    let program = path(&format!("{s}x=s.b\ns.a=x\nmovel(s.a)"));
+    let displacement = &program.moves.last().expect("a move").displacement;
+    assert!(!matches!(
+        displacement,
+        Displacement::None | Displacement::By(_)
+    ));
+    // neither the first value alone is the tool or the feature
+    let move_with = |more: &str| path(&format!("{s}{set}{more}"));
+    for more in [
+        "set_tcp(s.a)\nmovel(p[.3,.2,.4,0,0,1])",
+        "movel(pose_trans(s.a,p[.3,.2,.4,0,0,1]))",
+    ] {
+        let program = move_with(more);
+        assert!(program.targets.iter().any(|t| t.blocked), "{more}");
+        let plain = more.replace("s.a", "s.b");
+        let plain = path(&format!("{s}{plain}"));
+        assert!(!plain.targets.iter().any(|t| t.blocked), "{more}");
+    }
+}
+
+#[test]
 fn numbers_of_a_call_are_given_by_place_by_name_or_by_default() {
     for (default, given) in [
         ("", "f(w, 0.15)"),
