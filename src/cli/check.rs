@@ -251,7 +251,7 @@ impl Check {
             text += &layout::fitted(&lines.collect::<String>());
         }
         if !output.quiet || refused {
-            text += &layout::findings(found.findings, output.verbose);
+            text += &layout::findings(found.findings, output);
         }
         if output.quiet {
             if let Some(comparison) = found.baseline.filter(|c| !c.worse.is_empty()) {

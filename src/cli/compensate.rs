@@ -383,8 +383,8 @@ impl Compensate {
         }
         let written = !header.outputs.is_empty();
         let mut text = String::new();
-        if !output.quiet || !written {
-            text += &layout::findings(&compensation.findings, output.verbose);
+        if !written || !output.quiet {
+            text += &layout::findings(&compensation.findings, output);
         }
         if !output.quiet {
             text += &layout::fitted(&report::compensation::text(&found, header.language));

@@ -1,7 +1,8 @@
 //! How wide the output is: `COLUMNS` where it is set, else the terminal, else 80. The one place
 //! that knows it.
 
-use crate::finding::Finding;
+use super::Output;
+use crate::finding::{Finding, Severity};
 use crate::report;
 use crate::report::layout::wrapped_lines;
 
@@ -46,9 +47,14 @@ pub(super) fn fitted(text: &str) -> String {
 }
 
 /// Findings for standard output. Where nobody sees them a finding is one line, for `grep` and
-/// editors.
-pub(super) fn findings(findings: &[Finding], every: bool) -> String {
-    of_findings(findings, every, seen())
+/// editors. Quiet output has the errors alone.
+pub(super) fn findings(findings: &[Finding], output: Output) -> String {
+    if !output.quiet {
+        return of_findings(findings, output.verbose, seen());
+    }
+    let is_error = |finding: &&Finding| finding.severity == Severity::Error;
+    let errors: Vec<Finding> = findings.iter().filter(is_error).cloned().collect();
+    of_findings(&errors, output.verbose, seen())
 }
 
 /// Findings for standard error, as [`findings`] has them.

@@ -256,10 +256,17 @@ pub struct Move {
     pub name: Option<String>,
     /// The commanded pose: x, y, z in mm, angles of `Rx · Ry · Rz` in degrees.
     pub target: [Option<f64>; 6],
+    /// The commanded point on the path of an arc: x, y, z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub via_mm: Option<[Option<f64>; 3]>,
     /// Whether its target is given in joints.
     pub joint_target: bool,
     /// The controller's joint angles at its end.
     pub joints_deg: [Option<f64>; 6],
+    /// Where the external axes of the profile stand at its end, mm and degrees; null where no pose
+    /// depends on one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub external: Option<Vec<Option<f64>>>,
     /// Whether the robot cuts the corner at its end.
     pub cuts_corner: bool,
     /// The size of that corner.
@@ -344,8 +351,13 @@ impl Moves<'_> {
             kind: kind(motion.motion),
             name: name.map(str::to_owned),
             target: [x, y, z, rx, ry, rz],
+            via_mm: self.check.via(report).map(|via| via.map(tidy_mm)),
             joint_target: report.in_joints(program),
             joints_deg: self.check.joints(report).map(tidy_deg),
+            external: self
+                .check
+                .external(report)
+                .map(|values| values.into_iter().map(tidy).collect()),
             cuts_corner: speed_zone.cuts_corner(),
             zone_mm: speed_zone.zone_m.and_then(tidy_mm),
             target_error_mm: tidy_mm(report.target_error.distance_m),

@@ -4,7 +4,7 @@ use super::chain::rows;
 use super::{UrdfArm, UrdfError, UrdfForm};
 use crate::geometry::Pose;
 use crate::model::profile::{
-    Comments, Maker, Mounted, Profile, ToolOfProfile, coupled, flange_remark, made,
+    Comments, MAKERS, Maker, Mounted, Profile, ToolOfProfile, coupled, flange_remark, made,
 };
 use crate::model::shape::{Form, LinkShape, Shape};
 use crate::model::{Body, Conditions, JointSense, Mechanism, UPSIDE_DOWN, set_upright};
@@ -141,15 +141,21 @@ fn profile(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Result<Prof
     })
 }
 
-/// The maker that is given, or that the names tell.
+/// The maker that is given, or that the names tell, or whose controllers alone have the language.
 fn maker(arm: &UrdfArm, about: &About, notes: &mut Vec<String>) -> Option<&'static Maker> {
     if let Some(given) = about.maker {
         return Maker::by_name(given);
     }
     let packages: Vec<&str> = arm.packages.iter().map(String::as_str).collect();
-    let found = Maker::marked_in(&format!("{} {}", arm.name, packages.join(" ")))?;
+    let named = Maker::marked_in(&format!("{} {}", arm.name, packages.join(" ")));
+    let by = match named {
+        Some(_) => "the names of the robot and its packages",
+        None => "the language of its controller",
+    };
+    let speaks = |maker: &&Maker| Some(maker.language) == about.language;
+    let found = named.or_else(|| MAKERS.iter().find(speaks))?;
     notes.push(format!(
-        "the maker is {}, by the names of the robot and its packages; --maker names another",
+        "the maker is {}, by {by}; --maker names another",
         found.name
     ));
     Some(found)

@@ -44,6 +44,59 @@ fn ids(check: &Check) -> Vec<(&'static str, Severity)> {
 }
 
 #[test]
+fn the_slower_of_translation_and_rotation_says_how_long_a_move_takes() {
+    // the tool rotates by 45 degrees, at 500 deg/s
+    let q = [10.0, 0.0, 0.0, 0.0, 60.0, 0.0];
+    let rotated = straight_to([10.0, 0.0, 0.0, 0.0, 60.0, 45.0], [0.0; 3], [0, 0, 0, 0]);
+    let of = |speed: &str| {
+        let lines = joint_move(q) + "    ConfL\\Off;\n" + &rotated.replace("v100", speed);
+        let found = checked(&lines);
+        let limits = found.moves[1].limits.as_ref().expect("limits");
+        let fast = found.findings.iter().find(|f| f.id == "joint-speed");
+        (
+            limits.duration_s.expect("seconds"),
+            fast.map(|f| f.message.clone()),
+        )
+    };
+    let (fast, said) = of("v7000");
+    assert!((fast - 0.09).abs() < 1e-6, "{fast}");
+    // joint 6 rotates by 500 deg/s on the mean, and can 420
+    let said = said.expect("too fast");
+    assert!(said.contains("joint 6 would rotate at 5"), "{said}");
+    let (slow, said) = of("v5");
+    assert!(slow > 1.0 && said.is_none(), "{slow} {said:?}");
+}
+
+#[test]
+fn of_joints_that_are_too_fast_the_one_farthest_beyond_its_speed_is_named() {
+    let q = [10.0, 0.0, 0.0, 0.0, 60.0, 0.0];
+    let fast = straight_to(q, [0.0, 0.0, -60.0], [0, 0, 0, 0]).replace("v100", "v7000");
+    let found = checked(&(joint_move(q) + "    ConfL\\Off;\n" + &fast));
+    let said = found.findings.iter().find(|f| f.id == "joint-speed");
+    let said = &said.expect("too fast").message;
+    let joint: usize = said
+        .split("joint ")
+        .nth(1)
+        .and_then(|t| t[..1].parse().ok())
+        .expect("one");
+    let number = |text: &str| -> f64 {
+        text.split(' ')
+            .next()
+            .and_then(|t| t.parse().ok())
+            .expect("a number")
+    };
+    let rate = number(said.split("rotate at ").nth(1).expect("its rate"));
+    // the fastest of all, for those beyond are alike here
+    let limits = found.moves[1].limits.as_ref().expect("limits");
+    let fastest = limits.rate_rad / limits.duration_s.expect("seconds");
+    assert!(
+        (rate - fastest.to_degrees()).abs() < 0.1,
+        "joint {joint}: {rate} of {fastest}"
+    );
+    assert!(said.contains("other"), "{said}");
+}
+
+#[test]
 fn a_straight_move_past_a_stretched_wrist_is_warned_of() {
     // the tool keeps its orientation and goes down: joints 2 and 3 pass where joint 5 is zero
     let q = [10.0, 0.0, 0.0, 0.0, 4.0, 0.0];

@@ -136,6 +136,18 @@ fn the_limit_of_shifts_is_raised_by_the_user_and_recorded() {
             .expect("a program")
             .contains("! max-shift 100mm,20deg")
     );
+    // the hint names what all of them need, and works
+    let (status, said, _) = compensated("a.mod", &heavy, &thesis, &["--max-shift", "1,1"]);
+    assert_eq!(status, 1, "{said}");
+    let limits: Vec<&str> = (said.split("--max-shift ").skip(1))
+        .filter_map(|behind| behind.split_whitespace().next())
+        .filter(|limit| limit.contains(','))
+        .collect();
+    let [limit] = limits[..] else {
+        panic!("{said}")
+    };
+    let (status, said, _) = compensated("a.mod", &heavy, &thesis, &["--max-shift", limit]);
+    assert_eq!(status, 0, "{limit}: {said}");
     // with --keep-going such targets stay as they are
     let (status, said, written) = compensated("a.mod", &heavy, &thesis, &["--keep-going"]);
     assert_eq!(status, 1, "{said}");

@@ -271,6 +271,35 @@ fn a_urdf_stands_where_its_controller_counts_from() {
 }
 
 #[test]
+fn the_language_of_the_controller_tells_the_maker_where_no_name_does() {
+    let folder = scratch();
+    std::fs::write(folder.path().join("x.urdf"), urdf("arm", "")).expect("scratch");
+    let made = |language: &str| {
+        let out = format!("{language}.yaml");
+        let arguments = [
+            "profile",
+            "from-urdf",
+            "x.urdf",
+            "--language",
+            language,
+            "-o",
+            &out,
+        ];
+        let (status, text, said) = reported(folder.path(), &arguments);
+        assert_eq!(status, Some(0), "{text} {said}");
+        let coupling = profile(&folder.path().join(out)).mechanism.coupling;
+        (coupling.len(), words(&text) + &words(&said))
+    };
+    let (couplings, said) = made("fanuc");
+    assert_eq!(couplings, 1);
+    assert!(
+        said.contains("the maker is FANUC, by the language"),
+        "{said}"
+    );
+    assert_eq!(made("krl").0, 0);
+}
+
+#[test]
 fn what_cannot_be_taken_of_a_urdf_is_refused_with_what_was_meant() {
     let folder = scratch();
     let cart = "<link name=\"cart\"/><joint name=\"rail\" type=\"prismatic\"><parent \

@@ -33,7 +33,7 @@ pub struct Difference {
     pub file: String,
     /// Line in the present file (in the stored one where the move is gone); 0 for the whole file.
     pub line: u64,
-    /// What differs: a key of the report, `target`, `moves`, `body` (one that is gone: the moves
+    /// What differs: a key of a move, `moves` (how many), `body` (one that is gone: the moves
     /// have no clearance to it), or the id of a finding.
     pub what: String,
     /// The stored value.
@@ -83,6 +83,10 @@ pub enum BaselineError {
         found: String,
     },
 }
+
+/// A joint that stands farther off at the same pose, degrees, stands in another posture or a rotation
+/// on: another branch, or another place of an external axis, moves one by more.
+const POSTURE_DEG: f64 = 1.0;
 
 /// Keys of a move of which more is worse, and whether they are angles.
 const MORE_IS_WORSE: [(&str, bool); 4] = [
@@ -318,32 +322,58 @@ fn compare_move(
             _ => {}
         }
     }
-    let numbers = |value: &Value| -> Vec<f64> {
-        value
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_f64)
-            .collect()
-    };
-    let (a, b) = (numbers(&old["target"]), numbers(&new["target"]));
-    let far = |i: usize| {
-        let tolerance = if i < 3 { tolerances.mm } else { tolerances.deg };
-        let gap = (a[i] - b[i]).abs();
-        // an angle and one a whole revolution on are the same
-        let gap = if i < 3 {
-            gap
-        } else {
-            gap.min((gap - 360.0).abs())
+    let is_moved = |key: &str, tolerance: &dyn Fn(usize) -> f64, turns: &dyn Fn(usize) -> bool| {
+        let [a, b] = [&old[key], &new[key]].map(numbers);
+        let is_far = |(i, (a, b)): (usize, (&f64, &f64))| {
+            let gap = (a - b).abs();
+            // an angle of an orientation and one a whole revolution on are the same
+            let gap = if turns(i) {
+                gap.min((gap - 360.0).abs())
+            } else {
+                gap
+            };
+            gap > tolerance(i)
         };
-        gap > tolerance
+        a.len() != b.len() || a.iter().zip(&b).enumerate().any(is_far)
     };
-    if a.len() != b.len() || (0..a.len()).any(far) || old["kind"] != new["kind"] {
+    // a key that is younger than the stored run says nothing
+    let is_known = |key: &str| old.get(key).is_some();
+    if old["kind"] != new["kind"] {
+        comparison.worse.push(difference("kind"));
+    }
+    let of_pose = |i: usize| if i < 3 { tolerances.mm } else { tolerances.deg };
+    if is_moved("target", &of_pose, &|i| i >= 3) {
         comparison.worse.push(difference("target"));
+    } else if is_known("joints_deg") {
+        let is_joints = new["joint_target"] == Value::Bool(true);
+        let apart = if is_joints {
+            tolerances.deg
+        } else {
+            tolerances.deg + POSTURE_DEG
+        };
+        if is_moved("joints_deg", &|_| apart, &|_| false) {
+            comparison.worse.push(difference("joints_deg"));
+        }
+    }
+    let others = [
+        ("via_mm", tolerances.mm),
+        ("external", tolerances.mm.min(tolerances.deg)),
+    ];
+    for (key, tolerance) in others {
+        if is_known(key) && is_moved(key, &|_| tolerance, &|_| false) {
+            comparison.worse.push(difference(key));
+        }
     }
     if comparison.worse.len() + comparison.better.len() == before {
         comparison.same += 1;
     }
+}
+
+/// The numbers of a list; what is no number equals none.
+fn numbers(list: &Value) -> Vec<f64> {
+    let all = list.as_array().into_iter().flatten();
+    all.map(|value| value.as_f64().unwrap_or(f64::MAX))
+        .collect()
 }
 
 /// Short lines on what got worse, `file:line: what before → now`.
@@ -430,6 +460,48 @@ mod tests {
         assert_eq!(compare(&turned).same, 1);
         turned["moves"] = json!([]);
         assert_eq!(compare(&turned).worse[0].what, "moves");
+    }
+
+    #[test]
+    fn another_path_to_the_same_target_is_worse() {
+        let with = |key: &str, value: Value| {
+            let mut run = run(0.1, 5.0, 1.0, 0);
+            run["moves"][0][key] = value;
+            run
+        };
+        let what = |before: &Value, now: &Value| {
+            let found = compare(before, now, Tolerances::default())
+                .worse
+                .into_iter();
+            found.map(|of| of.what).collect::<Vec<_>>()
+        };
+        for (key, a, b) in [
+            ("kind", json!("linear"), json!("joint")),
+            ("via_mm", json!([350, 250, 300]), json!([350, 150, 300])),
+            ("external", json!([1000.0, null]), json!([1150.0, null])),
+            (
+                "joints_deg",
+                json!([-3.2, 10.0, 5.0, 0.0, 60.0, 0.0]),
+                json!([-21.3, 10.0, 5.0, 0.0, 60.0, 0.0]),
+            ),
+        ] {
+            let (a, b) = (with(key, a), with(key, b));
+            assert_eq!(what(&a, &b), [key]);
+            assert_eq!(what(&a, &a), [""; 0]);
+        }
+        // a run that was stored before they were reported says nothing of them
+        let older = run(0.1, 5.0, 1.0, 0);
+        assert_eq!(what(&older, &with("via_mm", json!([1, 2, 3]))), [""; 0]);
+        assert_eq!(what(&older, &with("external", json!([1]))), [""; 0]);
+        // of a target in joints each counts, also by whole rotations
+        let joints = |j6: f64| {
+            let mut run = with("joints_deg", json!([0.0, 0.0, 0.0, 0.0, 60.0, j6]));
+            run["moves"][0]["joint_target"] = json!(true);
+            run
+        };
+        assert_eq!(what(&joints(0.0), &joints(360.0)), ["joints_deg"]);
+        assert_eq!(what(&joints(0.0), &joints(0.1)), ["joints_deg"]);
+        assert_eq!(what(&joints(0.0), &joints(0.0004)), [""; 0]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a move asks of the joints: limits, singularities, rates, turns.
 
 use crate::geometry::Jet;
+use crate::geometry::units::DEG;
 use crate::inverse::Margins;
 use crate::motion::course::Course;
 use crate::motion::leg::{Leg, Piece};
@@ -102,8 +103,22 @@ fn rates(leg: &Leg, piece: &Piece, begin: &[f64; 6], seen: [f64; 6], fastest: f6
     })
 }
 
+/// A tool that has to rotate faster is slowed down by most controllers, rad/s. By speed data of ABB's
+/// own it rotates at most 500 deg/s (Technical reference manual, RAPID, `speeddata`), by default of
+/// KUKA 200 deg/s (`$VEL.ORI1`).
+const USUAL_ROTATION_RAD_S: f64 = 200.0 * DEG;
+
 /// What one move asks of the joints.
-pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Asked {
+///
+/// The slower of translation and rotation decides how long it takes. `rotation_rad_s`: how fast the
+/// tool rotates at most; where that is not known, neither is how long a move takes on which it would
+/// have to rotate faster than [`USUAL_ROTATION_RAD_S`].
+pub(crate) fn asked(
+    leg: &Leg,
+    pieces: &[Piece],
+    speed_m_s: Option<f64>,
+    rotation_rad_s: Option<f64>,
+) -> Asked {
     let arm = &leg.equipped.arm;
     let joints = &arm.mechanism().joints;
     let mut found = Limits {
@@ -150,9 +165,13 @@ pub(crate) fn asked(leg: &Leg, pieces: &[Piece], speed_m_s: Option<f64>) -> Aske
     }
     found.rate_rad = rate_rad.iter().fold(0.0, |a, b| a.max(*b));
     if let (Course::Tool(course), Some(speed)) = (&leg.course, speed_m_s) {
-        let length = course.length_m();
-        if length > 0.0 && speed > 0.0 {
-            found.duration_s = Some(length / speed);
+        let by_length = course.length_m() / speed;
+        let usual = rotation_rad_s.unwrap_or(USUAL_ROTATION_RAD_S);
+        let by_rotation = course.rotation_rad() / usual;
+        let duration = by_length.max(by_rotation);
+        let is_known = by_length >= by_rotation || rotation_rad_s.is_some();
+        if speed > 0.0 && duration > 0.0 && is_known {
+            found.duration_s = Some(duration);
         }
     }
     Asked {

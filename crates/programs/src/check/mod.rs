@@ -60,11 +60,11 @@ pub use scene::{Meshes, Scene, SceneError};
 
 use crate::compensate::CompensateError;
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::{DEG, MM};
-use crate::geometry::{Pose, Separation};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::geometry::{Pose, Separation, Vector};
 use crate::motion::{Given, setting};
 use crate::profile::Profile;
-use crate::program::{Language, Move, Program, Source, SpeedZone};
+use crate::program::{Language, Motion, Move, Program, Source, SpeedZone};
 use collision::Clearance;
 use deviation::PathError;
 use judge::Job;
@@ -248,6 +248,30 @@ impl Check {
         self.stops.commanded(self.stop(report))
     }
 
+    /// The point on the path of an arc, in the world.
+    #[must_use]
+    pub fn via(&self, report: &MoveReport) -> Option<Vector> {
+        let is_arc = self.program.moves[report.motion].motion == Motion::ArcEnd;
+        let via = self.stops.before(report.stop as usize).filter(|_| is_arc)?;
+        let is_via = self.program.moves[self.motions[via] as usize].motion == Motion::ArcVia;
+        let stop = self.stops.all[via].as_ref().filter(|_| is_via)?;
+        Some(self.stops.commanded(stop).translation)
+    }
+
+    /// Where the external axes of the profile stand at the end of a move, millimetres and degrees;
+    /// not a number where no pose depends on one.
+    #[must_use]
+    pub fn external(&self, report: &MoveReport) -> Option<Vec<f64>> {
+        let frame = self.program.moves[report.motion].frame;
+        let stand = self.program.frames[frame].stand.as_ref()?;
+        let values = stand.values.iter().zip(&self.linear);
+        let shown = |(value, linear): (&f64, &bool)| match linear {
+            true => mm_from_m(*value),
+            false => value / DEG,
+        };
+        Some(values.map(shown).collect())
+    }
+
     /// The controller's joints at the end of a move, radians.
     #[must_use]
     pub fn joints(&self, report: &MoveReport) -> &[f64; 6] {
@@ -264,6 +288,10 @@ pub struct Check {
     pub moves: Vec<MoveReport>,
     /// Where the robot stands at the end of moves.
     stops: Stops,
+    /// The move of each stop.
+    motions: Vec<u32>,
+    /// Which of the profile's external axes are linear.
+    linear: Vec<bool>,
     /// What a person should look at, by file and place.
     pub findings: Vec<Finding>,
     /// Numbers of the whole.
@@ -358,6 +386,10 @@ pub fn check_telling(
         program: walk.program,
         moves,
         stops: walk.stops,
+        motions: walk.motions,
+        linear: crate::motion::external::settings_of(subject.profile, true)
+            .external
+            .linear,
         findings,
         summary,
     })

@@ -147,7 +147,7 @@ pub(super) struct Walk {
     pub findings: Vec<Finding>,
     pub stops: Stops,
     /// The move of each stop.
-    motions: Vec<u32>,
+    pub motions: Vec<u32>,
     /// By index of the program's work frames, as far as anybody knows them.
     pub frames: Vec<Option<Placed>>,
     profile: Profile,

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::approach::{Approach, Solved};
+use super::rewrite::largest;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
@@ -36,6 +37,9 @@ pub(super) struct Limits {
     of_tools: Vec<OnceLock<Separation>>,
 }
 
+/// Id of the finding of a correction that shifts its target too far.
+const TOO_LARGE: &str = "shift-too-large";
+
 impl Limits {
     /// Of a program; `raised` where the user says the limit.
     pub(super) fn new(ground: &Ground, raised: Option<Separation>) -> Self {
@@ -60,13 +64,14 @@ impl Limits {
             .collect()
     }
 
-    /// The finding of a correction that shifts its target too far: it is not written.
+    /// The finding of a correction that shifts its target too far, which is not written, and the
+    /// limit that would allow it. What to do is said once all are known: [`advise`].
     pub(super) fn judge(
         &self,
         job: &Job,
         approach: &Approach,
         shift: &Separation,
-    ) -> Option<Finding> {
+    ) -> Option<(Finding, Separation)> {
         let limit = self.of(&job.ground, approach.tool as usize);
         if shift.distance_m <= limit.distance_m && shift.angle_rad <= limit.angle_rad {
             return None;
@@ -83,18 +88,23 @@ impl Limits {
             mm_from_m(limit.distance_m),
             limit.angle_rad / DEG,
         );
-        let asked = |shift: f64, limit: f64| (1.05 * shift.max(limit) * 10.0).ceil() / 10.0;
-        let hint = format!(
-            "check the effects of the profile and the tool's load; --max-shift {}mm,{}deg allows \
-             it",
-            asked(shift_mm, mm_from_m(limit.distance_m)),
-            asked(shift_deg, limit.angle_rad / DEG),
-        );
         let target = approach.target as usize;
-        let finding =
-            job.ground
-                .at_target("shift-too-large", Severity::Error, target, message, &hint);
-        Some(finding)
+        let finding = (job.ground).at_target(TOO_LARGE, Severity::Error, target, message, "");
+        Some((finding, largest(*shift, limit)))
+    }
+}
+
+/// Says which limit allows all corrections that shift their targets too far.
+pub(super) fn advise(findings: &mut [Finding], needed: &Separation) {
+    let asked = |needed: f64| (1.05 * needed * 10.0).ceil() / 10.0;
+    let hint = format!(
+        "check the effects of the profile and the tool's load; --max-shift {}mm,{}deg allows every \
+         one",
+        asked(mm_from_m(needed.distance_m)),
+        asked(needed.angle_rad / DEG),
+    );
+    for finding in findings.iter_mut().filter(|of| of.id == TOO_LARGE) {
+        finding.hint.clone_from(&hint);
     }
 }
 

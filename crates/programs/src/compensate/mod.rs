@@ -447,7 +447,9 @@ fn with(
         deciding: shifts,
         mut splits,
         mut meant,
+        needed,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
+    limit::advise(&mut findings, &needed);
     displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
     deciding::check(&job, &shifts, &mut findings);
     drop((approaches, outcomes));

@@ -5,7 +5,7 @@ use super::outcome::Tally;
 use super::rewrite::{self, Portion, Split};
 use super::{Job, TargetReport, deciding, displaced};
 use crate::finding::Finding;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Separation};
 use crate::inverse::Outcome;
 use crate::program::Edits;
 use rayon::prelude::*;
@@ -29,6 +29,8 @@ pub(super) struct Rewritten {
     pub splits: Vec<Split>,
     /// Configuration data that change: index in the program's numbers, and the value.
     pub meant: Vec<(u32, f64)>,
+    /// As [`Portion::needed`].
+    pub needed: Separation,
 }
 
 /// Puts the fake targets into edits, on all processors.
@@ -75,6 +77,7 @@ pub(super) fn rewrite_all(
         deciding: deciding::targets(job),
         splits: Vec::new(),
         meant: Vec::new(),
+        needed: Separation::default(),
     };
     let chunks: Vec<&[std::ops::Range<usize>]> = groups.chunks(CHUNK).collect();
     // a few chunks for each thread at a time: what they return is not in memory twice for a long
@@ -114,6 +117,7 @@ impl Rewritten {
             findings.extend(portion.findings);
             self.splits.extend(portion.splits);
             self.meant.extend(portion.meant);
+            self.needed = rewrite::largest(self.needed, portion.needed);
         }
     }
 }

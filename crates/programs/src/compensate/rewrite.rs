@@ -44,6 +44,8 @@ pub(super) struct Portion<'a> {
     /// Configuration data that change, and numbers that are put in: index in the program's
     /// numbers, and the value.
     pub meant: Vec<(u32, f64)>,
+    /// The limit that allows every correction which shifts its target too far.
+    pub needed: Separation,
 }
 
 /// A move that is to get a target of its own, and what is said where its text cannot have one.
@@ -83,6 +85,7 @@ impl<'a> Portion<'a> {
             findings: Vec::new(),
             splits: Vec::new(),
             meant: Vec::new(),
+            needed: Separation::default(),
         }
     }
 
@@ -189,8 +192,9 @@ impl<'a> Portion<'a> {
             let frame = job.ground.placed(approach.frame as usize).nominal;
             let meant = alone[0].meant(job);
             let shift = meant.separation(&(frame * approach.taken(fake.frame_from_tool)));
-            if let Some(finding) = job.limits.judge(job, approach, &shift) {
+            if let Some((finding, needed)) = job.limits.judge(job, approach, &shift) {
                 self.findings.push(finding);
+                self.needed = largest(self.needed, needed);
                 return false;
             }
             shifted = largest(shifted, shift);
@@ -255,8 +259,9 @@ impl<'a> Portion<'a> {
             self.findings.push(finding);
             return;
         }
-        if let Some(finding) = job.limits.judge(job, approach, &shift) {
+        if let Some((finding, needed)) = job.limits.judge(job, approach, &shift) {
             self.findings.push(finding);
+            self.needed = largest(self.needed, needed);
             (report.status, report.shift) = (None, shift);
             return;
         }

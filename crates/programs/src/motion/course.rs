@@ -161,13 +161,19 @@ impl ToolCourse {
             }
     }
 
+    /// By how much the tool rotates, radians.
+    #[must_use]
+    pub(crate) fn rotation_rad(&self) -> f64 {
+        match &self.turn {
+            PathRotation::Axis { angle_rad, .. } => angle_rad.abs(),
+            PathRotation::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
+        }
+    }
+
     /// By how much the tool turns, or the arc goes round, radians.
     #[must_use]
     pub(crate) fn angle_rad(&self) -> f64 {
-        let turned = match &self.turn {
-            PathRotation::Axis { angle_rad, .. } => angle_rad.abs(),
-            PathRotation::Angles { by, .. } => by.iter().map(|angle| angle.abs()).sum(),
-        };
+        let turned = self.rotation_rad();
         let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().1);
         match &self.line {
             Line::Straight { .. } => turned + carried,

@@ -133,6 +133,12 @@ pub trait Language: Sync {
         self.decimals(role, 3)
     }
 
+    /// How fast the tool rotates at most on a move whose speed in millimetres is read; `None` where
+    /// programs or controllers say it otherwise.
+    fn rotation_speed_rad_s(&self) -> Option<f64> {
+        None
+    }
+
     /// The pose of a target's numbers: `frame_from_tool`, metres.
     fn pose_of(&self, layout: Layout, numbers: &[f64]) -> Pose;
 

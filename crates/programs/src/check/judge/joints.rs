@@ -117,25 +117,30 @@ impl Job<'_> {
         let Some(duration) = limits.duration_s else {
             return;
         };
-        for i in 0..6 {
-            if let Some(most) = speeds[i]
-                && asked.rate_rad[i] / duration > most
-            {
-                let message = format!(
-                    "at the programmed speed joint {} would rotate at {:.1} deg/s; it can {:.1}",
-                    i + 1,
-                    asked.rate_rad[i] / duration / DEG,
-                    most / DEG
-                );
-                findings.push(self.subject.finding(
-                    self.walk.motion(index),
-                    "joint-speed",
-                    Severity::Warning,
-                    message,
-                    "the controller will slow down",
-                ));
-                break;
-            }
+        // by how much each is too fast
+        let over = |i: usize| Some((i, asked.rate_rad[i] / duration / speeds[i]?));
+        let over = (0..6).filter_map(over).filter(|(_, over)| *over > 1.0);
+        let over: Vec<(usize, f64)> = over.collect();
+        let worst = over.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some(&(i, times)) = worst {
+            let rate = asked.rate_rad[i] / duration / DEG;
+            let others = match over.len() {
+                1 => String::new(),
+                2 => ", and another one is too fast".to_owned(),
+                count => format!(", and {} others are too fast", count - 1),
+            };
+            let message = format!(
+                "at the programmed speed joint {} would rotate at {rate:.1} deg/s; it can {:.1}{others}",
+                i + 1,
+                rate / times
+            );
+            findings.push(self.subject.finding(
+                self.walk.motion(index),
+                "joint-speed",
+                Severity::Warning,
+                message,
+                "the controller will slow down",
+            ));
         }
     }
 

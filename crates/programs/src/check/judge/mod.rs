@@ -75,7 +75,8 @@ impl Job<'_> {
         }
         // where it is unknown how the robot comes there, at the target alone
         let speed = self.walk.program.speed_zone(motion).speed_m_s;
-        let asked = limits::asked(&leg, &pieces, speed);
+        let rotation = self.subject.language.rotation_speed_rad_s();
+        let asked = limits::asked(&leg, &pieces, speed, rotation);
         self.judge_limits(index, &leg, &stop, &asked, &mut findings);
         report.limits = Some(asked.limits);
         let scene = self.subject.scene;

@@ -57,6 +57,7 @@ use super::{
     ReadError, Role, Settings, Source, Step,
 };
 use crate::geometry::Pose;
+use crate::geometry::units::DEG;
 use foldhash::{HashSet, HashSetExt};
 use reader::Reader;
 use resolved::Resolved;
@@ -112,6 +113,11 @@ impl Language for Rapid {
         sources: &[Source],
     ) -> Result<Result<NamedFrame, Remark>, ReadError> {
         records::frame_of(is_tool, name, parts, sources)
+    }
+
+    /// Speed data of ABB's own have 500 deg/s (Technical reference manual, RAPID, `speeddata`).
+    fn rotation_speed_rad_s(&self) -> Option<f64> {
+        Some(500.0 * DEG)
     }
 
     fn decimals(&self, role: Role, millimetre_decimals: usize) -> usize {
