@@ -7,6 +7,7 @@ mod physics;
 mod real;
 mod repeats;
 mod session;
+mod sessions;
 mod standing;
 mod written;
 

@@ -316,6 +316,8 @@ pub(crate) fn attempt(
             _ => break,
         }
     }
+    // where the arm is measured
+    let trust = session.trust;
     progress("fitting what was found");
     let (refit, last) = refit(session.start(), &chosen, &used);
     progress("looking for what no effect explains");

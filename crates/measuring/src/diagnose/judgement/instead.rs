@@ -26,12 +26,15 @@ pub(crate) struct Instead {
 /// What may be in the place of the effects found.
 pub(crate) fn instead(session: &Session, used: &[bool], chosen: &[Chosen]) -> Vec<Instead> {
     let world = session.world(used, &[]);
-    let mut all = Vec::new();
+    let (mut all, mut kinds) = (Vec::new(), Vec::new());
     for (i, own) in chosen.iter().enumerate() {
         let effect = &own.candidate.effect;
         let one = SiteKey::Order.one();
         if effect.definition().begins_at_a_row() {
-            all.extend(slow(session, &world, chosen, i));
+            if !kinds.contains(&effect.kind) {
+                kinds.push(effect.kind);
+                all.extend(slow(session, &world, chosen, effect.kind));
+            }
         } else if effect.definition().site.contains(&SiteKey::Order)
             && effect.site.order > MOST_ORDERS * one
             && session.layout.configurations().is_empty()
@@ -42,52 +45,95 @@ pub(crate) fn instead(session: &Session, used: &[bool], chosen: &[Chosen]) -> Ve
     all
 }
 
-/// What moved at a row, moving evenly from the first row to the last instead: no row is chosen for
-/// that.
-fn slow(session: &Session, world: &World, chosen: &[Chosen], i: usize) -> Option<Instead> {
-    let own = &chosen[i].candidate;
-    let mut effect = own.effect.clone();
-    effect.site.order = 1;
-    let all = (0..effect.definition().parameters.len()).collect();
-    let columns: Vec<Vec<Column>> =
-        columns_of(&session.problem, &session.about, &[(effect.clone(), all)]);
-    let layout = world.layout;
-    let rows = layout.rows() as f64;
-    let evenly = |mut column: Column| {
-        for row in 0..layout.rows() {
-            let part = (row as f64 + 0.5) / rows;
-            layout.row(row).for_each(|number| column[number] *= part);
-        }
-        column
+/// What moves at rows, moving slowly from the first row to the last instead: along a polynomial of
+/// the row, for which no row is chosen. Effects at rows of one kind are steps of one thing: one
+/// polynomial is in the place of them all.
+fn slow(session: &Session, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Instead> {
+    let is_own = |c: &Chosen| {
+        let effect = &c.candidate.effect;
+        effect.kind == kind && effect.definition().begins_at_a_row()
     };
-    let columns: Vec<Column> = columns.into_iter().flatten().map(evenly).collect();
+    let members: Vec<usize> = (0..chosen.len()).filter(|i| is_own(&chosen[*i])).collect();
+    let Some(first) = members.first().map(|i| &chosen[*i].candidate) else {
+        return Vec::new();
+    };
     let (base, fit) = world.fits(chosen);
     let effects: Vec<&[Column]> = chosen.iter().map(|c| c.columns.as_slice()).collect();
     let given = Given::of((&base, world.held), &fit, &effects);
-    let others: Vec<bool> = (0..chosen.len()).map(|k| k != i).collect();
-    let kept = given.kept(&others);
-    let place = columns.len().min(3);
-    let merit = |count: usize| {
-        let columns = &columns[..count];
+    let gain = |columns: &[Column], kept: &[bool]| {
         let (group, cross) = group_of(world, &base, &given, columns);
         let cross: Vec<&[f64]> = cross.iter().map(Vec::as_slice).collect();
-        let gain = given.gain(&group, &cross, &kept, &vec![None; count])?;
-        // the place alone, or the whole
-        let mut candidate = own.clone();
-        candidate.peers = 2;
+        let none = vec![None; columns.len()];
+        given.gain(&group, &cross, &given.kept(kept), &none)
+    };
+    let mut effect = first.effect.clone();
+    effect.site.order = 1;
+    let all = (0..effect.definition().parameters.len()).collect();
+    let columns = columns_of(&session.problem, &session.about, &[(effect, all)]);
+    let columns: Vec<Column> = columns.into_iter().flatten().collect();
+    let layout = world.layout;
+    let along = |column: &Column, degree: usize| {
+        let mut column = column.clone();
+        for row in 0..layout.rows() {
+            let part = 2.0 * (row as f64 + 0.5) / layout.rows() as f64 - 1.0;
+            let times = legendre(degree, part);
+            layout.row(row).for_each(|number| column[number] *= times);
+        }
+        column
+    };
+    let merit = |degree: usize, count: usize, kept: &[bool]| {
+        let powers = (1..=degree).flat_map(|d| columns[..count].iter().map(move |c| (c, d)));
+        let powers: Vec<Column> = powers.map(|(c, d)| along(c, d)).collect();
+        let gain = gain(&powers, kept)?;
+        // the place alone or the whole, and how many powers
+        let mut candidate = first.clone();
+        (candidate.peers, candidate.chosen) = (2 * MOST_POWERS, 0);
         Some(gain.gain - world.cost(&candidate, gain.gain, gain.count))
     };
-    let each = [place, columns.len()].into_iter().filter_map(merit);
-    let best = each.reduce(f64::max)?;
-    let what = match effect.kind {
+    let place = columns.len().min(3);
+    let best = |most: usize, kept: &[bool]| {
+        let all = (1..=most).flat_map(|d| [(d, place), (d, columns.len())]);
+        let each = all.filter_map(|(degree, count)| merit(degree, count, kept));
+        each.reduce(f64::max)
+    };
+    let others: Vec<bool> = chosen.iter().map(|c| !is_own(c)).collect();
+    let own = members.iter().flat_map(|i| &chosen[*i].columns);
+    let own: Vec<Column> = own.cloned().collect();
+    let cost: f64 = members.iter().map(|i| chosen[*i].cost).sum();
+    let steps = gain(&own, &others).map(|gain| gain.gain - cost);
+    let slowly = best(MOST_POWERS, &others);
+    let together = steps.zip(slowly).map(|(steps, slowly)| steps - slowly);
+    let what = match kind {
         Kind::FrameShift => "a measuring device or a base that moves slowly",
         _ => "a tool that moves slowly",
     };
-    Some(Instead {
-        of: i,
-        what: what.to_owned(),
-        behind: chosen[i].merit() - best,
-    })
+    let instead = |i: &usize| {
+        // one of them alone, moving evenly
+        let kept: Vec<bool> = (0..chosen.len()).map(|k| k != *i).collect();
+        let alone = best(1, &kept).map(|evenly| chosen[*i].merit() - evenly);
+        Some(Instead {
+            of: *i,
+            what: what.to_owned(),
+            behind: alone.into_iter().chain(together).reduce(f64::min)?,
+        })
+    };
+    members.iter().filter_map(instead).collect()
+}
+
+/// Powers of the row that are tried: a session that warms up and cools down again has a few bends.
+const MOST_POWERS: usize = 6;
+
+/// A Legendre polynomial, of −1 to 1.
+///
+/// # Source
+/// M. Abramowitz, I. Stegun, *Handbook of Mathematical Functions* (1964), 22.7.10.
+fn legendre(degree: usize, x: f64) -> f64 {
+    let (mut last, mut here) = (0.0, 1.0);
+    for n in 0..degree {
+        let n = n as f64;
+        (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
+    }
+    here
 }
 
 /// Products of columns, with one another and with the effects.

@@ -2,9 +2,11 @@
 
 pub mod noise;
 pub mod shifts;
+mod worth;
 
 use self::noise::{Orientations, Repeats, of_repeats};
 use self::shifts::Shifts;
+use self::worth::g_at_rows;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
@@ -66,6 +68,8 @@ pub struct Session {
     pub columns: Vec<Column>,
     /// How freely each is fitted.
     pub shares: Vec<f64>,
+    /// What is known of the arm, where it is measured.
+    pub trust: Trust,
     /// Values that are chosen from lists.
     pub tried: Tried,
     /// What is tried.
@@ -149,6 +153,33 @@ fn take_over(into: &mut Estimate, from: &Estimate, problem: &Problem, other: &Pr
     }
 }
 
+/// Whether the model with its effects fits the rows at least as well as they are as it does when they
+/// are moved: the place of the base was found with the arm without its effects, which a soft arm is
+/// far from.
+fn is_at_home(
+    profile: &Profile,
+    rows: &Measurements,
+    selection: &Selection,
+    nearer: &Pose,
+) -> bool {
+    let missed = |rows: &Measurements| {
+        let made = Problem::new(profile, rows, selection, profile.world_from_base);
+        let (problem, own) = made
+            .ok()
+            .filter(|(of, _)| of.points.iter().all(|p| p.known))?;
+        let (residual, _) = table(&problem, &own, &[]);
+        let layout = Layout::of(&problem);
+        let row = |at| layout.row(at).map(|number| residual[number].powi(2)).sum();
+        let mut rows: Vec<f64> = (0..layout.rows()).map(row).collect();
+        let middle = rows.len().checked_sub(1)? / 2;
+        Some(*rows.select_nth_unstable_by(middle, f64::total_cmp).1)
+    };
+    match (missed(rows), missed(&rows.clone().moved(nearer))) {
+        (Some(own), Some(moved)) => own <= moved,
+        _ => false,
+    }
+}
+
 /// Prepares a session; `weight` is that of orientations of which no column says how sure they are.
 ///
 /// # Errors
@@ -178,7 +209,9 @@ pub fn session(
     let real = profile.world_from_real_base();
     // a track would take a turned device for its own error
     let on_track = !profile.external.track.is_empty();
-    let elsewhere = on_track || !is_same_place(base_gap(&real, &base));
+    let elsewhere = on_track
+        || !is_same_place(base_gap(&real, &base))
+            && !is_at_home(profile, &fit, &selection, &(real * base.inverse()));
     let nearer = if elsewhere {
         real * base.inverse()
     } else {
@@ -283,11 +316,22 @@ pub fn session(
         .filter(|(i, _)| kept.contains(i))
         .map(|(_, column)| column)
         .collect();
-    let shares: Vec<f64> = kept.iter().map(|i| shares[*i]).collect();
+    let mut shares: Vec<f64> = kept.iter().map(|i| shares[*i]).collect();
     problem.parameters = kept
         .iter()
         .map(|i| problem.parameters[*i].clone())
         .collect();
+    let trust = match trust {
+        Trust::Nothing => trust,
+        Trust::Calibrated { g } => {
+            let own = (&columns[..], &shares[..]);
+            let g = g_at_rows(g, profile, (&problem, &about), (&layout, &used), own);
+            for share in shares.iter_mut().filter(|share| **share < 1.0) {
+                *share = g / (1.0 + g);
+            }
+            Trust::Calibrated { g }
+        }
+    };
     let (present, _) = table(&problem, &present_estimate, &[]);
     let tried = Tried::of(&problem, &estimate);
     let mut candidates = Candidates::of(&problem, &about, measurements, &tried, leave);
@@ -310,6 +354,7 @@ pub fn session(
             residual,
             columns,
             shares,
+            trust,
             tried,
             candidates,
             repeats,
