@@ -168,11 +168,7 @@ fn is_at_home(
             .ok()
             .filter(|(of, _)| of.points.iter().all(|p| p.known))?;
         let (residual, _) = table(&problem, &own, &[]);
-        let layout = Layout::of(&problem);
-        let row = |at| layout.row(at).map(|number| residual[number].powi(2)).sum();
-        let mut rows: Vec<f64> = (0..layout.rows()).map(row).collect();
-        let middle = rows.len().checked_sub(1)? / 2;
-        Some(*rows.select_nth_unstable_by(middle, f64::total_cmp).1)
+        Some(residual.iter().map(|number| number * number).sum::<f64>())
     };
     match (missed(rows), missed(&rows.clone().moved(nearer))) {
         (Some(own), Some(moved)) => own <= moved,
