@@ -385,7 +385,8 @@ pub(super) fn gather(
 }
 
 /// Which of the program files `--only` means: all where it names none. A name is that of a file, with
-/// or without its extension and the folders above it, or leads to the file.
+/// or without its extension and the folders above it, or leads to the file; files that differ by their
+/// extensions alone are one program.
 pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<bool>, Failure> {
     let named: Vec<Option<Identity>> = only
         .iter()
@@ -405,8 +406,13 @@ pub(super) fn meant(programs: &[ProgramFile], only: &[String]) -> Result<Vec<boo
             ));
         }
     }
-    let meant =
-        |program: &ProgramFile| only.is_empty() || (0..only.len()).any(|at| is(&program.path, at));
+    // files of one name are one module: a.src means a.dat, too
+    let module = |program: &ProgramFile| program.path.with_extension("");
+    let named = programs
+        .iter()
+        .filter(|program| (0..only.len()).any(|at| is(&program.path, at)));
+    let named: BTreeSet<PathBuf> = named.map(module).collect();
+    let meant = |program: &ProgramFile| only.is_empty() || named.contains(&module(program));
     Ok(programs.iter().map(meant).collect())
 }
 

@@ -405,6 +405,41 @@ fn a_file_that_is_given_twice_is_refused() {
 }
 
 #[test]
+fn one_file_of_a_module_means_the_others_of_its_name() {
+    let folder = scratch();
+    let path = folder.path();
+    std::fs::create_dir(path.join("in")).expect("scratch");
+    std::fs::copy(repository("programs/krl/profile.yaml"), path.join("p.yaml")).expect("scratch");
+    let data = "&ACCESS RVP\nDEFDAT $CONFIG\nDECL FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0.0,Y 0.0,Z \
+        100.0,A 0.0,B 0.0,C 0.0}\nDECL FRAME BASE_DATA[32]\nBASE_DATA[1]={X 0.0,Y 0.0,Z 0.0,A \
+        0.0,B 0.0,C 0.0}\nENDDAT\n";
+    std::fs::write(path.join("in/$config.dat"), data).expect("scratch");
+    for (name, x) in [("a", 700), ("b", 720)] {
+        let program = format!(
+            "DEF {name}()\nBAS(#TOOL,1)\nBAS(#BASE,1)\nPTP {{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 \
+             0}}\nLIN XP1\nEND\n"
+        );
+        let point = format!(
+            "DEFDAT {name}\nDECL E6POS XP1={{X {x}.0,Y 0.0,Z 700.0,A 180.0,B 30.0,C 180.0}}\nENDDAT\n"
+        );
+        std::fs::write(path.join(format!("in/{name}.src")), program).expect("scratch");
+        std::fs::write(path.join(format!("in/{name}.dat")), point).expect("scratch");
+    }
+    for only in ["b", "b.src", "b.dat", "in/b.src"] {
+        let command = ["compensate", "in", "-o", "out", "--only", only, "--json"];
+        let output = run(path, &command);
+        let said = reported(&output);
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(
+            report["input"],
+            serde_json::json!(["in/b.dat", "in/b.src"]),
+            "{said}"
+        );
+        let _ = std::fs::remove_dir_all(path.join("out"));
+    }
+}
+
+#[test]
 fn of_several_files_the_text_of_check_names_the_one_that_is_worst() {
     let folder = world();
     let path = folder.path();

@@ -4,7 +4,7 @@ use super::{Choices, Listed, MOST_USES, Refused, Resolver};
 use crate::finding::Severity;
 use crate::motion::flow::OF_MOVE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, ValueId};
+use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, RemarkId, ValueId};
 use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
 
 impl Resolver<'_, '_> {
@@ -334,6 +334,12 @@ impl Resolver<'_, '_> {
         made
     }
 
+    /// Whether a remark is about where a move goes, not about its tool or frame.
+    fn is_of_a_position(&self, remark: RemarkId) -> bool {
+        let id = self.report.remark_of(self.script, remark).id;
+        matches!(id, "computed-target" | "target-copied")
+    }
+
     pub(super) fn refuse(
         &mut self,
         target: TargetId,
@@ -346,12 +352,13 @@ impl Resolver<'_, '_> {
             .written(written, instruction)
             .or(Some(instruction.place));
         match why {
-            Refused::Said(remark) => {
+            Refused::Said(remark) if !self.is_of_a_position(remark) => {
                 let remark = self.report.remark_of(self.script, remark).clone();
                 self.report
                     .block(target, remark.id, &remark.text, remark.hint, because);
             }
-            Refused::Chosen => self.report.block(
+            // a tool or frame that is a copy of a position, too
+            Refused::Said(_) | Refused::Chosen => self.report.block(
                 target,
                 "frame-chosen-at-run-time",
                 &format!("only the running program knows the {what}"),

@@ -141,8 +141,10 @@ pub(super) const SOME_AXES: Remark = Remark::warning(
 
 pub(super) const FROM_NOWHERE: Remark = Remark::error(
     "relative-move",
-    "this move goes relative to a position that the text does not tell; it is not compensated",
-    "write the target, or put the move behind one to a known target",
+    "this move goes relative to a position that the text does not tell, in another tool or base \
+         than the move before, or by angles; it is not compensated",
+    "write the target, or put the move behind one to a known target in the same tool and base, \
+         without angles",
 );
 
 /// Against arcs with an angle.

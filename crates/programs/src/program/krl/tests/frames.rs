@@ -533,6 +533,21 @@ fn a_kept_orientation_is_refused_where_the_target_has_another() {
 }
 
 #[test]
+fn a_base_that_is_computed_from_a_copy_is_no_computed_target() {
+    for (declared, given) in [("F", "$BASE=F"), ("F", "BASE_DATA[3]=F\nBAS(#BASE,3)")] {
+        let program = path(&format!(
+            "DECL FRAME {declared}\n{declared}=BASE_DATA[1]\n{declared}.Z={declared}.Z+30\n{given}\nLIN XP1"
+        ));
+        let found = reported(&program);
+        assert!(
+            found.contains(&"frame-chosen-at-run-time"),
+            "{given}: {found:?}"
+        );
+        assert!(!found.contains(&"computed-target"), "{given}: {found:?}");
+    }
+}
+
+#[test]
 fn commands_of_bas_that_set_a_base_are_not_passed_over() {
     let program = path("BAS(#EX_BASE,1)\nLIN XP1");
     assert_eq!(reported(&program), ["moving-frame"]);
