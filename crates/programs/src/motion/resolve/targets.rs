@@ -336,8 +336,7 @@ impl Resolver<'_, '_> {
 
     /// Whether a remark is about where a move goes, not about its tool or frame.
     fn is_of_a_position(&self, remark: RemarkId) -> bool {
-        let id = self.report.remark_of(self.script, remark).id;
-        matches!(id, "computed-target" | "target-copied")
+        self.report.remark_of(self.script, remark).id == "computed-target"
     }
 
     pub(super) fn refuse(
