@@ -383,7 +383,7 @@ impl Compensate {
         }
         let written = !header.outputs.is_empty();
         let mut text = String::new();
-        if !written || !output.quiet {
+        if !output.quiet || !written {
             text += &layout::findings(&compensation.findings, output);
         }
         if !output.quiet {

@@ -4,7 +4,6 @@ use super::files::{Files, NewFile, is_standard_output};
 use super::progress::Progress;
 use super::screen::{self, Stop};
 use super::{Answer, Output, layout};
-use crate::finding::Severity;
 use crate::geometry::Convention;
 use crate::printable::{name_of, shell_word};
 use crate::report::html::page::Page;
@@ -347,9 +346,7 @@ fn deliver_with_page(
 /// What should be looked at, as standard error gets it.
 pub(super) fn findings(found: &impl Report, shown: Shown, output: Output) -> String {
     if output.quiet {
-        let mut errors = found.findings().to_vec();
-        errors.retain(|finding| finding.severity == Severity::Error);
-        layout::findings_of_errors(&errors, true)
+        layout::findings_of_errors(&layout::errors(found.findings()), true)
     } else {
         layout::findings_of_errors(found.findings(), output.verbose || shown == Shown::All)
     }

@@ -52,9 +52,13 @@ pub(super) fn findings(findings: &[Finding], output: Output) -> String {
     if !output.quiet {
         return of_findings(findings, output.verbose, seen());
     }
+    of_findings(&errors(findings), output.verbose, seen())
+}
+
+/// The errors alone.
+pub(super) fn errors(findings: &[Finding]) -> Vec<Finding> {
     let is_error = |finding: &&Finding| finding.severity == Severity::Error;
-    let errors: Vec<Finding> = findings.iter().filter(is_error).cloned().collect();
-    of_findings(&errors, output.verbose, seen())
+    findings.iter().filter(is_error).cloned().collect()
 }
 
 /// Findings for standard error, as [`findings`] has them.

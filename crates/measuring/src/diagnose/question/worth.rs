@@ -16,9 +16,8 @@ use crate::identify::problem::{Estimate, Problem};
 use crate::profile::Profile;
 use nalgebra::{DMatrix, DVector};
 
-/// By chance alone the largest eigenvalue is so many times the others: a calibration of twice as
-/// many rows as parameters gives about 3 (V. Marchenko, L. Pastur, 1967: `(1 − √½)⁻²` less its
-/// edge).
+/// By chance alone the largest eigenvalue is so many times g: a calibration from six times as many
+/// numbers as it has parameters gives `(1 − √⅙)⁻² = 2.9` (V. Marchenko, L. Pastur, 1967).
 const BY_CHANCE: f64 = 3.0;
 /// More than this is no prior any more.
 const MOST: f64 = 100.0;
