@@ -353,6 +353,45 @@ fn a_mass_that_the_profile_has_under_another_name_is_reported() {
 }
 
 #[test]
+fn a_mass_that_nobody_gives_is_reported_with_what_a_kilogram_moves() {
+    let seal = text("programs/fanuc/olp/in/seal.ls");
+    let profile = text("programs/fanuc/profile.yaml");
+    let massless: String = profile
+        .lines()
+        .filter(|line| !line.contains("mass_kg: 95") && !line.contains("mass_kg: 38"))
+        .map(|line| line.replace("tools:", "tools: {}") + "\n")
+        .collect();
+    let with = |profile: &str| {
+        let more = [
+            "--tool",
+            "1=85,0,420,0,30,0",
+            "--frame",
+            "4=1400,350,-200,0,0,-15",
+        ];
+        compensated("seal.ls", &seal, profile, &more)
+    };
+    let (status, said, _) = with(&massless);
+    assert_eq!(status, 0, "{said}");
+    for word in [
+        "load-unknown",
+        "tool `1`",
+        "0 kg",
+        "each kg moves",
+        "add-tool",
+    ] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    // an arm that nothing bends
+    let rigid: String = massless
+        .lines()
+        .filter(|line| !line.contains("compliance"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let (status, said, _) = with(&rigid);
+    assert!(status == 0 && !said.contains("load-unknown"), "{said}");
+}
+
+#[test]
 fn loads_beyond_the_payload_are_errors() {
     let robot = "robot: {manufacturer";
     let limited = changed(THESIS, robot, "robot: {payload_kg: 2.7, manufacturer");

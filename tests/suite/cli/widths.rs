@@ -125,7 +125,7 @@ fn where_nobody_looks_text_is_eighty_columns_without_colour_and_a_finding_is_one
     let (out, _) = reported(finds, folder.path(), None);
     let finding = out
         .lines()
-        .find(|line| line.contains("warning["))
+        .find(|line| line.contains("warning[displaced-target]"))
         .expect("a finding");
     assert!(finding.ends_with("off its own wanted pose"), "{finding}");
     assert!(!out.contains('\x1b'), "{out}");

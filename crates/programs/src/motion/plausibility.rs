@@ -8,7 +8,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::model::Conditions;
 use crate::model::effects::{Effect, Need, same_tool};
 use crate::nearest;
-use crate::profile::{Profile, ToolOfProfile, is_tiny};
+use crate::profile::{Mounted, Profile, ToolOfProfile, is_tiny};
 use crate::program::Move;
 use std::f64::consts::TAU;
 
@@ -18,6 +18,8 @@ pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in t
 
 /// No arm carries more, kg.
 const MOST_LOAD_KG: f64 = 1e4;
+/// A shift by less is not worth a word, mm.
+const VISIBLE_MM: f64 = 0.01;
 /// No tool, work frame or target is farther away, metres.
 pub(super) const FARTHEST_M: f64 = 1e3;
 
@@ -289,14 +291,19 @@ fn largest_mm(point_m: &Vector) -> f64 {
     (mm_from_m(farthest(point_m)) * 1e6).round() / 1e6
 }
 
-/// A tool counts as weightless, and the profile has masses of tools of other names.
+/// A tool counts as weightless although nobody said so, and the arm bends under what it carries.
 fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     let profile = ground.profile;
+    // who names it in the profile and gives no mass means none
+    if !sags(profile) || profile.tool(name).is_some() {
+        return None;
+    }
     let heavy = |(_, tool): &(&String, &ToolOfProfile)| tool.load.is_some_and(|(kg, _)| kg > 0.0);
     let heavy = profile.tools.iter().filter(heavy);
     let heavy: Vec<&str> = heavy.map(|(name, _)| name.as_str()).collect();
-    // who names it in the profile and gives no mass means none
-    if heavy.is_empty() || !sags(profile) || profile.tool(name).is_some() {
+    let tool = ground.setting.tools[motion.tool].as_ref()?;
+    let of_a_kg_mm = of_a_kg_mm(ground, tool);
+    if heavy.is_empty() && of_a_kg_mm * profile.payload_kg.unwrap_or(1.0) < VISIBLE_MM {
         return None;
     }
     let named = if name.is_empty() {
@@ -304,15 +311,40 @@ fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     } else {
         format!("tool `{name}`")
     };
-    let message = format!(
-        "neither the program files nor the profile give the mass of {named}: it counts as 0 kg; \
-         the profile has the masses of: {}",
-        heavy.join(", ")
+    let mut message = format!(
+        "neither the program files nor the profile give the mass of {named}: it counts as 0 kg, and \
+         each kg moves the tool by some {of_a_kg_mm:.3} mm"
     );
-    let hint = "call the tool in the profile as the program does (docs/formats.md has the name in \
-        each language)";
+    let hint = if heavy.is_empty() {
+        let name = if name.is_empty() { "NAME" } else { name };
+        format!(
+            "give it in the profile under this name: poseshift profile add-tool PROFILE \
+             '{name}=X,Y,Z,RX,RY,RZ,KG' --in-place (KG 0 where it carries nothing)"
+        )
+    } else {
+        message.push_str("; the profile has the masses of: ");
+        message.push_str(&heavy.join(", "));
+        "call the tool in the profile as the program does (docs/formats.md has the name in each \
+         language)"
+            .into()
+    };
     let (id, severity) = ("load-unknown", Severity::Warning);
-    Some(ground.at_move(id, severity, motion, message, hint))
+    Some(ground.at_move(id, severity, motion, message, &hint))
+}
+
+/// By how much one kilogram at the tool's centre point moves it, in the middle of the joints' ranges.
+fn of_a_kg_mm(ground: &Ground, tool: &Mounted) -> f64 {
+    let (q, conditions) = (middle(ground), Conditions::default());
+    let with = |kg: f64| {
+        let load = Some((kg, tool.flange_from_tool.translation));
+        let tool = Mounted {
+            load,
+            ..tool.clone()
+        };
+        let real = ground.profile.real_model(&tool, &conditions);
+        real.forward(&q, &conditions)
+    };
+    mm_from_m(with(1.0).separation(&with(0.0)).distance_m)
 }
 
 /// Joints about in the middle of their ranges, and aligned with nothing.
