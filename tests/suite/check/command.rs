@@ -31,7 +31,7 @@ fn json(arguments: &[&str]) -> (i32, Value) {
     )
 }
 
-fn name(path: &Path) -> &str {
+pub(super) fn name(path: &Path) -> &str {
     path.to_str().expect("UTF-8")
 }
 

@@ -6,6 +6,7 @@ mod insert;
 mod laws;
 mod meshes;
 mod mutated;
+mod reach;
 mod rooms;
 mod several;
 mod urdf;

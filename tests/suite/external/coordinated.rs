@@ -1,4 +1,5 @@
-//! Moves on which a positioner moves the part, with and without words that make the tool go with it.
+//! Moves on which a positioner moves the part, with and without words that make the tool go with it, and
+//! such on which a rail goes.
 
 use crate::support::{run, scratch, text};
 use serde_json::Value;
@@ -7,6 +8,9 @@ use serde_json::Value;
 const TABLE: &str = "external_axes:\n  positioners:\n    - name: G2\n      follows: always\n      axes:\n        \
      - {axis: G2J1, at: {x_mm: 565.52, y_mm: 0, z_mm: -46.21, rx_deg: 0, ry_deg: 0, rz_deg: 0}, min_deg: -180, \
      max_deg: 180}\n      plate: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}\n";
+
+/// The work frame on it.
+const PLATE: &str = "1=0,0,0,0,0,0";
 
 fn listing(words: &str, table_deg: [f64; 2]) -> String {
     let group = |deg: f64| format!("   GP2:\n\tUF : 1, UT : 1,\t\n\tJ1 = {deg:.3} deg\n}};\n");
@@ -26,19 +30,19 @@ fn listing(words: &str, table_deg: [f64; 2]) -> String {
 }
 
 /// What `check` finds of the straight move, and whether it knows its path.
-fn found(words: &str, table_deg: [f64; 2]) -> (Vec<String>, Value) {
+fn found(program: &str, external: &str, frame: &str) -> (Vec<String>, Value) {
     let folder = scratch();
     let at = |name: &str, text: String| {
         let path = folder.path().join(name);
         std::fs::write(&path, text).expect("scratch");
         path.display().to_string()
     };
-    let program = at("t.ls", listing(words, table_deg));
+    let program = at("t.ls", program.to_owned());
     let profile = at(
         "p.yaml",
-        text("robots/fanuc_lrmate200ic.yaml").trim_end().to_owned() + "\n" + TABLE,
+        text("robots/fanuc_lrmate200ic.yaml").trim_end().to_owned() + "\n" + external,
     );
-    let given = ["--tool", "1=0,0,100,0,0,0", "--frame", "1=0,0,0,0,0,0"];
+    let given = ["--tool", "1=0,0,100,0,0,0", "--frame", frame];
     let command = ["check", &program, "--profile", &profile, "--json"];
     let (status, out, said) = run(&[&command[..], &given].concat());
     let report: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{status}: {said}"));
@@ -54,16 +58,35 @@ fn found(words: &str, table_deg: [f64; 2]) -> (Vec<String>, Value) {
 #[test]
 fn a_path_that_does_not_go_with_the_part_is_not_certified() {
     let turning = [-20.0, 20.0];
-    let (said, certified) = found("", turning);
+    let (said, certified) = found(&listing("", turning), TABLE, PLATE);
     assert!(
         said.len() == 1 && said[0].contains("no COORD") && certified == false,
         "{said:?}"
     );
     for (words, table_deg) in [(" COORD", turning), ("", [20.0, 20.0])] {
-        let (said, certified) = found(words, table_deg);
+        let (said, certified) = found(&listing(words, table_deg), TABLE, PLATE);
         assert!(
             said.is_empty() && certified == true,
             "{words}: {said:?} {certified}"
         );
     }
+}
+
+#[test]
+fn a_path_on_which_the_rail_goes_is_certified() {
+    let rail = "external_axes:\n  track:\n    - {axis: E1, direction: [0, 1, 0], up: [0, 0, 1], zero_mm: 0, \
+        min_mm: -1000, max_mm: 1000}\n";
+    let program = listing("", [0.0, 0.0]);
+    let on_rail = |text: &str, group: &str, e1: f64| {
+        let (before, behind) = text.split_once("   GP2:").expect("a group");
+        let end = behind.find("};").expect("an end");
+        format!(
+            "{},\tE1 = {e1:.3} mm\n{}{group}",
+            before.trim_end(),
+            &behind[end..]
+        )
+    };
+    let program = on_rail(&on_rail(&program, "", 0.0), "", 150.0).replace("1,1,*", "1,*,*");
+    let (said, certified) = found(&program, rail, "1=565.52,0,-46.21,0,0,0");
+    assert!(said.is_empty() && certified == true, "{said:?} {certified}");
 }

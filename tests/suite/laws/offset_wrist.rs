@@ -181,3 +181,100 @@ fn a_path_lands_and_poses_near_a_border_are_reported() {
         assert!(fake.separation(wanted).distance_m > 1e-4);
     }
 }
+
+/// An arm of the catalogue with an offset wrist, and an error of its own.
+fn cobot() -> (tempfile::TempDir, String) {
+    let folder = scratch();
+    let file = folder.path().join("arm.yaml").display().to_string();
+    let made = ["profile", "new", "--robot", "yaskawa_hc10", "-o", &file];
+    let (status, _, said) = run(&made);
+    assert_eq!(status, 0, "{said}");
+    let text = std::fs::read_to_string(&file).expect("a profile");
+    let (before, _) = text.split_once("effects: []").expect("a nominal profile");
+    std::fs::write(&file, before.to_owned() + EFFECTS).expect("scratch");
+    (folder, file)
+}
+
+#[test]
+fn a_posture_at_the_border_of_two_branches_is_among_all_answers() {
+    let (_folder, file) = cobot();
+    let profile = Profile::from_yaml(&std::fs::read_to_string(file).expect("a profile"));
+    let profile = profile.expect("a profile");
+    let arm = arm_of(&profile);
+    let mut random = StdRng::seed_from_u64(5);
+    for _ in 0..300 {
+        let mut q = random_joints(&mut random, &profile);
+        // the arm is stretched out
+        q[2] = 0.0;
+        if q[4].sin().abs() < 0.1 {
+            continue;
+        }
+        let answers = arm.solve_all(&arm.forward(&q), &q);
+        let apart = |answer: &poseshift::inverse::Answer| {
+            let each = (0..6).map(|i| wrap(answer.q[i] - q[i]).abs());
+            each.fold(0.0, f64::max)
+        };
+        let nearest = answers.iter().map(apart).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-6, "{q:?}: {nearest}");
+    }
+}
+
+#[test]
+fn a_straight_path_goes_on_where_it_leaves_its_branch() {
+    let (folder, file) = cobot();
+    let profile = Profile::from_yaml(&std::fs::read_to_string(&file).expect("a profile"));
+    let arm = arm_of(&profile.expect("a profile"));
+    let joints = |third: f64| [0.0, -70.0, third, -60.0, -50.0, 15.0];
+    for thirds in [
+        [-0.5, -0.25, 0.0, 0.25, 0.5],
+        [-1.0, -0.1, 0.1, 1.0, 2.0],
+        [-4.0, -2.0, -0.01, 1.0, 3.0],
+    ] {
+        let mut rows = String::from("id,x_mm,y_mm,z_mm,qw,qx,qy,qz\n");
+        for third in thirds {
+            let pose = arm.forward(&joints(third).map(f64::to_radians));
+            let [x, y, z] = pose.translation.map(|m| 1e3 * m);
+            let [w, i, j, k] = pose.rotation.quaternion().0;
+            rows += &format!("{third},{x:.6},{y:.6},{z:.6},{w:.10},{i:.10},{j:.10},{k:.10}\n");
+        }
+        let given = folder.path().join("path.csv").display().to_string();
+        std::fs::write(&given, rows).expect("scratch");
+        let start = joints(thirds[0]).map(|q| q.to_string()).join(",");
+        let start = format!("--start-joints={start}");
+        let common = [
+            &given,
+            "--profile",
+            &file,
+            "--tool",
+            "0,0,0,0,0,0",
+            &start,
+            "--json",
+        ];
+        let (_, json, said) = run(&[&["check"], &common[..]].concat());
+        let report: Value = serde_json::from_str(&json).unwrap_or_else(|_| panic!("{said}"));
+        let moves = report["moves"].as_array().expect("moves");
+        for (third, one) in thirds.iter().zip(moves) {
+            let found: Vec<f64> = serde_json::from_value(one["joints_deg"].clone()).expect("six");
+            let near = |(a, b): (&f64, f64)| (a - b).abs() < 0.01;
+            assert!(
+                found.iter().zip(joints(*third)).all(near),
+                "{third}: {found:?}"
+            );
+        }
+        // and the corrected ones are those of the same postures
+        let written = folder.path().join("fake.csv").display().to_string();
+        let out = ["-o", &written, "--force"];
+        let (status, json, said) = run(&[&["compensate"], &common[..], &out].concat());
+        assert_eq!(status, 0, "{said}");
+        let report: Value = serde_json::from_str(&json).expect("JSON");
+        let targets = report["targets"].as_array().expect("targets");
+        for (third, one) in thirds.iter().zip(targets) {
+            let found: Vec<f64> = serde_json::from_value(one["joints_deg"].clone()).expect("six");
+            let near = |(a, b): (&f64, f64)| (a - b).abs() < 2.0;
+            assert!(
+                found.iter().zip(joints(*third)).all(near),
+                "{third}: {found:?}"
+            );
+        }
+    }
+}

@@ -62,7 +62,7 @@ pub(crate) fn align(
 }
 
 /// The stop of the original's move that the robot comes to as to a stop of ours: from the same
-/// move, else in the nearest joints.
+/// moves, else along the nearest joints.
 fn alike(
     walk: &Walk,
     original: &Walk,
@@ -70,25 +70,41 @@ fn alike(
     theirs: usize,
     of_moves: &[Option<Part>],
 ) -> Option<usize> {
-    let ours = walk.stops.all[stop]?;
-    let before = (walk.stops.before(stop))
-        .and_then(|before| of_moves[walk.index(before)])
-        .map(|part| original.index(part.stop));
-    let gap = |at: &usize| {
-        let other = original.stops.all[*at].expect("those that are known");
-        let began = original.stops.before(*at).map(|at| original.index(at));
-        let is_other_way = began != before;
-        let joints = (0..6).map(|k| (ours.q[k] - other.q[k]).abs());
-        (is_other_way, joints.fold(0.0, f64::max))
+    walk.stops.all[stop]?;
+    let ours = passed(walk, stop);
+    let of_ours = |at: usize| of_moves[walk.index(at)].map(|part| original.index(part.stop));
+    let gap = |at: usize| {
+        let theirs = passed(original, at);
+        let (mut other_moves, mut joints_rad) = (0, 0.0);
+        for pair in ours.iter().zip(theirs) {
+            let (Some(mine), Some(their)) = (*pair.0, pair.1) else {
+                other_moves += u32::from(pair.0.is_some() != pair.1.is_some());
+                continue;
+            };
+            other_moves += u32::from(of_ours(mine) != Some(original.index(their)));
+            let known = walk.stops.all[mine].zip(original.stops.all[their]);
+            joints_rad += known.map_or(0.0, |(mine, their)| {
+                let gaps = (0..6).map(|k| (mine.q[k] - their.q[k]).abs());
+                gaps.fold(0.0, f64::max)
+            });
+        }
+        (other_moves, joints_rad)
     };
-    let known = original
-        .stops_of(theirs)
-        .filter(|at| original.stops.all[*at].is_some());
-    known.min_by(|a, b| {
-        gap(a)
-            .partial_cmp(&gap(b))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    })
+    let known = original.stops_of(theirs);
+    let known = known.filter(|at| original.stops.all[*at].is_some());
+    let gaps = known.map(|at| (at, gap(at)));
+    let nearest = gaps.min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    nearest.map(|(at, _)| at)
+}
+
+/// A stop and those before it from which its path begins: of an arc its middle, and its beginning.
+fn passed(walk: &Walk, stop: usize) -> [Option<usize>; 3] {
+    let before = walk.stops.before(stop);
+    let is_middle = |at: &usize| walk.motion(*at).motion == Motion::ArcVia;
+    let first = before
+        .filter(is_middle)
+        .and_then(|at| walk.stops.before(at));
+    [Some(stop), before, first]
 }
 
 /// For each move of the program the part of the original that it is, with the first stop of the

@@ -295,12 +295,19 @@ impl Walk {
                 && !self.leaves_the_part(stop)
     }
 
-    /// Whether external axes move on the path to a stop that is not relative to what they carry.
+    /// Whether what carries the work frame moves on the path to a stop that is not relative to it.
     pub(super) fn leaves_the_part(&self, stop: usize) -> bool {
-        let stands = |stop: usize| self.program.stands_at(self.index(stop));
+        let motion = self.motion(stop);
+        let stand = self.program.frames[motion.frame].stand.as_ref();
+        let Some(carrier) = stand.and_then(|stand| stand.positioner) else {
+            return false;
+        };
+        let external = &self.profile.external;
+        let first = external.first_of(carrier);
+        let own = first..first + external.positioners[carrier].axes.len();
+        let stands = |stop: usize| self.program.stands_at(self.index(stop)).get(own.clone());
         let before = self.stops.before(stop);
-        !self.motion(stop).coordinated
-            && before.is_some_and(|before| stands(before) != stands(stop))
+        !motion.coordinated && before.is_some_and(|before| stands(before) != stands(stop))
     }
 
     /// Index of the move of a stop.

@@ -90,6 +90,12 @@ impl Equipped {
         branch: Branch,
         near: &[f64; 6],
     ) -> ([f64; 6], bool) {
+        let branch = if self.arm.has_offset_wrist() {
+            // the track of such an arm may have left the branch on which it began
+            self.arm.posture(near).0
+        } else {
+            branch
+        };
         match &self.calibrated_controller {
             None => {
                 let solution = self.arm.solve_branch(world_from_tool, branch, near);

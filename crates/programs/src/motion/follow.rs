@@ -189,6 +189,10 @@ pub(crate) fn follow(
         (s, q) = (next, there);
         step = (2.0 * step).min(longest);
     }
+    if arm.has_offset_wrist() {
+        // the track of such an arm goes from branch to branch
+        branch = arm.posture(&q).0;
+    }
     Some(Followed { branch, q, passing })
 }
 

@@ -33,6 +33,7 @@ impl Walker<'_, '_> {
         let along = start.filter(|_| {
             motion.motion != Motion::Joint && !motion.free_orientation && near.is_none()
         });
+        let mut leaves_reach = false;
         if let Some(start) = along {
             let course = course(
                 motion,
@@ -55,6 +56,7 @@ impl Walker<'_, '_> {
                 }
                 return Some(posture);
             }
+            leaves_reach = true;
         }
         let asked = Asked {
             target,
@@ -67,6 +69,18 @@ impl Walker<'_, '_> {
             goes_on: last_known.is_some() && !self.named.contains_key(&target),
         };
         let posture = posture::choose(ground, &asked, self.findings)?;
+        if leaves_reach && !self.walk_options.strict {
+            let joints = posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
+            let message = format!(
+                "the path to {} leaves the reach of the posture in which it begins, and the controller \
+                 stops there; joints {joints} deg are taken at its end",
+                ground.name_of(target)
+            );
+            let hint = "go round with a target between, or a joint move";
+            let id = "path-out-of-reach";
+            let finding = ground.at_move(id, Severity::Warning, motion, message, hint);
+            self.findings.push(finding);
+        }
         if near.is_some() {
             self.named.insert(target, posture.q);
         }

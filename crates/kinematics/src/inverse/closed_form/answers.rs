@@ -131,8 +131,8 @@ impl Arm {
     }
 
     /// The answer of an arm with an offset wrist to start from on one branch: that on the track of
-    /// a posture of this branch, wherever that leads, or the one on the branch that is nearest
-    /// to the posture.
+    /// a posture of this branch, or at its border, wherever that leads, or the one on the branch that
+    /// is nearest to the posture.
     pub(in crate::inverse) fn offset_start(
         &self,
         world_from_tool: &Pose,
@@ -140,7 +140,7 @@ impl Arm {
         near: &[f64; 6],
     ) -> Rotated {
         let posture = AxisRotation::of_each(&self.mechanism.commanded(near));
-        let on_branch = self.stance(&posture).branch() == branch;
+        let on_branch = self.stance(&posture).is_on(branch);
         let arm = self.arm_branch(&posture);
         if let Some(turns) = self
             .offset_near(world_from_tool, &posture, arm)

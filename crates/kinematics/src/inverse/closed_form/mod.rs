@@ -20,6 +20,7 @@ pub(super) use answers::is_close;
 pub use conditions::Unsupported;
 
 use super::branch::Branch;
+use crate::geometry::units::{DEG, MM};
 use crate::geometry::{AxisRotation, Jet, Pose, Rotation, Scalar, Vector, add};
 use crate::model::{Chain, Mechanism};
 
@@ -121,7 +122,19 @@ pub(super) struct Stance<S = f64> {
     pub shoulder_m: S,
 }
 
+/// A posture this near to the border of a branch belongs to it, too: a correction may lead across.
+const BORDER_RAD: f64 = 2.0 * DEG;
+const BORDER_M: f64 = 5.0 * MM;
+
 impl Stance {
+    /// Whether a posture is on a branch, or at its border.
+    pub(super) fn is_on(&self, branch: Branch) -> bool {
+        let (own, margins) = (self.branch(), self.margins());
+        (own.behind_axis_1 == branch.behind_axis_1 || margins.shoulder_m < BORDER_M)
+            && (own.behind_lower_arm == branch.behind_lower_arm || margins.elbow_rad < BORDER_RAD)
+            && (own.joint_5_negative == branch.joint_5_negative || margins.wrist_rad < BORDER_RAD)
+    }
+
     pub(super) fn branch(&self) -> Branch {
         Branch {
             behind_axis_1: self.shoulder_m < 0.0,

@@ -6,11 +6,16 @@ use crate::check::limits::Asked;
 use crate::check::walk::Stop;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::inverse::Margins;
 use crate::motion::course::Course;
+use crate::motion::follow::follow;
 use crate::motion::leg::Leg;
 
 /// Two joint angles that differ by less are the same, radians.
 const SAME_RAD: f64 = 0.5 * DEG;
+/// Nearer than this to the border of the arm's reach a path is looked at in small steps.
+const NEAR_BORDER_RAD: f64 = 15.0 * DEG;
+const NEAR_BORDER_M: f64 = 50.0 * MM;
 
 impl Job<'_> {
     pub(super) fn judge_limits(
@@ -94,7 +99,7 @@ impl Job<'_> {
                 "joints move fast there",
             ));
         }
-        self.judge_end(index, leg, stop, findings);
+        self.judge_end(index, leg, stop, margins, findings);
         let wrist = [3, 5].map(|i| (i, asked.turn_rad[i].abs()));
         if let Some((i, turn)) = wrist
             .into_iter()
@@ -144,30 +149,46 @@ impl Job<'_> {
         }
     }
 
-    /// A path of the tool must end in the posture that its target asks for.
-    fn judge_end(&self, index: usize, leg: &Leg, stop: &Stop, findings: &mut Vec<Finding>) {
+    /// A path of the tool must be within reach of the posture in which it begins, and end in that which
+    /// its target asks for.
+    fn judge_end(
+        &self,
+        index: usize,
+        leg: &Leg,
+        stop: &Stop,
+        margins: &Margins,
+        findings: &mut Vec<Finding>,
+    ) {
         if !matches!(leg.course, Course::Tool(_)) {
             return;
         }
-        let mut q = leg.start;
-        for k in 1..=16 {
-            let s = f64::from(k) / 16.0;
-            if leg.beyond(s) > 0.0 {
-                let message = format!(
-                    "the straight or circular path is out of reach at {:.0} % of the move",
-                    100.0 * s
-                );
-                findings.push(self.subject.finding(
-                    self.walk.motion(index),
-                    "path-out-of-reach",
-                    Severity::Error,
-                    message,
-                    "go round with a target between, or a joint move",
-                ));
-                return;
-            }
-            q = leg.joints(s, &q);
+        let mut say = |id: &'static str, message: String, hint: &str| {
+            let motion = self.walk.motion(index);
+            let error = self
+                .subject
+                .finding(motion, id, Severity::Error, message, hint);
+            findings.push(error);
+        };
+        let round = "go round with a target between, or a joint move";
+        // near the borders of the reach a path may be beyond them for a little while
+        let is_near = margins.elbow_rad < NEAR_BORDER_RAD || margins.shoulder_m < NEAR_BORDER_M;
+        let samples = if is_near { 512 } else { 16 };
+        let beyond = (1..=samples)
+            .map(|k| f64::from(k) / f64::from(samples))
+            .find(|s| leg.beyond(*s) > 0.0);
+        if let Some(s) = beyond {
+            let message = format!(
+                "the straight or circular path is out of reach at {:.0} % of the move",
+                100.0 * s
+            );
+            return say("path-out-of-reach", message, round);
         }
+        let Some(end) = follow(leg.equipped, &leg.course, &leg.start, &stop.pose) else {
+            let message = "the straight or circular path leaves the reach of the posture in which it \
+                begins";
+            return say("path-out-of-reach", message.into(), round);
+        };
+        let q = end.q;
         let aligned = leg.equipped.arm.posture(&stop.q).1.wrist_rad < SAME_RAD;
         let other = (0..6)
             .find(|&i| (q[i] - stop.q[i]).abs() > SAME_RAD && !(aligned && (i == 3 || i == 5)));
@@ -179,13 +200,11 @@ impl Job<'_> {
                 q[i] / DEG,
                 stop.q[i] / DEG
             );
-            findings.push(self.subject.finding(
-                self.walk.motion(index),
+            say(
                 "configuration-change",
-                Severity::Error,
                 message,
                 "a joint move can change it",
-            ));
+            );
         }
     }
 }

@@ -22,9 +22,11 @@ const PINCHED: f64 = 0.1;
 const PINCH_STEPS: u32 = 13;
 /// The last step to the least that a target out of reach is missed by.
 const LEAST_STEP_RAD: f64 = 1e-4;
-/// Left out near an edge, in t: there the slope is a quotient of two zeros. A root in it is
-/// within 1e-10 rad of the edge.
+/// Left out near an edge, in t: there the slope is a quotient of two zeros. A root in it lies
+/// between what the equation is there on the two branches that meet.
 const EDGE: f64 = 2e-5;
+/// What the equation is at most next to an edge at which it has a root.
+const AT_EDGE: f64 = 1e-3;
 
 /// A stretch of joint 6 by a parameter.
 #[derive(Clone, Copy, Debug)]
@@ -229,6 +231,22 @@ impl Arm {
                 (value, slope * turned)
             };
             roots(&mut by_part, part.ends(), ROOT_CELLS, found);
+            let other = |t: f64| {
+                let sixth = AxisRotation::of(whole.at(part.at(t).0).0);
+                self.reached(&circle.at(sixth), front, -before).value
+            };
+            for (end, inward) in [(0.0, 1.0), (PI, -1.0)] {
+                let next = end + inward * EDGE;
+                let (own, other) = (by_part(next).0, other(next));
+                let is_crossed = own * other <= 0.0 && own != other;
+                if is_crossed && own.abs().max(other.abs()) < AT_EDGE {
+                    let inside = -EDGE * (own + other) / (own - other);
+                    // else it is one of the other branch
+                    if inside >= 0.0 {
+                        found.push(end + inward * inside);
+                    }
+                }
+            }
             for t in found.iter_mut() {
                 *t = whole.at(part.at(*t).0).0;
             }
