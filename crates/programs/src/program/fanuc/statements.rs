@@ -329,9 +329,11 @@ impl Reader<'_> {
                 self.give(None, Expr::Target(target));
             }
         }
-        // a call in a dictionary that is not known: the program's name is the last word
+        // a macro has the name of its program as a rule; a call in a dictionary that is not known has
+        // it for its last word
         let mut words = words(text);
-        let last = words.nth(1).filter(|_| words.next().is_none());
+        let (own, second) = (words.next(), words.next());
+        let last = second.or(own).filter(|_| words.next().is_none());
         let callees = last.and_then(|name| self.by_name.get(&called(name)));
         let callees = callees.into_iter().flatten().map(|(routine, _)| *routine);
         self.builder.call(Call {

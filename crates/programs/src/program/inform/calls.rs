@@ -13,21 +13,73 @@ use crate::program::script::{Argument, Call, RoutineId, Written, short};
 /// Yaskawa, DX200 options instructions, "For Jobs with Arguments": `IARG#(1)` to `IARG#(8)`.
 const MOST_ARGUMENTS: u32 = 8;
 
+/// How a statement says which job it goes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Callee<'a> {
+    /// `JOB:A`
+    Named(&'a [u8]),
+    /// `IG#(1)`, `B000`, `I000`, `D000`: the job whose name is this number.
+    Numbered,
+    /// `S000`, or in a form that is not known: any job.
+    Any,
+    /// `MACRO1 MJ#(3)`: the job that the controller has for this macro.
+    Macro,
+}
+
+impl<'a> Callee<'a> {
+    /// # Source
+    /// Yaskawa, FS100 instructions, "CALL" and "JUMP": a job that an input group or a variable names
+    /// has a number for its name.
+    fn of(word: &'a [u8]) -> Self {
+        let name = |word: &'a [u8]| word.strip_prefix(b"JOB:").map(Self::Named);
+        let number = match word {
+            [b'L', rest @ ..] => rest,
+            _ => word,
+        };
+        match number {
+            _ if word.starts_with(b"MJ#") => Self::Macro,
+            [b'I', b'G', b'#', ..] | [b'B' | b'I' | b'D', b'0'..=b'9' | b'[', ..] => Self::Numbered,
+            _ => name(word).unwrap_or(Self::Any),
+        }
+    }
+}
+
+/// Whether a word calls a macro: MACRO1.
+pub(super) fn is_macro(word: &[u8]) -> bool {
+    word.strip_prefix(b"MACRO")
+        .is_some_and(|number| number.iter().all(u8::is_ascii_digit))
+}
+
 impl<'a> Reader<'a> {
-    /// The jobs of a name such as `JOB:A`.
-    fn callees(&self, name: &[u8]) -> Box<[RoutineId]> {
-        let known = name
-            .strip_prefix(b"JOB:")
-            .and_then(|name| self.names.get(name));
-        known.map_or_else(Box::default, |routines| routines.as_slice().into())
+    /// The jobs of the files that a call may go to, and whether it may be one that they do not have.
+    fn callees(&self, callee: Callee) -> (Box<[RoutineId]>, bool) {
+        let numbered = |name: &[u8]| name.iter().all(u8::is_ascii_digit);
+        let of = |is_it: &dyn Fn(&[u8]) -> bool| {
+            let named = self.names.iter().filter(|(name, _)| is_it(name));
+            let mut found: Vec<RoutineId> = named.flat_map(|(_, jobs)| jobs).copied().collect();
+            found.sort_unstable();
+            found.into_boxed_slice()
+        };
+        let found = match callee {
+            Callee::Named(name) => {
+                let known = self.names.get(name).map(Vec::as_slice);
+                let known: Box<[RoutineId]> = known.unwrap_or_default().into();
+                let is_foreign = known.is_empty();
+                return (known, is_foreign);
+            }
+            Callee::Numbered => of(&numbered),
+            Callee::Any => of(&|_| true),
+            Callee::Macro => Box::default(),
+        };
+        (found, true)
     }
 
     pub(super) fn call(&mut self, line: Line<'a>, name: &'a [u8]) -> Call {
-        let callees = self.callees(name);
+        let (callees, is_foreign) = self.callees(Callee::of(name));
         for callee in &callees {
             self.numbers.calls(*callee);
         }
-        if callees.is_empty() {
+        if is_foreign {
             self.numbers.clear();
         }
         let place = self.place(line.start);
@@ -57,8 +109,12 @@ impl<'a> Reader<'a> {
                 self.note_copy(Written::One(parameter), value);
                 let argument = Argument::new(Some(parameter), value, None);
                 self.builder.script.arguments.push(argument);
+                for (to, of) in self.frames_given(parameter, value).into_iter().flatten() {
+                    let argument = Argument::new(Some(to), of, None);
+                    self.builder.script.arguments.push(argument);
+                }
             }
-            if callees.is_empty() && operand.is_some() {
+            if is_foreign && operand.is_some() {
                 self.builder
                     .script
                     .arguments
@@ -73,6 +129,10 @@ impl<'a> Reader<'a> {
             self.numbers.give(callee, number, None);
         }
         let end = short(self.builder.script.arguments.len());
-        Call::of(place, callees, Source::text(name), first..end)
+        Call {
+            foreign: is_foreign,
+            leads: is_foreign,
+            ..Call::of(place, callees, Source::text(name), first..end)
+        }
     }
 }

@@ -77,8 +77,8 @@ impl Kind {
     }
 }
 
-/// Most letters that a word for a kind of move has.
-const LONGEST_VERB: usize = 8;
+/// Most letters that a word for a kind of move has: SVSPOTMOV.
+const LONGEST_VERB: usize = 9;
 
 /// Whether a word is MOVJ, SMOVL, +MOVC, IMOV or any other kind of move, known or not.
 pub(super) fn is_move(word: &[u8]) -> bool {
@@ -188,6 +188,8 @@ mod tests {
             ("IMOV", Kind::Incremental),
             ("SYMOVL", Kind::Conveyor),
             ("EIMOVL", Kind::Other),
+            ("SVSPOTMOV", Kind::Other),
+            ("SVDRESMOV", Kind::Other),
         ] {
             assert!(is_move(verb.as_bytes()));
             assert_eq!(Kind::of(verb.as_bytes()), kind, "{verb}");

@@ -9,7 +9,8 @@
 //! robot's base.
 //!
 //! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not;
-//! PSTART runs concurrently. What a P variable holds, which frame MFRAME and which tool SETTOOL
+//! PSTART runs concurrently. A job that an input group or a variable names is any of the files whose
+//! name is a number, or another; which one a macro runs is not in the files. What a P variable holds, which frame MFRAME and which tool SETTOOL
 //! made, and whether a shift is on, and by what, is followed through them. A move to a place where
 //! the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running
 //! program computes stays, and is reported.
@@ -18,7 +19,7 @@
 //!
 //! # Limits
 //!
-//! Shifts that a job switches on which is not given or not called by name (macros) are not seen.
+//! Shifts that a job switches on which is not given are not seen, nor those of macros.
 //! The first of successive MOVC is taken for a line, the others for arcs through each two; MOVS for
 //! lines. Robots with seven axes are refused in pulses; the elbow angle of their rectangular
 //! positions is left. BASE and ROBOT are the world of the profile: its base has to stand at zero.

@@ -379,7 +379,6 @@ impl<'a> Reader<'a> {
 
     /// Tool and frame of moves to variables: those of the positions that are copied into them.
     fn follow_copies(&mut self) {
-        let differ = self.unknown(Cause::FrameCopied);
         let mut known: HashMap<VariableId, Option<(Expr, Expr)>> = HashMap::new();
         for at in 0..self.builder.script.instructions.len() {
             let Expr::Variable(variable) = self.builder.script.instructions[at].target else {
@@ -389,7 +388,11 @@ impl<'a> Reader<'a> {
                 let mut all = self.poses_of(variable).into_iter();
                 let first = self.frames_of(all.next()?);
                 let same = all.all(|target| self.frames_of(target) == first);
-                Some(if same { first } else { (differ, first.1) })
+                Some(if same {
+                    first
+                } else {
+                    self.frames_where_they_differ(variable)
+                })
             });
             if let Some(frames) = frames {
                 let script = &mut self.builder.script;

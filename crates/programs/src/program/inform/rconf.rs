@@ -12,8 +12,8 @@
 //! - DX100 and later write 24 fields. No flip is B below zero: `1,0,0,0,…` is what they write for
 //!   arms with R near zero and the tool bent down, also on arms whose R cannot stand beyond ±150°.
 //!   *Not verified on a controller.*
-//! - The NX100 and earlier write 8. Their manual has flip where R stands within ±90°; no flip is
-//!   two ranges, and is left open.
+//! - The NX100 and earlier write 8. Their manual has flip where R stands within ±90°, no flip where it
+//!   stands beyond.
 //!
 //! # Limits
 //! A correction that takes R, S or T of a MOVJ across ±180° would need another RCONF; such a target
@@ -34,10 +34,11 @@ const FRONT_UPPER: u8 = 2;
 const FRONT_LOWER: u8 = 3;
 const REAR: u8 = 4;
 /// What it tells of the wrist: one of so many.
-const WRISTS: u8 = 4;
+const WRISTS: u8 = 5;
 const B_POSITIVE: u8 = 1;
 const B_NEGATIVE: u8 = 2;
 const R_FORWARD: u8 = 3;
+const R_BACKWARD: u8 = 4;
 /// The joints of o, p and q.
 const AXES: [usize; 3] = [3, 5, 0];
 /// Fields that controllers before the DX100 write.
@@ -65,6 +66,7 @@ pub(super) fn variant(text: &[u8]) -> u8 {
         (b"0", true) => B_POSITIVE,
         (b"1", true) => B_NEGATIVE,
         (b"0", false) => R_FORWARD,
+        (b"1", false) => R_BACKWARD,
         _ => 0,
     };
     let beyond = |axis: &[u8]| match axis {
@@ -112,8 +114,12 @@ pub(super) fn configuration(variant: u8) -> Configuration {
             }
         }
     }
-    if wrist == R_FORWARD {
-        found.joints[3] = Some((-FRAC_PI_2, FRAC_PI_2));
+    match wrist {
+        R_FORWARD => found.joints[3] = Some((-FRAC_PI_2, FRAC_PI_2)),
+        R_BACKWARD => {
+            found.beyond[3].get_or_insert(FRAC_PI_2);
+        }
+        _ => {}
     }
     found
 }
@@ -128,7 +134,8 @@ mod tests {
         assert_eq!(found.behind_axis_1, Some(false));
         assert_eq!(found.joint_5_negative, None);
         assert_eq!(found.behind_lower_arm, Some(false));
-        assert_eq!(found.beyond, [None; 6]);
+        let backward = Some(FRAC_PI_2);
+        assert_eq!(found.beyond, [None, None, None, backward, None, None]);
         let lower = configuration(variant(b"0,1,0,0,0,0"));
         assert_eq!(lower.behind_lower_arm, Some(true));
         let within = Some((-PI, PI));
@@ -160,6 +167,6 @@ mod tests {
         assert_eq!(of(1, 24), (true, Some(true), within));
         assert_eq!(of(0, 24), (true, Some(false), within));
         assert_eq!(of(0, 8), (true, None, Some((-FRAC_PI_2, FRAC_PI_2))));
-        assert_eq!(of(1, 8), (false, None, within));
+        assert_eq!(of(1, 8), (true, None, within));
     }
 }

@@ -1,5 +1,6 @@
 //! Jobs as statements.
 
+use super::calls::is_macro;
 use super::cnd::Conditions;
 use super::indexed::Indexed;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
@@ -14,7 +15,7 @@ use super::variables::{Variables, always};
 use crate::program::kit::label_key;
 use crate::program::number::whole;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId,
+    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId, Variable,
     VariableId, Written, short,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Source, TargetId};
@@ -42,6 +43,7 @@ pub(super) fn script<'a>(
         names: HashMap::new(),
         honoured,
         copies: HashMap::new(),
+        frames_of_copies: HashMap::new(),
         copied: Vec::new(),
         written: HashSet::new(),
         all_written: HashSet::new(),
@@ -121,6 +123,8 @@ pub(super) struct Reader<'a> {
     pub honoured: ValueId,
     /// What each variable may be a copy of.
     pub copies: HashMap<VariableId, Vec<Expr>>,
+    /// The tool and the work frame of the position that a variable was last given.
+    frames_of_copies: HashMap<VariableId, [VariableId; 2]>,
     /// Where something is computed from a P variable.
     pub copied: Vec<(Place, u32)>,
     /// Variables that instructions write.
@@ -303,6 +307,10 @@ impl<'a> Reader<'a> {
                 // it moves another control group
                 self.builder.start(call, false);
             }
+            _ if is_macro(first) => {
+                let call = self.call(line, second);
+                self.builder.call(call);
+            }
             _ if first.starts_with(b"SFTON") => self.shift(line, true),
             _ if first.starts_with(b"SFTOF") => self.shift(line, false),
             _ => self.writes(line, first, second),
@@ -325,6 +333,10 @@ impl<'a> Reader<'a> {
 
     /// What a position that an instruction names holds.
     pub(super) fn value(&mut self, operand: Operand, place: Place) -> Expr {
+        if let Operand::C(number) = operand {
+            let target = self.target(number).map(Expr::Target);
+            return target.unwrap_or_else(|| self.unknown(Cause::NotInFiles));
+        }
         match self.written_by(operand, place) {
             Some(Written::One(variable)) => Expr::Variable(variable),
             _ => self.unknown(Cause::Computed),
@@ -360,6 +372,49 @@ impl<'a> Reader<'a> {
         for to in all {
             self.copies.entry(to).or_default().push(value);
         }
+    }
+
+    /// What a copy gives the tool and the work frame of a variable.
+    pub(super) fn frames_given(
+        &mut self,
+        to: VariableId,
+        value: Expr,
+    ) -> Option<[(VariableId, Expr); 2]> {
+        let of = match value {
+            Expr::Target(target) => <[Expr; 2]>::from(self.frames_of(target)),
+            Expr::Variable(from) => self.frames_of_copy(from).map(Expr::Variable),
+            _ => return None,
+        };
+        let [tool, frame] = self.frames_of_copy(to);
+        Some([(tool, of[0]), (frame, of[1])])
+    }
+
+    /// The variables that hold the tool and the work frame of what another is given.
+    fn frames_of_copy(&mut self, of: VariableId) -> [VariableId; 2] {
+        if let Some(&known) = self.frames_of_copies.get(&of) {
+            return known;
+        }
+        let declared = match self.targets_of(Expr::Variable(of))[..] {
+            [one] => self.frames_of(one).into(),
+            _ => [(); 2].map(|()| self.unknown(Cause::FrameCopied)),
+        };
+        let script = &mut self.builder.script;
+        let Variable { kept, routine, .. } = script.variables[of as usize];
+        let made = declared.map(|declared| {
+            script.variable(Variable {
+                kept,
+                routine,
+                ..Variable::new("", Place::NOWHERE, declared)
+            })
+        });
+        self.frames_of_copies.insert(of, made);
+        made
+    }
+
+    /// The variables of a variable whose positions have several tools or work frames.
+    pub(super) fn frames_where_they_differ(&mut self, of: VariableId) -> (Expr, Expr) {
+        let [tool, frame] = self.frames_of_copy(of).map(Expr::Variable);
+        (tool, frame)
     }
 
     /// An instruction that may write what it names first.
@@ -411,6 +466,11 @@ impl<'a> Reader<'a> {
         };
         if let Some(value) = value {
             self.note_copy(written, value);
+            if let Written::One(to) = written {
+                for (to, of) in self.frames_given(to, value).into_iter().flatten() {
+                    self.write(line, Written::One(to), How::Whole(of));
+                }
+            }
             self.write(line, written, How::Whole(value));
             return;
         }

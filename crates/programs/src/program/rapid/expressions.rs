@@ -240,7 +240,11 @@ impl Reader<'_> {
     fn open_call(&mut self, name: Symbol, offset: u32) {
         let token = &self.bytes[offset as usize..self.behind as usize];
         let known = self.verbs.function(name, token, self.context.module);
-        if known != Known::Harmless {
+        // what is given to another function is a position near that of its own target
+        let is_displaced = !self.calls.is_empty()
+            && DISPLACING.iter().any(|of| token.eq_ignore_ascii_case(of))
+            && self.verbs.displaces(name, self.context.module);
+        if known != Known::Harmless && !is_displaced {
             self.calls.push(OpenCall {
                 name,
                 offset,
@@ -367,6 +371,9 @@ impl Reader<'_> {
         self.alone = (depth == 1 && call.offset == first).then_some(function);
     }
 }
+
+/// Functions that give a position near another.
+const DISPLACING: [&[u8]; 2] = [b"Offs", b"RelTool"];
 
 /// A function whose call is not closed yet.
 #[derive(Clone, Copy, Debug)]

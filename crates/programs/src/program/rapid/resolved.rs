@@ -6,7 +6,7 @@ use super::numbers::Written;
 use super::places::Coordinates;
 use super::shared::Group;
 use super::syntax::{
-    Argument, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
+    Argument, Assigned, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
     StatementKind, Storage, Stored, Type, Verb, indices,
 };
 use super::verbs::Verbs;
@@ -35,6 +35,8 @@ pub(super) struct Resolved<'a> {
     filled: HashSet<u32>,
     /// Data a part of which is written, such as `p.trans`.
     in_parts: HashSet<u32>,
+    /// Data that something else than where the robot stands is written into.
+    otherwise: HashSet<u32>,
     /// Data and functions that are no targets, whose numbers all come from targets.
     pub(super) derived: HashSet<Holder>,
     /// What is written into numbers.
@@ -116,6 +118,7 @@ impl<'a> Resolved<'a> {
             scattered: HashSet::new(),
             filled: HashSet::new(),
             in_parts: HashSet::new(),
+            otherwise: HashSet::new(),
             derived: HashSet::new(),
             numbers: Numbers::default(),
             given: GivenNumbers::default(),
@@ -376,8 +379,22 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// Marks what a name may mean, where an element of it is written; whether that is new.
+    /// Marks what a name may mean, where an element of it is written by anything but the robot's own
+    /// position; whether that is new.
     fn mark(&mut self, (name, index): (Symbol, Index), context: Context) -> bool {
+        match self.data.meaning(name, context) {
+            Meaning::One(datum) => drop(self.otherwise.insert(datum)),
+            Meaning::Several(list) => {
+                let all = self.data.several(list).iter().copied();
+                self.otherwise.extend(all);
+            }
+            Meaning::Nothing => {}
+        }
+        self.mark_written((name, index), context)
+    }
+
+    /// Marks what a name may mean, where an element of it is written; whether that is new.
+    fn mark_written(&mut self, (name, index): (Symbol, Index), context: Context) -> bool {
         let is_scattered = !matches!(index, Index::At(_));
         let data = match self.data.meaning(name, context) {
             Meaning::One(datum) => vec![datum],
@@ -429,9 +446,13 @@ impl<'a> Resolved<'a> {
                     name,
                     index,
                     component,
-                    ..
+                    value,
                 } => {
-                    self.mark((name, index), context);
+                    if component == Component::Whole && self.tells_robot(value, context) {
+                        self.mark_written((name, index), context);
+                    } else {
+                        self.mark((name, index), context);
+                    }
                     if component != Component::Whole {
                         self.mark_part(name, context);
                     }
@@ -481,6 +502,69 @@ impl<'a> Resolved<'a> {
         }
     }
 
+    /// Whether what is assigned is where the robot stands: `CJointT()`, `CRobT()`.
+    fn tells_robot(&self, value: Assigned, context: Context) -> bool {
+        let Assigned::To(Expression::Point {
+            base: Base::Function(function),
+            steps: (a, b),
+        }) = value
+        else {
+            return false;
+        };
+        let function = &self.parsed.functions[function as usize];
+        let is_actual = self.known(function, context) == Known::Actual;
+        a == b && is_actual && !self.converts(function.name)
+    }
+
+    /// Whether a function that may tell where the robot is does so of what it is given: `CalcRobT`.
+    pub(super) fn converts(&self, function: Symbol) -> bool {
+        let name = self.spelling(function).as_bytes();
+        name.get(..4)
+            .is_some_and(|first| first.eq_ignore_ascii_case(b"calc"))
+    }
+
+    /// Whether an expression can only be where the robot stands, or stood.
+    pub(super) fn is_of_robot(&self, expression: &Expression, context: Context) -> bool {
+        let (base, (a, b)) = match *expression {
+            Expression::Point { base, steps } => (base, steps),
+            // a function in an argument: joints are no sum of others
+            Expression::Computed(names) => {
+                let first = self
+                    .parsed
+                    .mentions
+                    .get(indices(names))
+                    .and_then(<[_]>::first);
+                return first.is_some_and(|&name| {
+                    self.known_function(name, context) == Known::Actual && !self.converts(name)
+                });
+            }
+            _ => return false,
+        };
+        match base {
+            _ if a != b => false,
+            Base::Function(function) => {
+                let function = &self.parsed.functions[function as usize];
+                let given = &self.parsed.given[indices(function.arguments)];
+                self.known(function, context) == Known::Actual
+                    && (!self.converts(function.name)
+                        || given
+                            .iter()
+                            .find(|of| of.option.is_none())
+                            .is_some_and(|of| self.is_of_robot(&of.expression, context)))
+            }
+            Base::Named { name, .. } => match self.meaning(name, context) {
+                Meaning::One(datum) => {
+                    let is_parameter =
+                        matches!(self.datum(datum).storage, Storage::Parameter { .. });
+                    let entity = Entity::Declared(datum);
+                    !is_parameter && self.is_written(entity) && !self.otherwise.contains(&datum)
+                }
+                _ => false,
+            },
+            Base::Target(_) => false,
+        }
+    }
+
     fn note_call(&mut self, given: Given, calls: &mut Vec<Given>) {
         let verb = match given.callee {
             Callee::Named(name) if self.is_routine(name, given.context) => Verb::Other,
@@ -498,6 +582,7 @@ impl<'a> Resolved<'a> {
             }
             Verb::WritesNamed => {
                 for datum in self.set_by_name(given.arguments, given.file) {
+                    self.otherwise.insert(datum);
                     self.written[datum as usize] = true;
                 }
             }

@@ -343,8 +343,30 @@ fn positions_that_the_robot_reported_are_right_as_they_are() {
                 .all(|f| f.severity < Severity::Error)
         );
     }
-    let program = path("MoveAbsJ CJointT(),v5,z5,t;\nMoveJ CalcRobT(j1,t),v5,z5,t;");
-    assert_eq!(ids(&program), ["run-time-position"; 2]);
+    for of_robot in [
+        "MoveAbsJ CJointT(),v5,z5,t;",
+        "VAR jointtarget j9;\nj9:=CJointT();\nMoveJ CalcRobT(j9,t),v5,z5,t;",
+        "MoveJ CalcRobT(CJointT(),t),v5,z5,t;",
+    ] {
+        assert_eq!(ids(&path(of_robot)), ["run-time-position"], "{of_robot}");
+    }
+    // of anything else the controller computes the nominal arm
+    for of_text in [
+        "MoveJ CalcRobT(j1,t),v5,z5,t;",
+        "VAR jointtarget j9;\nj9:=CJointT();\nj9.robax.rax_1:=5;\nMoveJ CalcRobT(j9,t),v5,z5,t;",
+        "VAR jointtarget j9;\nj9:=CJointT();\nOther j9;\nMoveJ CalcRobT(j9,t),v5,z5,t;",
+        "j1:=CalcJointT(place(1),t);\nMoveAbsJ j1,v5,z5,t;",
+        "MoveJ CalcRobT(place(1),t),v5,z5,t;",
+        "MoveJ CalcRobT(CalcJointT(p1,t),t),v5,z5,t;",
+        "MoveAbsJ CalcJointT(same(p1),t),v5,z5,t;",
+    ] {
+        let found = ids(&path(&format!("{of_text}\nReset do1;")));
+        assert!(found.contains(&"computed-target"), "{of_text}: {found:?}");
+        assert!(
+            !found.contains(&"run-time-position"),
+            "{of_text}: {found:?}"
+        );
+    }
     let program = path("MoveL p1,v5,z5,t;\nMoveJ CalcRobT(p1,t),v5,z5,t;");
     assert_eq!(program.moves[1].displacement, Displacement::Unknown);
 }

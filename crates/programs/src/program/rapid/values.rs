@@ -272,6 +272,11 @@ impl Translator<'_> {
         if !near.is_empty() {
             return self.builder.script.any(near);
         }
+        let own = given.iter().find(|argument| argument.option.is_none());
+        let is_of_robot = own.is_some_and(|of| resolved.is_of_robot(&of.expression, self.context));
+        if resolved.converts(called.name) && !is_of_robot {
+            return self.computed();
+        }
         if wanted == Type::Jointtarget {
             return Expr::Value(self.actual);
         }

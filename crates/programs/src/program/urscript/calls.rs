@@ -26,6 +26,19 @@ impl Argument<'_> {
     }
 }
 
+/// Whether a text says that the tool that is set counts, as it does where none is given.
+///
+/// # Source
+/// Universal Robots, script manual, `get_inverse_kin`: `tcp="active_tcp"` is the default.
+fn is_active_tcp(text: &[u8]) -> bool {
+    let inside = |quote: u8| {
+        let text = text.strip_prefix(&[quote]).unwrap_or_default();
+        text.strip_suffix(&[quote])
+    };
+    let inside = inside(b'"').or_else(|| inside(b'\''));
+    inside.is_some_and(|text| text.eq_ignore_ascii_case(b"active_tcp"))
+}
+
 impl<'a> Reader<'a> {
     /// The arguments of a call whose name was just read: values by position and by name.
     fn arguments(&mut self) -> Read<Vec<Argument<'a>>> {
@@ -113,7 +126,9 @@ impl<'a> Reader<'a> {
             verbs::PoseCall::Kinematics => at(0, &[b"x"]).map(|pose| Expr::Kinematics {
                 pose,
                 near: at(1, &[b"qnear"]),
-                tcp: at(4, &[b"tcp", b"tcp_offset"]),
+                tcp: given(&arguments, 4, &[b"tcp", b"tcp_offset"])
+                    .filter(|tcp| !is_active_tcp(tcp.text))
+                    .map(|tcp| tcp.value),
             }),
             // `get_forward_kin()` is of the present joints
             verbs::PoseCall::Actual { is_pose } => {

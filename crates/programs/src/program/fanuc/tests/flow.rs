@@ -476,3 +476,20 @@ fn options_behind_the_middle_of_an_arc_do_not_hide_its_end() {
         assert_eq!(found, wanted, "{middle}|{end}: {:?}", program.findings);
     }
 }
+
+#[test]
+fn a_macro_is_the_program_of_its_name_where_the_files_have_one() {
+    let main = listing(
+        "UTOOL_NUM=4 ;\nOPEN_HAND ;\nJ P[1] 1% FINE ;",
+        &pose("1", ACTIVE),
+    );
+    let hand = |line: &str| listing(line, "").replace("/PROG  TEST", "/PROG  OPEN_HAND");
+    for (line, found) in [
+        ("UTOOL_NUM=5 ;", &["frame-chosen-at-run-time"][..]),
+        ("RO[1]=ON ;", &[]),
+    ] {
+        let files = [("a.ls", main.as_str()), ("open_hand.ls", &hand(line))];
+        let program = read_files(&files).expect("programs");
+        assert_eq!(ids(&program), found, "{line}");
+    }
+}

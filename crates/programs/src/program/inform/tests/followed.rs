@@ -34,6 +34,10 @@ fn moves_that_cannot_be_compensated_are_errors() {
         ("MOVJ C00000 +MOVJ C00001", "second-robot"),
         ("SYMOVL C00000 V=5 CV#(1)", "moving-frame"),
         ("MOVL V=5", "move-not-supported"),
+        (
+            "SVSPOTMOV C00000 V=1500.0 PLIN=0 CLF#(1) GUN#(1)",
+            "move-not-supported",
+        ),
         ("MOVL C00009 V=5", "target-not-in-files"),
         ("MOVL P077 V=5", "target-not-in-files"),
         ("MOVL C00000 BC00001 V=5", "external-axis-unknown"),
@@ -182,11 +186,23 @@ fn copies_of_positions_are_those_positions() {
     );
     assert_eq!(program.tools[motion.tool].name, "3");
     assert_eq!(program.frames[motion.frame].name, "12");
-    // one variable, two tools: whose tool the move has nobody knows
+    // one variable, two tools
     let positions = format!("{USER}P00001={P6}\n///TOOL 4\nP00002={P6}");
     let moves = "IFTHEN IN#(1)=ON\nSET LP001 P001\nELSE\nSET LP001 P002\nENDIF\nMOVL LP001 V=5";
     let program = read(&job(&positions, moves));
-    assert_eq!(errors(&program), ["frame-chosen-at-run-time"; 2]);
+    assert_eq!(errors(&program), [""; 0]);
+    let mut pairs: Vec<_> = program
+        .moves
+        .iter()
+        .filter_map(|m| {
+            let name = program.target_of(m)?.name.as_deref()?;
+            Some((name, program.tools[m.tool].name.as_str()))
+        })
+        .collect();
+    pairs.sort_unstable();
+    // what goes together in a branch is not followed: each with either is refused, being shared
+    let each = |name| [(name, "3"), (name, "4")];
+    assert_eq!(pairs, [each("P001"), each("P002")].concat());
 }
 
 #[test]
@@ -241,8 +257,67 @@ fn jobs_take_positions_as_arguments() {
 }
 
 #[test]
+fn jobs_take_positions_of_steps_each_with_its_own_frame() {
+    let other = USER.replace("12", "13");
+    let positions = format!("{USER}C00000={P6}\n{other}C00001={P6}");
+    let main = "CALL JOB:GO ARGFC00000\nCALL JOB:GO ARGFC00001";
+    let go = job("", "GETARG LP000 IARG#(1)\nMOVL LP000").replace("//NAME A", "//NAME GO");
+    let program = read_files(&[&job(&positions, main), &go], &Settings::default()).expect("jobs");
+    assert_eq!(errors(&program), [""; 0]);
+    let mut named: Vec<_> = program
+        .moves
+        .iter()
+        .filter_map(|m| {
+            let name = program.target_of(m)?.name.clone()?;
+            Some((name, program.frames[m.frame].name.as_str()))
+        })
+        .collect();
+    named.sort_unstable();
+    assert_eq!(named, [("C00000".into(), "12"), ("C00001".into(), "13")]);
+    // a variable that is one after the other
+    let one = job(
+        &positions,
+        "SET P001 C00000\nMOVL P001\nSET P001 C00001\nMOVL P001",
+    );
+    let program = read(&one);
+    let frames = program.moves.iter().map(|m| &program.frames[m.frame].name);
+    assert_eq!(frames.collect::<Vec<_>>(), ["12", "13"]);
+    // to a job that nobody has
+    let program = read(&job(&positions, "CALL JOB:OTHER ARGFC00000\nMOVL C00000"));
+    assert_eq!(errors(&program), ["target-passed-to-routine"]);
+}
+
+#[test]
+fn a_macro_or_a_numbered_job_may_do_what_the_text_does_not_say() {
+    let positions = format!("{USER}{}P00001={P6}", points(1));
+    for call in [
+        "MACRO1 MJ#(28) ARGFP001",
+        "CALL S000 ARGFP001",
+        "CALL IG#(1) ARGFP001",
+    ] {
+        let program = read(&job(&positions, &format!("{call}\nMOVL P001")));
+        assert_eq!(errors(&program), ["target-passed-to-routine"], "{call}");
+    }
+    // which is one of the files, or another
+    let shifting = "SFTON P002 UF#(12)\nRET";
+    for (call, name, is_shifted) in [
+        ("CALL IG#(1)", "1", true),
+        ("CALL B000", "1", true),
+        ("CALL I000", "ON", false),
+        ("CALL S000", "ON", true),
+        ("CALL JOB:2", "1", false),
+    ] {
+        let main = job(&positions, &format!("{call}\nMOVL C00000"));
+        let other = job("", shifting).replace("//NAME A", &format!("//NAME {name}"));
+        let program = read_files(&[&main, &other], &Settings::default()).expect("jobs");
+        let found = errors(&program).contains(&"displacement-active");
+        assert_eq!(found, is_shifted, "{call} {name}");
+    }
+}
+
+#[test]
 fn jobs_begin_where_their_callers_stand() {
-    let positions = format!("{USER}{}", points(2));
+    let positions = format!("{USER}{}", points(2)).replace("RCONF 1,", "RCONF -1,");
     let named = |name: &str, text: &str| {
         job(&positions, text).replace("//NAME A", &format!("//NAME {name}"))
     };
@@ -335,10 +410,11 @@ fn rconf_tells_the_wrist_where_a_job_begins_with_a_pose() {
         let layout = program.targets[0].layout;
         let decoded = Inform.decode(layout, &numbers, &Settings::default());
         let reported = program.findings.iter().all(|f| f.id != "wrist-not-told");
-        (reported, decoded.configuration.joint_5_negative)
+        let stated = decoded.configuration;
+        (reported, stated.joint_5_negative, stated.beyond[3])
     };
-    assert_eq!(begins(24), (true, Some(true)));
-    assert_eq!(begins(8), (false, None));
+    assert_eq!(begins(24), (true, Some(true), None));
+    assert_eq!(begins(8), (true, None, Some(std::f64::consts::FRAC_PI_2)));
 }
 
 #[test]
