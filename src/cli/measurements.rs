@@ -32,8 +32,8 @@ pub(super) struct MeasurementFiles {
     /// Units of these columns: `m,rad` (mm m cm um in ft; deg rad)
     #[arg(long, value_name = "UNITS")]
     units: Option<String>,
-    /// How angles rx, ry, rz rotate the tool: xyz, zyx (kuka, fanuc, yaskawa), zyz (kawasaki),
-    /// rotation-vector (ur)
+    /// How angles rotate the tool (of columns such as `rx_deg`): xyz, zyx (kuka, fanuc, yaskawa), zyz
+    /// (kawasaki), rotation-vector (ur)
     #[arg(long, value_name = "NAME")]
     euler: Option<String>,
     /// The rows (of --joints) are in the order in which the robot drove to them: directions

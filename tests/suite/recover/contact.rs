@@ -293,6 +293,34 @@ fn repeated_unknown_points_leave_the_base_where_the_profile_has_it() {
 }
 
 #[test]
+fn about_the_only_point_of_a_tool_its_rotation_is_not_sought() {
+    let mut cell = Cell::new(73);
+    let measurements = read(&all_kinds(&mut cell, 30));
+    let selection = Selection::level(Level::Geometry);
+    let free = Options {
+        selection,
+        ..options()
+    };
+    let found = calibrate(&nominal(), &measurements, &free).expect("a calibration");
+    let sought: Vec<String> = found
+        .parameters()
+        .filter(|(parameter, _, sigma)| parameter.key.starts_with("tool_frame") && sigma.is_some())
+        .map(|(parameter, ..)| parameter.key.clone())
+        .collect();
+    assert!(!sought.is_empty());
+    assert!(sought.iter().all(|key| key.contains("_mm")), "{sought:?}");
+    let tool = nominal().tool("artifact").expect("its tool");
+    let arm = found.profile().real_model(&tool, &Conditions::default());
+    let mut random = StdRng::seed_from_u64(8);
+    for _ in 0..100 {
+        let q = random_joints(&mut random, &cell.profile);
+        let pose: Pose = arm.forward(&q, &Conditions::default());
+        let missed = norm(sub(pose.transform(BALL_IN_TOOL_M), cell.ball(&q)));
+        assert!(missed < 5e-4, "{missed}");
+    }
+}
+
+#[test]
 fn derivatives_of_contacts_are_those_of_the_residuals() {
     let mut cell = Cell::new(73);
     let text = all_kinds(&mut cell, 6);

@@ -212,6 +212,33 @@ fn a_frame_on_its_side_is_reported() {
 }
 
 #[test]
+fn of_a_robot_on_a_wall_the_heading_of_the_device_is_no_tilt() {
+    let (truth, commands) = robot(44);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let on_wall = |turned: f64| {
+        Pose::from_xyz_rxryrz([0.0, 0.0, 1.2, 0.0, quarter, 0.0])
+            * Pose::from_xyz_rxryrz([0.0, 0.0, 0.0, 0.0, 0.0, turned])
+    };
+    let standing = |of: &Profile, base: Pose| Profile {
+        world_from_base: base,
+        ..of.clone()
+    };
+    let profile = standing(&nominal(), on_wall(0.0));
+    let found = |truth_base: Pose, heading: f64| {
+        let device = Pose::from_xyz_rxryrz([2.0, -1.0, 0.3, 0.0, 0.0, heading]);
+        let seen = measure(&standing(&truth, truth_base), &commands, &session());
+        let seen = seen.moved(&device.inverse());
+        let found = calibrate(&profile, &seen, &Options::default()).expect("it fits");
+        reported(&found, "base-tilted")
+    };
+    for heading in [0.0, 0.5, 2.3] {
+        assert!(!found(on_wall(0.0), heading), "{heading}");
+        // rotated about its own axis 1, gravity acts elsewhere
+        assert!(found(on_wall(quarter), heading), "{heading}");
+    }
+}
+
+#[test]
 fn another_robot_is_refused() {
     let (truth, commands) = robot(45);
     let seen = measure(&truth, &commands, &session());

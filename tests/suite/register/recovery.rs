@@ -94,6 +94,26 @@ fn bad_touches_are_found_and_named() {
 }
 
 #[test]
+fn precise_points_among_rough_ones_are_not_taken_for_bad() {
+    let mut random = seeded(21);
+    let sigmas_m = [2e-5, 2e-5, 2e-5, 1e-4, 1e-4, 2e-4, 5e-5, 5e-5];
+    let weights = sigmas_m.map(|sigma: f64| sigma.powi(-2));
+    let mut left_out = 0;
+    for _ in 0..200 {
+        let truth = random_pose(&mut random, 2.0);
+        let from: Vec<Vector> = (0..8)
+            .map(|_| std::array::from_fn(|_| random.random_range(-0.3..0.3)))
+            .collect();
+        let to: Vec<Vector> = (from.iter().zip(sigmas_m))
+            .map(|(p, sigma)| noisy(&mut random, truth.transform(*p), sigma))
+            .collect();
+        let found = robust(&from, &to, Some(&weights), Some(1.0)).expect("they agree");
+        left_out += usize::from(!found.rejected.is_empty());
+    }
+    assert!(left_out <= 3, "{left_out} of 200");
+}
+
+#[test]
 fn three_planes_and_two_points_with_a_probe_ball_place_a_part() {
     let mut random = seeded(13);
     let mut all = Vec::new();

@@ -254,14 +254,12 @@ impl Problem {
         }
         let mut placed = profile.clone();
         placed.world_from_base = world_from_base;
-        let somewhere = |row: &Row| match row.point {
-            PointRef::Known(p) => p != [0.0; 3],
-            PointRef::Named(_) => true,
-        };
+        // about a single point of it a tool may be turned as it likes
         let turning = |tool: usize| {
-            rows.iter()
-                .filter(|row| row.tool == tool)
-                .any(|row| matches!(row.observed, Observed::Pose(_)) || somewhere(row))
+            let own = || rows.iter().filter(|row| row.tool == tool);
+            let has_pose = own().any(|row| matches!(row.observed, Observed::Pose(_)));
+            let first = own().next().map(|row| row.point);
+            has_pose || own().any(|row| Some(row.point) != first)
         };
         let all_points_unknown = rows.iter().all(|row| match row.point {
             PointRef::Named(i) => !points[i].known,

@@ -104,10 +104,28 @@ pub fn agreeing(
     let floor = 1e-9;
     let mut kept: Vec<f64> = Vec::new();
     for _ in 0..20 {
-        let limit = (LIMIT * sigma.max(floor)).powi(2);
+        let one_m = sigma.max(floor);
         let inside = squared(&fit);
+        // where the others put a point they do not know exactly either
+        let others = (!kept.is_empty()).then(|| fit.covariance(from, Some(&kept), one_m));
+        let limit = |i: usize| {
+            let of_others = others
+                .as_ref()
+                .filter(|_| kept[i] == 0.0)
+                .map_or(0.0, |of| {
+                    let sigmas = of.sigma_at_m(fit.to_from_from.transform(from[i]));
+                    dot(sigmas, sigmas) / 3.0
+                });
+            LIMIT * LIMIT * (one_m * one_m + weight(i) * of_others)
+        };
         let now: Vec<f64> = (0..n)
-            .map(|i| if inside[i] <= limit { weight(i) } else { 0.0 })
+            .map(|i| {
+                if inside[i] <= limit(i) {
+                    weight(i)
+                } else {
+                    0.0
+                }
+            })
             .collect();
         let count = now.iter().filter(|w| **w > 0.0).count();
         if 2 * count <= n || count < 4 {

@@ -81,7 +81,7 @@ pub const TABLE: &[Kind] = &[
     row("bad-touch", Warning, "a touch contradicts the others and is left out (--robust)", "touch it again", &["register"], &[]),
     row("balls-moved", Warning, "a distance between balls of the base, or of the tool, is not that of the other rows", "measure it again, or give a file to each setting of the balls", &["hexapod"], &[]),
     row("base-not-determined", Warning, "distances from few fixed points do not show how the base is rotated", "believe the arm's own values only; distances from three fixed points, or some positions, determine the base", &["calibrate", "validate", "diagnose"], &[]),
-    row("base-tilted", Warning, "axis 1 is tilted from where the profile has it in the device's frame", "right where the robot is mounted so and the device is level; else gravity acts wrongly", &["calibrate", "validate", "diagnose"], &[]),
+    row("base-tilted", Warning, "the device's z is not upward as the profile has the robot mounted", "right where the robot is mounted so and the device is level; else gravity acts wrongly", &["calibrate", "validate", "diagnose"], &[]),
     row("beyond-limit", Warning, "a joint stands beyond its limit", "check the order and the unit of the joints, and the limits in the profile", &["compensate", "calibrate", "validate", "diagnose", "fk", "simulate"], &[]),
     row("branch-lost", Error, "the calibrated arm does not reach the pose on the configuration that the file gives", "move the target away from the singularity", &["compensate"], &[]).never_accepted(),
     row("circular-angle", Error, "an arc goes on to an angle (`CA`), and ends where none of its points is", "write the arc to the point where it ends, without an angle", &["compensate", "check"], &["krl"]),

@@ -27,8 +27,8 @@ const FITS_PART: f64 = 0.1;
 const AS_WELL: f64 = 1.5;
 /// Orientations further from each other than this are not of one tool, radians.
 const TURNED_RAD: f64 = 3.0 * DEG;
-/// An axis 1 this far from where the profile has it is reported, radians: gravity acts along the
-/// world's z.
+/// A device whose z is farther than this from upward is reported, radians: where it is level, gravity
+/// acts elsewhere than the profile has it.
 const TILTED_RAD: f64 = 3.0 * DEG;
 /// Exchanged columns are sure that leave axis 1 as near as this to where the profile has it, and
 /// others farther than [`TURNED_DEG`], degrees.
@@ -321,15 +321,19 @@ pub fn check_start(
         ));
     }
     let mut remarks = moved_tools(profile, start);
-    let axis = |pose: &crate::geometry::Pose| pose.rotation.axis(2);
-    let cosine = dot(axis(&start.world_from_base), axis(&profile.world_from_base));
+    // a levelled device has its z upward, whichever side it looks to
+    let down = profile.gravity_m_s2;
+    let device_from_world =
+        start.world_from_base.rotation * profile.world_from_base.rotation.transpose();
+    let cosine = -(device_from_world * down)[2] / norm(down);
     let tilt = cosine.clamp(-1.0, 1.0).acos();
-    if tilt > TILTED_RAD && start.fixed_points.is_none() {
+    if norm(down) > 0.0 && tilt > TILTED_RAD && start.fixed_points.is_none() {
         remarks.push(remark(
             "base-tilted",
             WHOLE_FILE,
             format!(
-                "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame",
+                "the robot is tilted by {:.1} deg from how the profile has it: so far is the device's z \
+                 from upward",
                 tilt / DEG
             ),
             "right where the device is tilted: gravity stays as `kinematics.base` has it; where \
@@ -360,8 +364,7 @@ pub fn gravity_by_device(tilt_rad: f64, better: f64, gravity_m_s2: Vector) -> Re
         "gravity-by-device",
         WHOLE_FILE,
         format!(
-            "axis 1 is tilted by {:.1} deg from where the profile has it in the device's frame, \
-             and the arm bends as if the device were level: \
+            "the device's z is {:.1} deg from upward as the profile has it, and the arm bends as if the device were level: \
              chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 \
                  is ({x:.3}, {y:.3}, {z:.3}) now",
             tilt_rad / DEG
