@@ -255,6 +255,10 @@ fn where_external_axes_stand_at_the_start_tells_from_which_side_they_come() {
         assert_eq!(status, Some(0), "{said}");
         assert!((x() - expected).abs() < 1e-3, "{start}: {}", x());
     }
+    // by less than its width it does not take it up
+    let (status, said) = run(Some("0,0,10,0,60,0,100.1"));
+    assert_eq!(status, Some(0), "{said}");
+    assert!((x() - 640.0).abs() < 1e-3, "{}", x());
     let (status, said) = run(Some("0,0,10,0,60,0"));
     assert_eq!(status, Some(0), "{said}");
     assert!((x() - 640.0).abs() < 1e-3, "{}", x());

@@ -227,6 +227,9 @@ fn followed(
     }
     let mut directions = vec![Known::Open; values.len()];
     let directed = has_backlash(&profile.effects, None);
+    let widths: Vec<f64> = (0..count)
+        .map(|axis| width(&profile.effects, axis))
+        .collect();
     let all_own = own.iter().all(Option::is_some);
     if all_own && !directed {
         return (values, directions);
@@ -254,7 +257,14 @@ fn followed(
                     value = value.and(from);
                     direction = direction.and(match (from, values[here]) {
                         (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
-                            Known::Is((to - from).signum())
+                            let there = Known::Is((to - from).signum());
+                            match moved {
+                                // on the way on its backlash stays taken up; where it turns back it
+                                // may not be yet
+                                _ if moved == there || (to - from).abs() >= widths[k] => there,
+                                Known::Open => Known::Open,
+                                _ => Known::Unknown,
+                            }
                         }
                         (Known::Is(_), Known::Is(_)) => moved,
                         (Known::Open, _) | (_, Known::Open) => Known::Open,
@@ -273,6 +283,14 @@ fn followed(
         }
     }
     (values, directions)
+}
+
+/// By how much an axis stands elsewhere when it comes from the other side, metres or radians.
+fn width(effects: &[Effect], axis: usize) -> f64 {
+    let of_axis = effects.iter().filter(|effect| {
+        effect.definition().needs_external_directions() && effect.site.index == axis
+    });
+    of_axis.map(|effect| effect.parameters[0].abs()).sum()
 }
 
 /// Whether an axis, or any, stands elsewhere when it comes from the other side.
@@ -481,11 +499,12 @@ impl Settler<'_> {
     fn tell_direction(&mut self, at: usize, axis: usize) {
         let motion = &self.program.moves[at];
         let message = format!(
-            "nothing says from which side external axis {} with backlash comes here: it is taken \
-             to stand in the middle",
+            "nothing says from which side external axis {} with backlash comes here, or it turns \
+             back by less than that: it is taken to stand in the middle",
             self.axes[axis].name()
         );
-        let hint = "come to the target on a move that is certainly before it, from another value";
+        let hint = "come to the target on a move that is certainly before it, from another value, \
+            farther away than its backlash";
         let source = &self.sources[motion.file as usize];
         let (id, severity) = ("direction-uncertain", Severity::Warning);
         let finding = source.finding(motion.offset as usize, id, severity, message, hint);

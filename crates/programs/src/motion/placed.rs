@@ -26,11 +26,19 @@ pub(crate) fn bases(profile: &Profile, mut draw: impl FnMut() -> f64) -> [Pose; 
     if values.is_empty() {
         return [Pose::identity(); 2];
     }
+    let effects = profile.real_effects();
+    // where nothing asks for them none are drawn
+    let is_directed = effects
+        .iter()
+        .any(|of| of.definition().needs_external_directions());
+    let drawn = values.iter().filter(|_| is_directed);
+    let directions: Vec<_> = drawn
+        .map(|_| if draw() < 0.5 { -1.0 } else { 1.0 })
+        .collect();
     let at = At {
         values: &values,
-        directions: &[],
+        directions: &directions,
     };
-    let effects = profile.real_effects();
     let origin = profile.world_from_base.translation;
     let mut nominal = external.base_nominal(&values);
     let positioners = external.positioners.len();

@@ -212,8 +212,8 @@ impl Job<'_> {
                  them straight lines were looked at"
             } else {
                 "bounds between samples cannot be guaranteed here: the move passes near a \
-                 singularity, external axes lean the base or begin nobody knows where, or the \
-                 controller's own chain is calibrated"
+                 singularity, external axes lean the base or begin nobody knows where, the \
+                 controller's own chain is calibrated, or an effect of the profile has a kink"
             };
             let (severity, hint) = if leaves_the_part {
                 (
