@@ -364,8 +364,8 @@ pub fn gravity_by_device(tilt_rad: f64, better: f64, gravity_m_s2: Vector) -> Re
         "gravity-by-device",
         WHOLE_FILE,
         format!(
-            "the device's z is {:.1} deg from upward as the profile has it, and the arm bends as if the device were level: \
-             chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 \
+            "the device's z is {:.1} deg from upward as the profile has it, and the arm bends as if \
+             the device were level: chi-squared is {better:.0} less than with gravity as the profile has it; gravity_m_s2 \
                  is ({x:.3}, {y:.3}, {z:.3}) now",
             tilt_rad / DEG
         ),

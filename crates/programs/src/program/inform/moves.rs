@@ -391,7 +391,7 @@ impl<'a> Reader<'a> {
                 Some(if same {
                     first
                 } else {
-                    self.frames_where_they_differ(variable)
+                    self.frames_of_copy(variable).map(Expr::Variable).into()
                 })
             });
             if let Some(frames) = frames {

@@ -5,6 +5,7 @@
 //! number is any of what the text writes into it; where a job may read it before it has set it, also
 //! what only the running program knows.
 
+use super::calls::is_macro;
 use super::job::Job;
 use super::lines::{Line, words};
 use crate::program::number;
@@ -584,7 +585,7 @@ pub(super) fn shared(jobs: &[Job], lines: &[Vec<Line>]) -> [bool; 2] {
         match first {
             b"CALL" => shared[0] |= !is_here,
             b"PSTART" => shared = [true; 2],
-            _ => shared[0] |= first.starts_with(b"MACRO"),
+            _ => shared[0] |= is_macro(first),
         }
     }
     shared

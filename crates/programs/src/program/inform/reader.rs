@@ -390,7 +390,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The variables that hold the tool and the work frame of what another is given.
-    fn frames_of_copy(&mut self, of: VariableId) -> [VariableId; 2] {
+    pub(super) fn frames_of_copy(&mut self, of: VariableId) -> [VariableId; 2] {
         if let Some(&known) = self.frames_of_copies.get(&of) {
             return known;
         }
@@ -409,12 +409,6 @@ impl<'a> Reader<'a> {
         });
         self.frames_of_copies.insert(of, made);
         made
-    }
-
-    /// The variables of a variable whose positions have several tools or work frames.
-    pub(super) fn frames_where_they_differ(&mut self, of: VariableId) -> (Expr, Expr) {
-        let [tool, frame] = self.frames_of_copy(of).map(Expr::Variable);
-        (tool, frame)
     }
 
     /// An instruction that may write what it names first.
