@@ -1,15 +1,17 @@
 //! Points whose partners are known: Kabsch, robustly or with planes.
 
+use super::balls::round;
 use super::planes::{Touches, plane, touches_of};
 use super::points::{Feature, Pair, PointRow, Points, matched};
-use super::{Feature as TouchedFeature, Motion, Options, Registration, Residual, Scale};
+use super::{Motion, Options, Registration, Residual, Scale};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, add, scale};
 use crate::register::RegisterError;
-use crate::register::features::{self, FeatureError, Round, compensated, noise_of};
+use crate::register::features::compensated;
 use crate::register::kabsch::{Fit, kabsch, noise_m};
 use crate::register::robust::{self, robust};
+use crate::register::uncertainty::PoseCovariance;
 use crate::task::Failure;
 use crate::task::copies::{self, copies, without};
 
@@ -41,6 +43,9 @@ pub(super) struct Touched {
     pub to_m: Vector,
     pub variance_m2: Option<f64>,
     pub weight: Option<f64>,
+    /// Its covariance as a part of the mean of the three variances, along the axes of TO, where
+    /// that is not alike in all directions.
+    pub shape: Option<[[f64; 3]; 3]>,
 }
 
 pub(super) fn warning(id: &'static str, file: &str, message: impl Into<String>) -> Finding {
@@ -207,7 +212,7 @@ fn by_points(
             "kabsch"
         },
         to_from_from: fit.to_from_from,
-        covariance: Some(fit.covariance(&from, used, sigma)),
+        covariance: Some(covariance(&fit, touched, &from, used, sigma)),
         // reported for a point of weight one, which is no length where the weights are 1/σ²
         sigma_m: (!absolute).then_some(sigma),
         sigma_given: given.is_some(),
@@ -215,6 +220,22 @@ fn by_points(
         points: rows,
     };
     Ok((motion, Some(scale)))
+}
+
+/// The covariance of the motion, of a `sigma` at weight one.
+fn covariance(
+    fit: &Fit,
+    touched: &[Touched],
+    from: &[Vector],
+    weights: Option<&[f64]>,
+    sigma_m: f64,
+) -> PoseCovariance {
+    if touched.iter().all(|t| t.shape.is_none()) {
+        return fit.covariance(from, weights, sigma_m);
+    }
+    let alike = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let shapes: Vec<_> = (touched.iter().map(|t| t.shape.unwrap_or(alike))).collect();
+    fit.covariance_of_shapes(from, weights, sigma_m, &shapes)
 }
 
 fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
@@ -474,6 +495,7 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
         to_m,
         variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
+        shape: None,
     })
 }
 
@@ -483,80 +505,6 @@ pub(super) fn variance_of(sigmas_m: [Option<f64>; 2]) -> Option<f64> {
         [None, None] => None,
         [a, b] => Some(a.unwrap_or(0.0) + b.unwrap_or(0.0)),
     }
-}
-
-fn round(
-    pair: &Pair,
-    probe_radius_m: f64,
-    to_name: &str,
-    findings: &mut Vec<Finding>,
-) -> Result<(Touched, TouchedFeature), Failure> {
-    let touches: Vec<Vector> = pair.to.iter().map(|row| row.point_m).collect();
-    let id = &pair.from.id;
-    let fail = |error: FeatureError| Failure::new(format!("{to_name}: {id}: {error}"));
-    let is_sphere = pair.from.feature == Feature::Sphere;
-    let (fit, parameters): (Round, usize) = if is_sphere {
-        (features::sphere(&touches).map_err(fail)?, 4)
-    } else {
-        (features::circle(&touches).map_err(fail)?, 3)
-    };
-    // the ball stands outside a sphere and inside a hole
-    let radius_m = if is_sphere {
-        fit.radius_m - probe_radius_m
-    } else {
-        fit.radius_m + probe_radius_m
-    };
-    if radius_m <= 0.0 {
-        let message = format!(
-            "{to_name}: {id}: the centres of the ball lie on a radius of {:.4} mm; a ball of {:.4} \
-             mm touches a sphere from outside, at more than its own radius",
-            mm_from_m(fit.radius_m),
-            mm_from_m(probe_radius_m)
-        );
-        let hint = "are the coordinates in mm, and is --probe-radius-mm the ball's radius?";
-        return Err(Failure::with_hint(message, hint));
-    }
-    let noise = noise_of(&fit.residuals_m, parameters);
-    if let Some(nominal) = pair.from.radius_m {
-        let off = radius_m - nominal;
-        let limit = noise.map_or(5e-5, |n| (5.0 * n * fit.radius_sigma).max(2e-5));
-        if off.abs() > limit {
-            let message = format!(
-                "{id}: radius {:.4} mm instead of {:.4} mm (limit {:.4} mm)",
-                mm_from_m(radius_m),
-                mm_from_m(nominal),
-                mm_from_m(limit)
-            );
-            findings.push(
-                warning("feature-radius", to_name, message).hint("is the probe's radius right?"),
-            );
-        }
-    }
-    let feature = TouchedFeature {
-        id: id.clone(),
-        feature: if is_sphere { "sphere" } else { "hole" },
-        touches: touches.len(),
-        centre_mm: fit.centre_m.map(mm_from_m),
-        radius_mm: mm_from_m(radius_m),
-        noise_mm: noise.map(mm_from_m),
-    };
-    let touched = Touched {
-        id: id.clone(),
-        from_m: pair.from.point_m,
-        to_m: fit.centre_m,
-        variance_m2: variance_of([pair.from.sigma_m, centre_sigma_m(pair, &fit)]),
-        weight: pair.from.weight.or(pair.to[0].weight),
-    };
-    Ok((touched, feature))
-}
-
-/// The deviation of a coordinate of a fitted centre, from those of its touches: the root mean
-/// square of the three.
-fn centre_sigma_m(pair: &Pair, fit: &Round) -> Option<f64> {
-    let variances = pair.to.iter().map(|row| row.sigma_m.map(|s| s * s));
-    let sum: f64 = variances.sum::<Option<f64>>()?;
-    let trace: f64 = (0..3).map(|k| fit.centre_covariance[k][k]).sum();
-    Some((trace / 3.0 * sum / pair.to.len() as f64).sqrt())
 }
 
 /// That no motion lays the points of TO on those of FROM.

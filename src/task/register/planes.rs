@@ -182,6 +182,7 @@ pub(super) fn touches_of(pair: &Pair) -> impl Iterator<Item = Touched> {
         to_m: to.point_m,
         variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
+        shape: None,
     })
 }
 

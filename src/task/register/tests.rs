@@ -4,6 +4,7 @@ use super::{Construction, Options, Pairing, Registration, register};
 use crate::program::Source;
 use crate::task::Failure;
 use crate::task::parts::Sigma;
+use rand::{RngExt, SeedableRng};
 
 fn source(name: &str, text: &str) -> Source {
     Source::new(name, text.as_bytes().to_vec())
@@ -344,4 +345,62 @@ fn options_without_effect_are_refused() {
         ));
         assert!(refused.contains("--probe-radius-mm"), "{refused}");
     }
+}
+
+#[test]
+fn centres_of_spheres_touched_from_above_are_as_sure_as_stated() {
+    const BALLS: [[f64; 3]; 4] = [
+        [0.0, 0.0, 0.0],
+        [400.0, 0.0, 30.0],
+        [0.0, 300.0, 60.0],
+        [380.0, 310.0, 0.0],
+    ];
+    const SIGMA_MM: f64 = 0.02;
+    let mut random = rand::rngs::StdRng::seed_from_u64(5);
+    let header = |more: &str| format!("id,{more}x_mm,y_mm,z_mm\n");
+    let mut from = header("feature,radius_mm,");
+    for (k, [x, y, z]) in BALLS.iter().enumerate() {
+        from += &format!("{k},sphere,15,{x},{y},{z}\n");
+    }
+    let (mut squares, mut count) = ([0.0; 3], 0.0);
+    for _ in 0..200 {
+        let mut to = header("");
+        for (k, centre) in BALLS.iter().enumerate() {
+            for touch in 0..9 {
+                // eight around at 50 deg from the top, and the top
+                let polar = if touch == 8 { 0.0 } else { 50.0_f64.to_radians() };
+                let around = f64::from(touch) * std::f64::consts::FRAC_PI_4;
+                let (sin, cos) = polar.sin_cos();
+                let along = [sin * around.cos(), sin * around.sin(), cos];
+                let place: [f64; 3] = std::array::from_fn(|i| {
+                    let noise: f64 = (0..12).map(|_| random.random_range(-0.5..0.5)).sum();
+                    centre[i] + 15.0 * along[i] + SIGMA_MM * noise
+                });
+                to += &format!("{k},{},{},{}\n", place[0], place[1], place[2]);
+            }
+        }
+        let found = rows(&from, &sigmas(&to, SIGMA_MM), &Options::default()).expect("spheres");
+        let (frame, covariance) = &found.frame;
+        let covariance = covariance.as_ref().expect("known");
+        let there = frame.transform([0.19, 0.15, 0.02]);
+        let sigma = covariance.sigma_at_m(there);
+        for i in 0..3 {
+            let off = there[i] - [0.19, 0.15, 0.02][i];
+            squares[i] += (off / sigma[i]).powi(2);
+        }
+        count += 1.0;
+    }
+    for square in squares {
+        // the mean of 200 squares strays by 0.1
+        assert!((square / count - 1.0).abs() < 0.25, "{squares:?}");
+    }
+}
+
+/// A table with a column of the deviation of every row.
+fn sigmas(text: &str, sigma_mm: f64) -> String {
+    let rows = text.lines().enumerate().map(|(k, line)| match k {
+        0 => format!("{line},sigma_mm\n"),
+        _ => format!("{line},{sigma_mm}\n"),
+    });
+    rows.collect()
 }

@@ -5,7 +5,7 @@ use super::linear::svd;
 use super::uncertainty::{PoseCovariance, crossing};
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Rotation, Vector, add, dot, norm, scale, sub};
-use nalgebra::{DMatrix, Matrix3, Matrix6};
+use nalgebra::{DMatrix, Matrix3, Matrix3x6, Matrix6};
 use rayon::prelude::*;
 
 /// Spreads below this are coincident points, metres.
@@ -311,20 +311,56 @@ impl Fit {
         weights: Option<&[f64]>,
         sigma_m: f64,
     ) -> PoseCovariance {
+        let information = self.information(from, weights, None);
+        self.covariance_by(&inverse_of(&information), sigma_m)
+    }
+
+    /// The same where the noise of a point is not alike in all directions: its covariance, along
+    /// the axes of TO, is `sigma_m²` by its weight by its matrix of `shapes`, whose trace is three.
+    ///
+    /// With `N` the information at noise alike in all directions, and `M` the same sum of the
+    /// shapes, `N⁻¹ M N⁻¹`.
+    ///
+    /// # Panics
+    /// If these are not the points of the fit but others in a line.
+    #[must_use]
+    pub fn covariance_of_shapes(
+        &self,
+        from: &[Vector],
+        weights: Option<&[f64]>,
+        sigma_m: f64,
+        shapes: &[[[f64; 3]; 3]],
+    ) -> PoseCovariance {
+        let inverse = inverse_of(&self.information(from, weights, None));
+        let middle = self.information(from, weights, Some(shapes));
+        self.covariance_by(&(inverse * middle * inverse), sigma_m)
+    }
+
+    /// Σ w Jᵀ C J of the points about the weighted centre, where rotation and translation do not
+    /// mix if all C are one.
+    fn information(
+        &self,
+        from: &[Vector],
+        weights: Option<&[f64]>,
+        shapes: Option<&[[[f64; 3]; 3]]>,
+    ) -> Matrix6<f64> {
         let mut information = Matrix6::zeros();
         for (i, p) in from.iter().enumerate() {
             let w = weights.map_or(1.0, |w| w[i]);
+            let shape = shapes.map_or_else(Matrix3::identity, |shapes| {
+                Matrix3::from_fn(|row, column| shapes[i][row][column])
+            });
             let arm = crossing(self.to_from_from.rotation * sub(*p, self.from_centre_m));
-            let mut view = information.fixed_view_mut::<3, 3>(0, 0);
-            view += w * arm.transpose() * arm;
-            let mut view = information.fixed_view_mut::<3, 3>(3, 3);
-            view += w * Matrix3::identity();
+            let mut jacobian = Matrix3x6::zeros();
+            jacobian.fixed_view_mut::<3, 3>(0, 0).copy_from(&-arm);
+            jacobian.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+            information += w * jacobian.transpose() * shape * jacobian;
         }
-        // about the weighted centre rotation and translation do not mix
-        let inverse = information
-            .try_inverse()
-            .expect("points that are not collinear fix all six");
-        PoseCovariance::new(self.to_centre_m, &(inverse * sigma_m * sigma_m))
+        information
+    }
+
+    fn covariance_by(&self, matrix: &Matrix6<f64>, sigma_m: f64) -> PoseCovariance {
+        PoseCovariance::new(self.to_centre_m, &(matrix * sigma_m * sigma_m))
     }
 
     /// Standard uncertainty of [`Fit::scale`] for the noise `sigma_m` of a coordinate, metres.
@@ -332,6 +368,11 @@ impl Fit {
     pub fn scale_sigma(&self, sigma_m: f64) -> f64 {
         sigma_m / self.from_spread_m2.sqrt()
     }
+}
+
+fn inverse_of(information: &Matrix6<f64>) -> Matrix6<f64> {
+    let inverse = information.try_inverse();
+    inverse.expect("points that are not collinear fix all six")
 }
 
 /// Standard deviation of one coordinate at weight one, from what is left of `count` points after a
