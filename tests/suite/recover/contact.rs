@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use poseshift::geometry::{Pose, Vector, add, dot, norm, scale, sub};
 use poseshift::identify::IdentifyError;
 use poseshift::identify::base::BasePolicy;
-use poseshift::identify::calibration::{Options, calibrate};
+use poseshift::identify::calibration::{Calibration, Options, calibrate};
 use poseshift::identify::measurements::Measurements;
 use poseshift::identify::normal::Normal;
 use poseshift::identify::parameters::{Level, Selection, Subject};
@@ -295,7 +295,8 @@ fn repeated_unknown_points_leave_the_base_where_the_profile_has_it() {
 #[test]
 fn about_the_only_point_of_a_tool_its_rotation_is_not_sought() {
     let mut cell = Cell::new(73);
-    let measurements = read(&all_kinds(&mut cell, 30));
+    let text = all_kinds(&mut cell, 30);
+    let measurements = read(&text);
     let selection = Selection::level(Level::Geometry);
     let free = Options {
         selection,
@@ -318,6 +319,16 @@ fn about_the_only_point_of_a_tool_its_rotation_is_not_sought() {
         let missed = norm(sub(pose.transform(BALL_IN_TOOL_M), cell.ball(&q)));
         assert!(missed < 5e-4, "{missed}");
     }
+    // a ball that is not where its columns have it
+    let says = |found: &Calibration| {
+        let mut all = found.remarks.iter().filter(|r| r.id == "tool-elsewhere");
+        all.next().map(|r| r.message.clone())
+    };
+    assert_eq!(says(&found), None);
+    let elsewhere = read(&text.replace(",12,-20,80,", ",52,-20,50,"));
+    let found = calibrate(&nominal(), &elsewhere, &free).expect("a calibration");
+    let message = says(&found).expect("50 mm off");
+    assert!(message.contains("`artifact` is 5"), "{message}");
 }
 
 #[test]

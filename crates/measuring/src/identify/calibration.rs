@@ -410,6 +410,12 @@ pub(super) fn identify(
     };
     let outliers = outliers(&problem, &fit, &solution, &after_misses);
     remarks.extend(plausibility::check_rows(&outliers));
+    // distances and contacts say of a tool only what the fit makes of them
+    let is_known = guess.moved_m.iter().any(Option::is_some);
+    if !is_known && remarks.iter().all(|known| known.id != "tool-elsewhere") {
+        let estimate = &solution.estimate;
+        remarks.extend(screening::moved_fitted_tools(profile, estimate));
+    }
     let held_out = if held.rows.is_empty() {
         None
     } else {

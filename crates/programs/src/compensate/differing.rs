@@ -176,6 +176,9 @@ fn one(
         let source = &ground.sources[place.file as usize];
         let (line, _) = source.line_column(place.offset as usize);
         text += &format!(" with the {what}{name} of line {line}");
+        if place.file != motion.file {
+            text += &format!(" of {}", source.name);
+        }
     }
     if differing.load {
         text += &match mass_kg(job, approach) {

@@ -8,9 +8,10 @@ use crate::geometry::{Vector, dot, norm, sub};
 use crate::identify::error::{FAR_OFF, IdentifyError};
 use crate::identify::line::Line;
 use crate::identify::measurements::{Measurement, Measurements, Observed};
-use crate::identify::problem::Problem;
+use crate::identify::problem::{Estimate, Problem};
 use crate::identify::start::{self, Start, spreads};
 use crate::identify::statistics::quantile;
+use crate::model::effects::{Effect, Kind, Site};
 use crate::profile::Profile;
 
 /// A first guess that misses by less is not questioned, metres, if it is also less than
@@ -461,20 +462,42 @@ fn expected(fits: &[Fit], profile: &Profile) -> (String, String) {
 
 /// Tools that are elsewhere than the profile says.
 fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
-    let mut remarks: Vec<Remark> = Vec::new();
-    let mut gaps: Vec<(&String, f64)> = Vec::new();
-    for (((name, _), _), gap) in start.points_on_flange_m.iter().zip(&start.moved_m) {
-        let Some(gap) = gap.filter(|_| profile.tool(name).is_some()) else {
-            continue;
-        };
+    let points = start.points_on_flange_m.iter().zip(&start.moved_m);
+    let moved = points.filter_map(|(((name, _), _), gap)| Some((name.as_str(), (*gap)?)));
+    tools_elsewhere(moved.filter(|(name, _)| profile.tool(name).is_some()))
+}
+
+/// Fitted tools that are elsewhere than the profile says, where the first guess knows none.
+#[must_use]
+pub fn moved_fitted_tools(profile: &Profile, estimate: &Estimate) -> Vec<Remark> {
+    let frames = |effects: &[Effect], site: &Site| {
+        let mut of = effects.iter();
+        let frame = of.find(|e| e.kind == Kind::ToolFrame && e.site == *site);
+        frame.map_or([0.0; 3], |e| std::array::from_fn(|k| e.parameters[k]))
+    };
+    let tools = profile.tools.keys().filter_map(|name| {
+        let mut of = estimate.effects.iter();
+        let fitted = of.find(|e| e.kind == Kind::ToolFrame && e.site.is_of_tool(name))?;
+        let before = frames(&profile.effects, &fitted.site);
+        let now = frames(&estimate.effects, &fitted.site);
+        Some((name.as_str(), norm(sub(now, before))))
+    });
+    tools_elsewhere(tools)
+}
+
+/// Names tools by how far their points are from where the profile has them, metres.
+fn tools_elsewhere<'a>(moved: impl Iterator<Item = (&'a str, f64)>) -> Vec<Remark> {
+    let mut gaps: Vec<(&str, f64)> = Vec::new();
+    for (name, gap) in moved {
         // of several points with columns of their own the farthest
         match gaps.iter_mut().find(|(known, _)| *known == name) {
             Some((_, most)) => *most = most.max(gap),
             None => gaps.push((name, gap)),
         }
     }
-    for (name, gap) in gaps.into_iter().filter(|(_, gap)| *gap > WRONG_TOOL_M) {
-        remarks.push(remark(
+    let far = gaps.into_iter().filter(|(_, gap)| *gap > WRONG_TOOL_M);
+    let named = far.map(|(name, gap)| {
+        remark(
             "tool-elsewhere",
             WHOLE_FILE,
             format!(
@@ -483,9 +506,9 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
             ),
             "is it the tool of the profile? px_mm, py_mm, pz_mm are in the tool's own frame; where \
              tool_frame is identified its deviation is found",
-        ));
-    }
-    remarks
+        )
+    });
+    named.collect()
 }
 
 /// Checks a tool that is to stay where the profile has it and was measured elsewhere.
