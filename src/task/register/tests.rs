@@ -368,7 +368,11 @@ fn centres_of_spheres_touched_from_above_are_as_sure_as_stated() {
         for (k, centre) in BALLS.iter().enumerate() {
             for touch in 0..9 {
                 // eight around at 50 deg from the top, and the top
-                let polar = if touch == 8 { 0.0 } else { 50.0_f64.to_radians() };
+                let polar = if touch == 8 {
+                    0.0
+                } else {
+                    50.0_f64.to_radians()
+                };
                 let around = f64::from(touch) * std::f64::consts::FRAC_PI_4;
                 let (sin, cos) = polar.sin_cos();
                 let along = [sin * around.cos(), sin * around.sin(), cos];

@@ -386,3 +386,15 @@ fn where_force_has_moved_the_robot_is_not_known() {
         .filter(|f| f.id == "direction-uncertain");
     assert_eq!(found.count(), 1, "{:?}", done.findings);
 }
+
+#[test]
+fn a_frame_of_another_file_is_named_with_it() {
+    let main = ".PROGRAM main()\nTOOL NULL\nBASE NULL\nJMOVE #h\nIF SIG(1) THEN\nCALL other\nEND\n\
+                LMOVE p\n.END\n.TRANS\np 430 0 400 90 150 0\n.END\n.JOINTS\n#h 0 0 0 0 60 0\n.END\n";
+    let other = ".PROGRAM other()\nSIGNAL 1\nBASE TRANS(10,30,20,15,0,0)\n.END\n";
+    let done = done(&[WRIST], &[("t.as", main), ("o.as", other)]);
+    let mut shared = done.findings.iter().filter(|f| f.id == "target-shared");
+    let message = &shared.next().expect("two bases").message;
+    assert!(message.contains("the work frame of line 3: "), "{message}");
+    assert!(message.contains("line 3 of o.as: "), "{message}");
+}

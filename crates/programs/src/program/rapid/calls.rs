@@ -51,7 +51,10 @@ impl Translator<'_> {
             Verb::Writes(position) => {
                 let mut positional = all.iter().filter(|argument| argument.option.is_none());
                 if let Some(argument) = positional.nth(usize::from(position)) {
-                    self.becomes_unknown(argument);
+                    match self.grown(callee, all) {
+                        Some(how) => self.write_argument(argument, how),
+                        None => self.becomes_unknown(argument),
+                    }
                 }
             }
             Verb::WritesTool => {

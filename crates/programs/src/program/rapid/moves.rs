@@ -465,8 +465,7 @@ impl Translator<'_> {
             _ => return,
         };
         let how = match how {
-            How::PartSomehow(_) => how,
-            _ if is_part => How::PartNumber(self.changed()),
+            How::Whole(_) if is_part => How::PartNumber(self.changed()),
             _ => how,
         };
         let index: Index = self.resolved.parsed.index(index);

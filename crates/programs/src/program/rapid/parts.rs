@@ -2,7 +2,9 @@
 
 use super::aggregate::Leaf;
 use super::records::part_of;
-use super::syntax::{Assigned, Base, Component, Expression, Index, Type, indices};
+use super::syntax::{
+    Argument, Assigned, Base, Callee, Component, Expression, Index, Type, indices,
+};
 use super::translate::Translator;
 use crate::geometry::units::MM;
 use crate::program::displacing::{Displacing, grown_by_any};
@@ -12,6 +14,20 @@ use crate::program::numbers::parts;
 use crate::program::quantity::Quantity;
 use crate::program::script::{DISPLACED_SOMEHOW, Expr, Held, How, Part, PartValue};
 use crate::program::{Displacement, Shift};
+
+/// How a coordinate of a target ends.
+const AXES: [&[u8]; 3] = [b".trans.x", b".trans.y", b".trans.z"];
+
+/// The coordinate that the name of a part of a target means.
+fn axis_of(part: &[u8]) -> Option<usize> {
+    AXES.into_iter().position(|axis| part.ends_with(axis))
+}
+
+/// A text in small letters and without blanks.
+fn small(text: &[u8]) -> Vec<u8> {
+    let text = text.iter().filter(|b| !b.is_ascii_whitespace());
+    text.map(u8::to_ascii_lowercase).collect()
+}
 
 impl Translator<'_> {
     /// `name{i}.part := value`
@@ -146,16 +162,15 @@ impl Translator<'_> {
         if let Some(how) = self.axes_written(&own) {
             return how;
         }
-        let axes = [&b".trans.x"[..], b".trans.y", b".trans.z"];
-        let axis = axes.into_iter().position(|axis| own.ends_with(axis));
+        let axis = axis_of(&own);
         if let Some(axis) = axis
-            && let Some((term, by)) = self.term_and_rest(&text, &own, axes[axis])
+            && let Some((term, by)) = self.term_and_rest(&text, &own, AXES[axis])
             && let Some(displacement) = grown_by_any(axis, by)
         {
             if term == own {
                 return self.builder.script.part_by(changed, displacement);
             }
-            let other = term.strip_suffix(axes[axis]);
+            let other = term.strip_suffix(AXES[axis]);
             if let Some(other) = other.and_then(|name| self.resolved.parsed.symbols.find(name)) {
                 let other = self.position(other, Index::Whole, Type::Robtarget);
                 let by = self.builder.script.displacement(displacement);
@@ -260,13 +275,36 @@ impl Translator<'_> {
         Some(by.displacement())
     }
 
+    /// What `Add p.trans.x,5`, `Incr p.trans.x` and `Decr p.trans.x` make of a target.
+    pub(super) fn grown(&mut self, callee: Callee, all: &[Argument]) -> Option<How> {
+        let Callee::Named(name) = callee else {
+            return None;
+        };
+        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
+        let text = |argument: &Argument| small(&bytes[indices(argument.span)]);
+        let axis = axis_of(&text(all.first()?))?;
+        let spelling = self.resolved.spelling(name).to_ascii_lowercase();
+        let by = match spelling.as_str() {
+            "incr" => Quantity::exactly(1.0),
+            "decr" => Quantity::exactly(-1.0),
+            "add" => {
+                let by = text(all.get(1)?);
+                let (here, context) = (self.here, self.context);
+                self.resolved.quantity(&by, here, context, &mut |_| None)
+            }
+            _ => return None,
+        };
+        let displacement = grown_by_any(axis, by)?;
+        let changed = self.changed();
+        Some(self.builder.script.part_by(changed, displacement))
+    }
+
     /// What the present assignment writes, and what: in small letters and without blanks.
     pub(super) fn own_and_value(&self) -> (Vec<u8>, Vec<u8>) {
         let bytes = &self.resolved.sources[self.here.file as usize].bytes;
         let text = &bytes[self.here.offset as usize..];
         let end = memchr::memchr(b';', text).unwrap_or(text.len());
-        let text = text[..end].iter().filter(|b| !b.is_ascii_whitespace());
-        let text: Vec<u8> = text.map(u8::to_ascii_lowercase).collect();
+        let text = small(&text[..end]);
         match memchr::memmem::find(&text, b":=") {
             Some(at) => (text[..at].to_vec(), text[at + 2..].to_vec()),
             None => (text, Vec::new()),

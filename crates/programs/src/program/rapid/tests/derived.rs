@@ -95,6 +95,11 @@ fn arithmetic_of_a_copy_displaces_it_by_what_the_text_says() {
             along([0.0, 0.0, -0.025]),
         ),
         ("q.trans.z:=p1.trans.z+up;", along([0.0, 0.0, 0.03])),
+        ("Add Q.trans.z, 2*up;", along([0.0, 0.0, 0.06])),
+        ("Add q.trans.y,-20;", along([0.0, -0.02, 0.0])),
+        ("Incr q.trans.x;", along([0.001, 0.0, 0.0])),
+        ("Decr q.trans.x;", along([-0.001, 0.0, 0.0])),
+        ("Clear q.trans.x;", Displacement::Overwritten),
         (
             "q.trans.x:=p1.trans.x+10;\nIF a Stop;\nq.trans.z:=p1.trans.z+50;",
             along([0.01, 0.0, 0.05]),
