@@ -202,10 +202,11 @@ impl Compensate {
             left_out: &left_out,
         };
         let mut said = self.tell(&header, &prepared.compensation, output)?;
-        let inserted = prepared.compensation.added.moves;
-        if inserted > 0 && !output.quiet {
+        let inserted = prepared.compensation.added.paths();
+        let is_written = header.written.contains(&true);
+        if inserted > 0 && is_written && !output.quiet {
             said.text += &format!(
-                "{inserted} moves inserted, so that the path is within {} mm\n",
+                "{inserted} moves inserted for a path within {} mm\n",
                 self.max_path_error.unwrap_or_default()
             );
         }
@@ -269,7 +270,15 @@ impl Compensate {
                 Failure::new(format!("--wobj {text}: it must be NAME=FRAME.yaml"))
             })?;
             let frame = frame(&files.source(Path::new(file))?)?;
-            given.measured_frames.insert(name, frame.to_from_from);
+            let known = given
+                .measured_frames
+                .insert(name.clone(), frame.to_from_from);
+            if known.is_some() || given.frames.contains_key(&Some(name.clone())) {
+                return Err(Failure::with_hint(
+                    format!("--wobj {name}: this frame is given twice"),
+                    "one --wobj or --frame a name",
+                ));
+            }
         }
         let work_offset = match &self.work_offset {
             Some(path) => Some(frame(&files.source(path)?)?.to_from_from),

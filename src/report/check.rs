@@ -88,7 +88,7 @@ pub(crate) fn text(found: &Checked) -> String {
     }
     if uncertified > 0 {
         lines.push(format!(
-            "  {uncertified} moves are known by samples only (near singularities)"
+            "  {uncertified} moves are known by samples only (-v says which and why)"
         ));
     }
     if with_zone > 0 {

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::fk::{Options, Which};
 use super::profile_file::ProfileFile;
 use super::table::{JOINTS, POSE, Row, Table, cell, pose, text_cell};
+use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Arm, Branch, Inverse, Outcome, Status};
 use crate::model::external::Stand;
@@ -14,6 +15,7 @@ use crate::model::{Conditions, Model};
 use crate::program::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 const NEAR: [&str; 6] = [
     "near1_deg",
@@ -118,7 +120,7 @@ pub fn ik_telling(
             middle(profile)
         };
         let mut add = |branch, root, near: &[f64; 6]| {
-            let outcome = inverse.solve(&wanted, branch, near);
+            let outcome = within_limits(inverse, &wanted, branch, near);
             found += usize::from(outcome.status == Status::Converged);
             solutions.push(solution(row.id(number + 1), branch, root, &outcome));
         };
@@ -133,7 +135,7 @@ pub fn ik_telling(
             } else if table.has("branch") {
                 vec![branch(&row)?]
             } else {
-                vec![inverse.arm.posture(&near).0]
+                vec![nearest_branch(inverse, &wanted, &near)]
             };
             for branch in branches {
                 add(branch, None, &near);
@@ -148,6 +150,45 @@ pub fn ik_telling(
         found == solutions.len()
     };
     Ok(Solutions { solutions, reached })
+}
+
+/// The solution on a branch, by whole rotations nearest to joints that are given, within the limits
+/// where another whole rotation is.
+fn within_limits(inverse: &Inverse, wanted: &Pose, branch: Branch, near: &[f64; 6]) -> Outcome {
+    let outcome = inverse.solve(wanted, branch, near);
+    if !matches!(outcome.status, Status::JointLimit(_)) {
+        return outcome;
+    }
+    let joints = &inverse.arm.mechanism().joints;
+    let other: [f64; 6] = std::array::from_fn(|i| {
+        let (q, joint) = (outcome.q[i], &joints[i]);
+        let all = [q, q - TAU, q + TAU].into_iter();
+        let mut within = all.filter(|q| (joint.min_rad..=joint.max_rad).contains(q));
+        within.next().unwrap_or(q)
+    });
+    let again = inverse.solve(wanted, branch, &other);
+    if again.status == Status::Converged {
+        again
+    } else {
+        outcome
+    }
+}
+
+/// The branch of the solution nearest to joints that are given; near the border of two it is not
+/// always theirs.
+fn nearest_branch(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> Branch {
+    let own = inverse.arm.posture(near).0;
+    let others = Branch::ALL.into_iter().filter(|branch| *branch != own);
+    let far = |branch: Branch| {
+        let outcome = within_limits(inverse, wanted, branch, near);
+        let apart = outcome.q.iter().zip(near).map(|(q, near)| (q - near).abs());
+        let apart = apart.fold(0.0, f64::max);
+        (outcome.status == Status::Converged).then_some(apart)
+    };
+    let all = std::iter::once(own).chain(others);
+    let reached = all.filter_map(|branch| Some((branch, far(branch)?)));
+    let nearest = reached.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or(own, |(branch, _)| branch)
 }
 
 fn branch(row: &Row) -> Result<Branch, Failure> {

@@ -206,6 +206,14 @@ pub enum Fault {
     /// A pair that says nothing, or two things.
     #[error("a pair has either clearance_mm or allow: true")]
     PairMeaning,
+    /// A pair of bodies that stands twice.
+    #[error("the pair of `{a}` and `{b}` stands twice: which of the two counts?")]
+    PairTwice {
+        /// One of them.
+        a: String,
+        /// The other.
+        b: String,
+    },
     /// A wrong entry in the list of effects.
     #[error(transparent)]
     Effect(EntryError),

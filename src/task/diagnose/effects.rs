@@ -77,9 +77,13 @@ pub struct Evidence {
 /// An effect that was found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FoundEffect {
-    /// The effect.
+    /// The effect, with the values that the improved profile gets; those of `base_frame` and
+    /// `tool_frame` say how the frame moved.
     #[serde(flatten)]
     pub effect: Effect,
+    /// Values of the profile, of what was sought; none where it does not have the effect.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub was: Map<String, Value>,
     /// Standard deviations by the keys of files.
     pub sigma: Map<String, Value>,
     /// Why it is believed.
@@ -146,6 +150,21 @@ impl From<&engine::Changed> for ChangedEffect {
     }
 }
 
+/// A sentence with what the profile has in the place of an effect found.
+fn changed(f: &engine::Found) -> String {
+    let Some(was) = &f.was else {
+        return String::new();
+    };
+    let parameters = f.effect.definition().parameters;
+    let each = f.sought.iter().map(|n| {
+        let p = &parameters[*n];
+        let [before, now] = [was, &f.effect].map(|of| of.parameters[*n] / p.unit.in_si());
+        format!("{} {before:.3e}, and {now:.3e} now", p.key)
+    });
+    let each: Vec<String> = each.collect();
+    format!(" The profile has {}.", each.join("; "))
+}
+
 /// What may be in the place of an effect found.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Against {
@@ -163,6 +182,14 @@ impl From<&engine::Found> for FoundEffect {
             let p = &definition.parameters[n];
             (p.key.to_owned(), json!(finite(s / p.unit.in_si())))
         });
+        let was = f.was.iter().flat_map(|was| {
+            f.sought.iter().map(|n| {
+                let p = &definition.parameters[*n];
+                let value = was.parameters[*n] / p.unit.in_si();
+                (p.key.to_owned(), json!(finite(value)))
+            })
+        });
+        let was: Map<String, Value> = was.collect();
         let (found_again, found_again_of) = f.found_again;
         let profile = match (f.in_profile, definition.of_data) {
             (true, _) => "",
@@ -191,7 +218,8 @@ impl From<&engine::Found> for FoundEffect {
                     odds: a.odds,
                 })
                 .collect(),
-            sentence: f.effect.sentence(&f.seen) + profile,
+            sentence: f.effect.sentence(&f.seen) + &changed(f) + profile,
+            was,
         }
     }
 }

@@ -488,3 +488,31 @@ fn a_target_that_no_correction_explains_is_not_one_of_the_original() {
     assert_eq!(severity, Severity::Warning);
     assert!(line > 0);
 }
+
+#[test]
+fn joints_rotate_as_fast_with_backlash_as_without() {
+    let target = |y: f64| {
+        format!(
+            "[[400,{y},300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,artifact;\n"
+        )
+    };
+    let lines = joint_move([0.0, 0.0, 0.0, 0.0, 60.0, 0.0])
+        + &format!("    ConfL\\Off;\n    MoveL {}", target(-250.0))
+        + &format!("    MoveL {}", target(235.0));
+    let backlash = (1..7)
+        .map(|joint| format!("\n    - {{effect: backlash, joint: {joint}, width_deg: -0.05}}"));
+    let backlash: String = backlash.collect();
+    let with = THESIS.replace("\n  effects:", &format!("\n  effects:{backlash}"));
+    assert_ne!(with, THESIS);
+    let rates = |text: &str| {
+        let sources = rapid(&lines);
+        let found = run(&profile(text), None, &sources, None, &Options::default());
+        let moves = found.moves.iter().skip(1);
+        let rates = moves.map(|m| m.limits.as_ref().expect("limits").rate_rad);
+        rates.collect::<Vec<_>>()
+    };
+    let (plain, loose) = (rates(THESIS), rates(&with));
+    for (a, b) in plain.iter().zip(&loose) {
+        assert!((a / b - 1.0).abs() < 0.05, "{plain:?} {loose:?}");
+    }
+}

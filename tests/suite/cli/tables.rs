@@ -77,6 +77,43 @@ fn joints_go_to_poses_and_back() {
 }
 
 #[test]
+fn the_solution_near_joints_is_the_nearest_of_all_branches() {
+    let folder = scratch();
+    let file = |name: &str, text: String| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("scratch");
+        path.to_str().expect("UTF-8").to_owned()
+    };
+    // on the other side of joint 5; a whole rotation that is beyond the limit of joint 4
+    for (joints, near, branch) in [
+        ("0,0,0,0,-40,0", "0,0,0,0,40,0", ["", ""]),
+        ("0,0,0,0,2,0", "0,0,0,0,-1,0", ["", ""]),
+        ("0,0,0,-155,40,0", "0,0,0,150,40,0", [",branch", ",0"]),
+    ] {
+        let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
+        let joints_file = file("j.csv", format!("{header}\n{joints}\n"));
+        let poses = stdout(&["fk", "--profile", PROFILE, "--joints", &joints_file]);
+        let (pose_header, row) = poses.trim_end().split_once('\n').expect("two lines");
+        let near_header = header.replace('q', "near");
+        let poses = file(
+            "p.csv",
+            format!(
+                "{pose_header},{near_header}{}\n{row},{near}{}\n",
+                branch[0], branch[1]
+            ),
+        );
+        let solved = stdout(&["ik", "--profile", PROFILE, "--poses", &poses]);
+        let cells: Vec<&str> = solved.lines().nth(1).expect("a row").split(',').collect();
+        let want: Vec<f64> = joints.split(',').map(|q| q.parse().expect("q")).collect();
+        for (cell, want) in cells[2..8].iter().zip(want) {
+            let q: f64 = cell.parse().expect("a number");
+            assert!((q - want).abs() < 1e-5, "{solved}");
+        }
+        assert!(solved.trim_end().ends_with("converged"), "{solved}");
+    }
+}
+
+#[test]
 fn a_bad_cell_names_line_and_column() {
     let folder = scratch();
     let joints = folder.path().join("j.csv");

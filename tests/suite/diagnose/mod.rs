@@ -2,6 +2,7 @@
 
 mod changed;
 mod commands;
+mod doubted;
 mod page;
 mod physics;
 mod real;

@@ -106,6 +106,8 @@ pub struct Alternative {
 pub struct Found {
     /// The effect with its values.
     pub effect: Effect,
+    /// It as the profile has it, where its values are new ones in the place of those.
+    pub was: Option<Effect>,
     /// Indices of the parameters that were sought.
     pub sought: Vec<usize>,
     /// Standard deviations of those, SI.

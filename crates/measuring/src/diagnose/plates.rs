@@ -456,6 +456,7 @@ impl One {
                 p_value: corrected(one.gain, count, candidate.peers),
                 bic: one.gain - count as f64 * fit.freedom.ln(),
                 effect,
+                was: None,
                 sought: candidate.sought.clone(),
                 sigmas,
                 listed: None,

@@ -295,6 +295,9 @@ pub(super) fn identify(
     let moved_base = guess.world_from_base != profile.world_from_base;
     let (mut problem, mut estimate) =
         Problem::new(profile, &fit, &options.selection, guess.world_from_base)?;
+    if problem.points.iter().all(|point| point.known) {
+        screening::check_points(&guess)?;
+    }
     problem.gravity_by_base = by_controller;
     let numbers = problem.distinct_numbers();
     if numbers <= problem.parameters.len() {

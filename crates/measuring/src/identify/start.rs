@@ -43,6 +43,19 @@ pub(super) type CarrierName = (String, Option<String>);
 /// The measured points and where they are believed on the flange; `None` where that is not known.
 pub(super) type Carriers = Vec<Option<Vector>>;
 
+/// How two points of a tool lie to one another, the pair that differs most from the profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mounting {
+    /// The tool.
+    pub tool: String,
+    /// The two points whose distance differs most.
+    pub points: [String; 2],
+    /// Their distance as measured and in the profile, metres.
+    pub apart_m: [f64; 2],
+    /// The largest angle between a pair as measured and in the profile, radians.
+    pub rotated_rad: f64,
+}
+
 /// A first guess.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
@@ -53,6 +66,8 @@ pub struct Start {
     /// How far each of them is from where the profile, or the columns of the point, have it, metres;
     /// `None` where they do not, or where they fit as well.
     pub moved_m: Vec<Option<f64>>,
+    /// How the points of each tool lie to one another, of which the profile has more than one.
+    pub mountings: Vec<Mounting>,
     /// Root mean square of the distances left, without gross errors, metres.
     pub rms_m: f64,
     /// The same with the tool and points as the profile has them; `None` where it does not have
@@ -77,6 +92,7 @@ impl Start {
             world_from_base,
             points_on_flange_m: Vec::new(),
             moved_m: Vec::new(),
+            mountings: Vec::new(),
             rms_m: 0.0,
             believed_rms_m: None,
             spread_m: 0.0,
@@ -352,14 +368,17 @@ pub(super) fn solve(sights: &[Sight], carriers: &Carriers) -> Placed {
     }
 }
 
-/// How far each point is from where it is believed, with all of them fitted, where they then fit
+/// By what each point is from where it is believed, with all of them fitted, where they then fit
 /// better by far; where those believed miss by less than `least`, metres, none.
-fn moved(sights: &[Sight], carriers: &Carriers, placed: &Placed, least: f64) -> Vec<Option<f64>> {
+fn moved(
+    sights: &[Sight],
+    carriers: &Carriers,
+    placed: &Placed,
+    least: f64,
+) -> Option<Vec<Vector>> {
     let believed: Option<Vec<Vector>> = carriers.iter().copied().collect();
     let missed = placed.believed_rms_m.filter(|rms| *rms > least);
-    let Some((believed, before)) = believed.zip(missed) else {
-        return vec![None; carriers.len()];
-    };
+    let (believed, before) = believed.zip(missed)?;
     // what is fitted is how far each point is from there: what does not show stays zero
     let at = |s: &Sight| {
         let [x, y, z] = believed[s.carrier];
@@ -369,8 +388,55 @@ fn moved(sights: &[Sight], carriers: &Carriers, placed: &Placed, least: f64) -> 
     let sights: Vec<Sight> = sights.iter().map(at).collect();
     let fitted = alternate(&sights, placed.base, carriers.len());
     let after = rms(&sights, &fitted.0, &fitted.1);
-    let gap = |by: &Vector| (after * BETTER < before).then(|| norm(*by));
-    fitted.1.iter().map(gap).collect()
+    (after * BETTER < before).then_some(fitted.1)
+}
+
+/// How the named points of each tool lie to one another, moved by so much.
+fn mountings(names: &[CarrierName], carriers: &Carriers, moved: &[Vector]) -> Vec<Mounting> {
+    let mut all: Vec<Mounting> = Vec::new();
+    for i in 0..names.len() {
+        for j in i + 1..names.len() {
+            let (tool, [Some(a), Some(b)]) = (&names[i].0, [&names[i].1, &names[j].1]) else {
+                continue;
+            };
+            let (Some(p), Some(q)) = (carriers[i], carriers[j]) else {
+                continue;
+            };
+            if names[j].0 != *tool || a == b {
+                continue;
+            }
+            let believed = sub(q, p);
+            let found = add(believed, sub(moved[j], moved[i]));
+            let apart_m = [norm(found), norm(believed)];
+            let cosine = dot(found, believed) / (apart_m[0] * apart_m[1]).max(1e-12);
+            let rotated_rad = cosine.clamp(-1.0, 1.0).acos();
+            let own = Mounting {
+                tool: tool.clone(),
+                points: [a.clone(), b.clone()],
+                apart_m,
+                rotated_rad,
+            };
+            match all.iter_mut().find(|known| known.tool == *tool) {
+                Some(known) => {
+                    let most = known.rotated_rad.max(rotated_rad);
+                    if own.differs_m() > known.differs_m() {
+                        *known = own;
+                    }
+                    known.rotated_rad = most;
+                }
+                None => all.push(own),
+            }
+        }
+    }
+    all
+}
+
+impl Mounting {
+    /// By how much the distance of the two differs, metres.
+    #[must_use]
+    pub fn differs_m(&self) -> f64 {
+        (self.apart_m[0] - self.apart_m[1]).abs()
+    }
 }
 
 /// As [`solve`], without the rows that are far beyond the others; and those that remain.
@@ -485,11 +551,18 @@ pub fn find(profile: &Profile, measurements: &Measurements) -> Option<Start> {
     } else {
         BELIEVED_M
     };
-    let moved_m = moved(&kept, &carriers, &placed, least);
+    let moved = moved(&kept, &carriers, &placed, least);
+    let gaps = moved.iter().flatten().map(|by| Some(norm(*by)));
+    let moved_m = match &moved {
+        Some(_) => gaps.collect(),
+        None => vec![None; names.len()],
+    };
+    let mountings = moved.map(|moved| mountings(&names, &carriers, &moved));
     let (turned, turned_apart_rad) = orientations(measurements, &sights, &names, &placed.base);
     Some(Start {
         points_on_flange_m: names.into_iter().zip(placed.points).collect(),
         moved_m,
+        mountings: mountings.unwrap_or_default(),
         rms_m: placed.rms_m,
         believed_rms_m: placed.believed_rms_m,
         spread_m: norm(spread),

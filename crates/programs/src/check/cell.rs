@@ -222,7 +222,7 @@ impl Cell {
                 shape,
             });
         }
-        let mut pairs = Vec::new();
+        let mut pairs: Vec<Pair> = Vec::new();
         for pair in &file.pairs {
             let (at, pair) = (pair.defined, &pair.value);
             for name in [&pair.a, &pair.b] {
@@ -233,6 +233,17 @@ impl Cell {
                     }
                     .at(at));
                 }
+            }
+            let is_known = |known: &&Pair| {
+                [&known.a, &known.b] == [&pair.a, &pair.b]
+                    || [&known.b, &known.a] == [&pair.a, &pair.b]
+            };
+            if pairs.iter().any(|known| is_known(&known)) {
+                return Err(Fault::PairTwice {
+                    a: pair.a.clone(),
+                    b: pair.b.clone(),
+                }
+                .at(at));
             }
             let clearance_m = match (pair.clearance_mm, pair.allow) {
                 (Some(number), false) => Some(clearance(number, at)?),
@@ -339,6 +350,7 @@ pairs: [{a: gun, b: wall, clearance_mm: 0}, {a: link0, b: floor, allow: true}]
             ("to: flange", "to: hand", 7, "no body is called `hand`"),
             ("allow: true", "allow: false", 8, "either clearance_mm"),
             ("b: wall", "b: door", 8, "no body is called `door`"),
+            ("a: link0, b: floor", "a: wall, b: gun", 8, "stands twice"),
             ("cell/1", "cell/2", 1, "format"),
             ("capsule_mm", "capsule", 7, "capsule"),
             ("clearance_mm: 5", "clearance_mm: .nan", 2, "finite"),

@@ -131,7 +131,9 @@ pub(crate) fn asked(
     let (mut rate_rad, mut margin_rad) = ([0.0_f64; 6], [f64::INFINITY; 6]);
     let mut at = leg.start;
     for piece in pieces {
-        let begin = at;
+        // a piece in which a joint may turn back stands there once for each side
+        let begin = piece.start;
+        at = begin;
         let long = piece.to - piece.from;
         let (mut low, mut high, mut seen) = (at, at, [0.0_f64; 6]);
         for k in 1..=SAMPLES {

@@ -161,6 +161,7 @@ impl Compensation {
             if !is_arc || at + 1 < insertion.between.len() {
                 texts.push(&part.end);
                 self.added.moves += each;
+                self.added.arcs += usize::from(is_arc);
             }
         }
         for text in texts {

@@ -28,7 +28,7 @@ const MOST_ROUNDS: usize = 8;
 /// How the robot comes to each arrival on the path between fake targets.
 pub(super) struct Ends {
     /// The controller's joints.
-    fakes: Vec<[f64; 6]>,
+    pub fakes: Vec<[f64; 6]>,
     /// As [`Arrival::direction`]; 0 where it depends on the correction itself.
     pub directions: Vec<[i8; 6]>,
     /// The joints halfway.
@@ -440,7 +440,12 @@ impl TakenUp {
 }
 
 /// How far off the tool is where some joints come from the other side, metres.
-fn other_side_m(job: &Job, arrival: &Arrival, direction: [i8; 6], open: [bool; 6]) -> f64 {
+pub(super) fn other_side_m(
+    job: &Job,
+    arrival: &Arrival,
+    direction: [i8; 6],
+    open: [bool; 6],
+) -> f64 {
     let ground = &job.ground;
     let motion = &ground.program.moves[arrival.motion as usize];
     let equipped = ground.arm_with(motion.tool);

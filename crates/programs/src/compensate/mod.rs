@@ -48,6 +48,7 @@
 mod added;
 mod approach;
 mod context;
+mod curves;
 mod deciding;
 mod differing;
 mod displaced;
@@ -432,6 +433,7 @@ fn with(
     let derived = if let Some(ends) = ends {
         let taken_up = ends.take_up(&job, &arrivals, &walk_options);
         taken_up.report(&job, &ends, &arrivals, &mut findings);
+        curves::report(&job, &arrivals, &walk_options, &ends, &mut findings);
         displaced::arrivals(&job, &arrivals, &|at| {
             taken_up.sides(&job, &ends, &arrivals, at)
         })

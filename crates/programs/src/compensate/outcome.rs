@@ -61,14 +61,24 @@ impl Compensation {
 /// Targets and moves that were put between those of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Added {
-    /// Moves.
+    /// Moves; an arc is two, to the point that it passes through and to its end.
     pub moves: usize,
+    /// How many arcs are among them.
+    pub arcs: usize,
     /// The numbers of each target, in the order of [`crate::program::Language::roles`]; 0 for
     /// configuration data.
     pub targets: Vec<Vec<f64>>,
     /// Targets of the program whose moves have others now: some languages know no target that
     /// nothing goes to.
     pub freed: Vec<usize>,
+}
+
+impl Added {
+    /// Paths: an arc is one.
+    #[must_use]
+    pub fn paths(&self) -> usize {
+        self.moves - self.arcs
+    }
 }
 
 /// The numbers of a whole program.

@@ -18,6 +18,8 @@ pub(crate) const OUT_OF_BOUNDS: &str = "look for a number out of all bounds in t
 
 /// No arm carries more, kg.
 const MOST_LOAD_KG: f64 = 1e4;
+/// Places in the range of a joint at which what a kilogram does is looked at.
+const PLACES: usize = 5;
 /// A shift by less is not worth a word, mm.
 const VISIBLE_MM: f64 = 0.01;
 /// No tool, work frame or target is farther away, metres.
@@ -313,7 +315,7 @@ fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     };
     let mut message = format!(
         "neither the program files nor the profile give the mass of {named}: it counts as 0 kg, and \
-         each kg moves the tool by some {of_a_kg_mm:.3} mm"
+         each kg moves the tool by up to {of_a_kg_mm:.3} mm"
     );
     let hint = if heavy.is_empty() {
         let name = if name.is_empty() { "NAME" } else { name };
@@ -332,19 +334,35 @@ fn unknown_load(ground: &Ground, name: &str, motion: &Move) -> Option<Finding> {
     Some(ground.at_move(id, severity, motion, message, &hint))
 }
 
-/// By how much one kilogram at the tool's centre point moves it, in the middle of the joints' ranges.
+/// By how much one kilogram at the tool's centre point moves it at most, over the ranges of the
+/// joints by which gravity has a lever.
 fn of_a_kg_mm(ground: &Ground, tool: &Mounted) -> f64 {
-    let (q, conditions) = (middle(ground), Conditions::default());
+    let conditions = Conditions::default();
     let with = |kg: f64| {
         let load = Some((kg, tool.flange_from_tool.translation));
         let tool = Mounted {
             load,
             ..tool.clone()
         };
-        let real = ground.profile.real_model(&tool, &conditions);
-        real.forward(&q, &conditions)
+        ground.profile.real_model(&tool, &conditions)
     };
-    mm_from_m(with(1.0).separation(&with(0.0)).distance_m)
+    let [loaded, free] = [with(1.0), with(0.0)];
+    let mut most = 0.0_f64;
+    for number in 0..PLACES.pow(3) {
+        let mut q = middle(ground);
+        for (i, place) in [
+            (1, number),
+            (2, number / PLACES),
+            (4, number / PLACES.pow(2)),
+        ] {
+            let joint = &ground.profile.mechanism.joints[i];
+            let part = (place % PLACES) as f64 / (PLACES - 1) as f64;
+            q[i] = joint.min_rad + part * (joint.max_rad - joint.min_rad);
+        }
+        let [a, b] = [&loaded, &free].map(|arm| arm.forward(&q, &conditions));
+        most = most.max(a.separation(&b).distance_m);
+    }
+    mm_from_m(most)
 }
 
 /// Joints about in the middle of their ranges, and aligned with nothing.

@@ -9,7 +9,7 @@ use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail}
 use crate::diagnose::estimator::fit::Fit;
 use crate::diagnose::estimator::gain::{Given, Kept};
 use crate::diagnose::estimator::refit::{Changed, Last, Refit, changed, moved, refit};
-use crate::diagnose::estimator::table::{Column, dot};
+use crate::diagnose::estimator::table::{Column, dot, lengths_m};
 use crate::diagnose::outside::{Library, Likeness, Unknown, chance, likeness};
 use crate::diagnose::question::noise::{Repeats, of_repeats};
 use crate::diagnose::question::shifts::Shifts;
@@ -17,6 +17,7 @@ use crate::diagnose::question::{Session, Trust, for_choice, session};
 use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
+use crate::identify::input_checks::plausibility::HOPELESS_M;
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
@@ -106,6 +107,32 @@ impl Attempt {
         let (own, last) = refit(self.session.start(), chosen, &self.used);
         let moved = by_trust(self.trust, &self.session, profile, (&own, &last.fit));
         (own, moved)
+    }
+
+    /// How many of the rows in use fit no model, and of how many, where these are too many to be
+    /// exceptions.
+    pub(crate) fn strangers(&self) -> Option<(usize, usize)> {
+        let (layout, refit) = (&self.session.layout, &self.refit);
+        let in_use = (0..layout.rows()).filter(|row| self.used[*row]);
+        let (mut strangers, mut count) = (0, 0);
+        for row in in_use {
+            count += 1;
+            strangers += usize::from(beyond(layout, refit, row).is_some());
+        }
+        (strangers as f64 > MOST_OUTLIERS * count as f64).then_some((strangers, count))
+    }
+
+    /// What rows are still off by, root mean square, metres, where no arm is that far from its
+    /// drawing.
+    pub(crate) fn hopeless_m(&self) -> Option<f64> {
+        let lengths = lengths_m(
+            &self.session.problem,
+            &self.session.layout,
+            &self.refit.residual,
+        );
+        let squares = lengths.iter().map(|length| length * length);
+        let rms = (squares.sum::<f64>() / lengths.len().max(1) as f64).sqrt();
+        (rms > HOPELESS_M).then_some(rms)
     }
 
     /// The median of the rows' standard deviations, metres.

@@ -231,6 +231,10 @@ fn effects(
         let place = &refit.estimate.effects[refit.places[i]];
         let mut effect = since(place, &refit.estimate, &attempt.session);
         effect.site = chosen.candidate.effect.site.clone();
+        // of frames it is reported how they moved
+        let is_total = !matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame);
+        let mut of_profile = attempt.session.problem.profile.effects.iter();
+        let was = of_profile.find(|e| is_total && e.same_place(&effect));
         let parameters = chosen.values.len() + chosen.candidate.chosen;
         let asked_for = |p: &Pick| p.means(&chosen.candidate.effect);
         Found {
@@ -240,6 +244,7 @@ fn effects(
                 let sigma = refit.chosen_sigmas[i].filter(|s| s.is_finite());
                 sigma.map(|sigma| (number, sigma))
             }),
+            was: was.cloned(),
             effect,
             gain: chosen.gain,
             p_value: corrected(chosen.gain, parameters, chosen.candidate.peers),

@@ -21,6 +21,7 @@ use crate::diagnose::search::candidates::{CannotTest, least, range};
 use crate::diagnose::search::stand_ins::StandIn;
 use crate::diagnose::search::waves::near;
 use crate::geometry::norm;
+use crate::geometry::units::mm_from_m;
 use crate::model::effects::{BASE, Effect, Kind, Need, SiteKey};
 use crate::model::{JOINTS, Slot};
 use std::f64::consts::TAU;
@@ -104,7 +105,9 @@ pub(crate) fn judge(
     alternatives: &[Alternative],
 ) -> Judged {
     let reasons = objections(attempt, proof, found, alternatives);
-    let is_possible = !beyond(&attempt.refit).any(|beyond| is_new(attempt, beyond));
+    let is_possible = !beyond(&attempt.refit).any(|beyond| is_new(attempt, beyond))
+        && attempt.strangers().is_none()
+        && attempt.hopeless_m().is_none();
     let is_better = proof.judged().is_some_and(|judged| judged.is_better())
         && !proof.present.is_some_and(|present| present.is_worse());
     let verdict = match (reasons.is_empty(), found.is_empty()) {
@@ -137,6 +140,9 @@ pub(crate) fn stand(
         || attempt.likeness.opposite < ALIKE
         || attempt.unknown.first().is_some_and(|u| u.of_session);
     let smooth: Vec<bool> = found.iter().map(|f| is_smooth(attempt, f)).collect();
+    // rows that fit no model bend what is fitted to the others
+    let is_bent = attempt.strangers().is_some() || attempt.hopeless_m().is_some();
+    let has_strangers = !attempt.in_a_row.is_empty();
     let unresolved: Vec<bool> = (found.iter())
         .map(|f| is_unresolved(attempt, found, f))
         .collect();
@@ -176,13 +182,14 @@ pub(crate) fn stand(
         let is_shadow = (attempt.unknown.first()).is_some_and(|u| u.gain > one.gain || smooth[i])
             || smooth[i] && is_missing
             || one.effect.definition().of_data && is_changing;
-        one.standing = if is_tied || series.contains(&i) || is_seldom(one) {
+        one.standing = if is_tied || is_bent || series.contains(&i) || is_seldom(one) {
             Standing::Possible
         } else if against.is_empty()
             && is_again
-            && !(is_shadow || unresolved[i] || one.accepted)
+            && !(is_shadow || has_strangers || unresolved[i] || one.accepted)
             && unusual(one).is_none()
             && untested.is_empty()
+            && from_one_side(attempt, one).is_none()
             && twin.is_none()
             && one.p_value < EVIDENT
         {
@@ -198,6 +205,10 @@ pub(crate) fn stand(
             ),
             odds: 1.0,
         }));
+        if let Some(what) = from_one_side(attempt, one).filter(|_| against.is_empty()) {
+            let what = format!("{what}, which rows from the other side would show");
+            against.push(Against { what, odds: 1.0 });
+        }
         if let Some(what) = twin {
             let what = what.to_owned();
             against.insert(0, Against { what, odds: 1.0 });
@@ -211,6 +222,21 @@ fn untested<'a>(attempt: &'a Attempt, found: &Found) -> Vec<&'a CannotTest> {
     let alternatives = found.effect.definition().search.alternatives;
     let all = attempt.session.candidates.cannot_test.iter();
     all.filter(|c| alternatives.contains(&c.kind)).collect()
+}
+
+/// What an effect found cannot be distinguished from because its joint comes to all rows from one
+/// side: backlash and a moved zero do the same then.
+fn from_one_side(attempt: &Attempt, found: &Found) -> Option<&'static str> {
+    let definition = found.effect.definition();
+    let is_zero = found.effect.kind == Kind::LinkGeometry && found.sought.contains(&THETA);
+    let is_by_side = definition.needs.contains(&Need::Directions);
+    let sides = &attempt.session.candidates.one_sided;
+    let is_one_sided = sides.get(found.effect.site.index) == Some(&true);
+    (is_one_sided && (is_zero || is_by_side)).then_some(if is_zero {
+        "backlash"
+    } else {
+        "a moved zero"
+    })
 }
 
 /// What does exactly the same to the measurements as an effect found, whatever is measured: a joint
@@ -342,6 +368,17 @@ fn objections(
         ));
     }
     reasons.extend(attempt.in_a_row.iter().map(|rows| rows.words.clone()));
+    if let Some((strangers, of)) = attempt.strangers() {
+        reasons.push(format!(
+            "{strangers} of {of} rows fit no model: what explains the others may have come of them"
+        ));
+    }
+    if let Some(off_m) = attempt.hopeless_m() {
+        reasons.push(format!(
+            "rows are still {:.1} mm off (root mean square): no arm is that far from its drawing",
+            mm_from_m(off_m)
+        ));
+    }
     for one in found.iter().filter(|f| !f.accepted && is_seldom(f)) {
         let (times, of) = one.found_again;
         reasons.push(format!(
@@ -367,6 +404,16 @@ fn objections(
                 one.effect.label(),
                 alternative.kind.definition().id,
                 alternative.missing
+            ));
+        }
+    }
+    for one in found.iter().filter(|f| !f.accepted) {
+        if let Some(what) = from_one_side(attempt, one) {
+            let joint = one.effect.site.index + 1;
+            reasons.push(format!(
+                "{} may be {what}: joint {joint} comes to all rows from one side (dir{joint} does \
+                 not change)",
+                one.effect.label()
             ));
         }
     }

@@ -197,6 +197,10 @@ pub fn session(
     let guess = start::find(profile, &fit);
     if let Some(guess) = &guess {
         remarks.extend(screening::check_start(profile, &fit, guess)?);
+        screening::check_points(guess)?;
+        if !is_nominal(profile) {
+            screening::check_rotated_tools(profile, guess)?;
+        }
     }
     let selection = selection(profile);
     let base = guess

@@ -21,6 +21,9 @@ pub const MOST_ORDERS: u32 = 12;
 const WARMER_C: f64 = 0.5;
 /// Time constants tried, parts of the session's length.
 const TIME_CONSTANTS: [f64; 6] = [0.05, 0.12, 0.25, 0.5, 1.0, 2.0];
+/// Odds of a moved zero against backlash where a joint comes from one side only, which do the same:
+/// zeros are in every calibration, and rows from one side are measured to keep backlash out.
+const ODDS_OF_A_ZERO: usize = 12;
 /// Torques of a knee tried, parts of the largest torque in the measurements.
 const KNEES: [f64; 7] = [0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7];
 
@@ -97,6 +100,8 @@ pub struct Candidates {
     pub columns: Vec<Stored>,
     /// Effects that cannot be tested.
     pub cannot_test: Vec<CannotTest>,
+    /// Joints that come to all rows from one side: of these backlash is a moved zero.
+    pub one_sided: [bool; JOINTS],
     /// Length of the session, seconds and rows.
     pub(super) length: (f64, f64),
 }
@@ -289,6 +294,16 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> f64 {
     (high - low).max(0.0)
 }
 
+/// Joints that come to all rows from one side, where that is known.
+fn one_sided(problem: &Problem, measurements: &Measurements) -> [bool; JOINTS] {
+    let is_known = measurements.has(&DIRECTION_COLUMNS);
+    std::array::from_fn(|joint| {
+        let mut all = problem.rows.iter().map(|r| r.conditions.direction[joint]);
+        let first = all.next().unwrap_or_default();
+        is_known && first != 0.0 && all.all(|direction| direction == first)
+    })
+}
+
 /// What an effect lacks.
 fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option<String> {
     let rows = &problem.rows;
@@ -418,7 +433,10 @@ impl Candidates {
         leave: &dyn Fn(&Effect) -> bool,
     ) -> Self {
         let tools: Vec<String> = problem.tools.iter().map(|t| t.name.clone()).collect();
-        let mut all = Self::default();
+        let mut all = Self {
+            one_sided: one_sided(problem, measurements),
+            ..Self::default()
+        };
         // one effect for each place and chosen value, with every parameter that some variant seeks
         let mut wanted: Vec<(Effect, Vec<usize>)> = Vec::new();
         let mut groups: Vec<(usize, Vec<usize>, usize, usize)> = Vec::new();
@@ -437,13 +455,17 @@ impl Candidates {
                 all.cannot_test.push(CannotTest { kind, missing });
                 continue;
             }
+            let by_side = kind.definition().needs.contains(&Need::Directions);
             let mut places = 0;
             for site in sites(kind, &tools, &stood) {
                 let mut any = false;
                 let variants = variants(kind, &site, tried);
                 let mut sets: Vec<&[usize]> = variants.iter().map(|(s, _)| s.as_slice()).collect();
                 sets.dedup();
-                let sets = sets.len();
+                let mut sets = sets.len();
+                if by_side && all.one_sided[site.index] {
+                    sets *= ODDS_OF_A_ZERO;
+                }
                 for (sought, value) in variants {
                     let mut parameters = [0.0; MOST_PARAMETERS];
                     if let Some((number, value)) = value {

@@ -7,7 +7,7 @@
 
 pub mod csv;
 pub(crate) mod finite;
-pub(super) mod plausibility;
+pub(crate) mod plausibility;
 mod readings;
 pub mod screening;
 pub mod sweeps;

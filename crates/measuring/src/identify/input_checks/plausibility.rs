@@ -16,7 +16,7 @@ use crate::profile::Profile;
 use std::collections::BTreeSet;
 
 /// A fit that misses by more is not of this robot, metres.
-const HOPELESS_M: f64 = 20.0 * MM;
+pub(crate) const HOPELESS_M: f64 = 20.0 * MM;
 /// A fit that misses by more is worth a warning, metres.
 const POOR_M: f64 = 2.0 * MM;
 /// The same of orientations, radians.
@@ -344,6 +344,26 @@ pub(crate) fn check_values(
             WHOLE_FILE,
             message,
             NOT_OF_THIS_ROBOT,
+        ));
+    }
+    // what a profile may not have without a reason, that of the start excepted
+    let large = estimate.effects.iter().find_map(|effect| {
+        let is_frame = matches!(effect.kind, Kind::BaseFrame | Kind::ToolFrame);
+        let (parameter, value, limit) = effect.beyond_usual().filter(|_| !is_frame)?;
+        let is_identified = |p: &Parameter| {
+            matches!(p.subject, Subject::Effect(slot)
+                if estimate.effects[slot.effect].same_place(effect))
+        };
+        let is_identified = parameters.iter().any(is_identified);
+        is_identified.then(|| (effect.label(), parameter.key, value, limit))
+    });
+    if let Some((label, key, value, limit)) = large.filter(|_| remarks.is_empty()) {
+        remarks.push(remark(
+            "unusual-value",
+            WHOLE_FILE,
+            format!("{label} {key} comes out as {value:.3e}, beyond the {limit} that arms have"),
+            "was a motor or an encoder mounted anew, or a joint mastered at another place? where \
+             that is so the controller's zero is better corrected than compensated",
         ));
     }
     // a spring: what gives way by a torque, against it

@@ -4,7 +4,7 @@
 use super::readings::{Reading, readings};
 use super::{BETTER, NOT_OF_THIS_ROBOT, Remark, WHOLE_FILE, remark, suspicious};
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::geometry::{Vector, dot, norm, sub};
+use crate::geometry::{Pose, Vector, dot, norm, sub};
 use crate::identify::error::{FAR_OFF, IdentifyError};
 use crate::identify::line::Line;
 use crate::identify::measurements::{Measurement, Measurements, Observed};
@@ -41,6 +41,8 @@ const STILL_RAD: f64 = 0.5 * DEG;
 const CONTRADICTED_TOOL_M: f64 = 0.02;
 /// A tool this far from where the profile has it is worth a warning, metres.
 const WRONG_TOOL_M: f64 = 0.005;
+/// A diagnosis does not begin with a tool that is rotated by more, radians.
+const ROTATED_TOOL_RAD: f64 = 5.0 * DEG;
 /// The way out of poses that are alike.
 const VARIETY: &str =
     "measure configurations over the whole workspace: `poseshift plan` chooses them";
@@ -509,6 +511,59 @@ fn tools_elsewhere<'a>(moved: impl Iterator<Item = (&'a str, f64)>) -> Vec<Remar
         )
     });
     named.collect()
+}
+
+/// Checks points of tools that are to stay where the profile has them.
+///
+/// # Errors
+/// They lie otherwise to one another: no place of the tool explains them.
+pub fn check_points(start: &Start) -> Result<(), IdentifyError> {
+    let apart = start.mountings.iter();
+    let apart = apart.max_by(|a, b| a.differs_m().total_cmp(&b.differs_m()));
+    let Some(apart) = apart.filter(|mounting| mounting.differs_m() > WRONG_TOOL_M) else {
+        return Ok(());
+    };
+    let ([a, b], [found, believed]) = (&apart.points, apart.apart_m.map(mm_from_m));
+    Err(suspicious(
+        format!(
+            "the points `{a}` and `{b}` of tool `{}` are {found:.1} mm apart, and {believed:.1} mm \
+             in the profile",
+            apart.tool
+        ),
+        "are the names in their rows? where the reflectors were mounted anew, `poseshift calibrate \
+         --identify points` finds where they are now",
+    ))
+}
+
+/// Checks tools near which a diagnosis begins.
+///
+/// # Errors
+/// One is rotated on the flange from where the profile has it.
+pub fn check_rotated_tools(profile: &Profile, start: &Start) -> Result<(), IdentifyError> {
+    let of_points = start.mountings.iter();
+    let of_points = of_points.map(|mounting| (mounting.tool.as_str(), mounting.rotated_rad));
+    let of_poses = start.turned.iter().filter_map(|(tool, rotation)| {
+        let mounted = profile.tool(tool)?;
+        let is_own = |e: &&Effect| e.kind == Kind::ToolFrame && e.site.is_of_tool(tool);
+        let real = profile.effects.iter().find(is_own);
+        let real = real.map_or(Pose::identity(), |e| Pose::from_xyz_rxryrz(e.parameters));
+        let believed = mounted.flange_from_tool.rotation * real.rotation;
+        Some((tool.as_str(), (believed.transpose() * *rotation).angle()))
+    });
+    let most = of_points.chain(of_poses).max_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((tool, angle)) = most.filter(|(_, angle)| *angle > ROTATED_TOOL_RAD) else {
+        return Ok(());
+    };
+    Err(suspicious(
+        format!(
+            "tool `{tool}` is rotated on the flange by {:.1} deg from where the profile has it \
+             (limit {:.0} deg): a diagnosis begins near the robot that the profile describes",
+            angle / DEG,
+            ROTATED_TOOL_RAD / DEG
+        ),
+        "`poseshift calibrate --level 0` writes a profile with the tool where it is; diagnose with \
+         that",
+    ))
 }
 
 /// Checks a tool that is to stay where the profile has it and was measured elsewhere.

@@ -1,6 +1,6 @@
 //! Checks of a validation: measurements that are not of this robot, or not as the file says.
 
-use super::screening::{check_start, duplicates, look, refuse_far_off};
+use super::screening::{check_points, check_start, duplicates, look, refuse_far_off};
 use super::{Remark, WHOLE_FILE, finite, remark, sigma};
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
@@ -44,6 +44,9 @@ pub(crate) fn before(
     remarks.retain(|remark| remark.id != "joint-never-moved");
     if let Some(start) = start::find(profile, measurements) {
         let mut found = check_start(profile, measurements, &start)?;
+        if refit == Refit::No {
+            check_points(&start)?;
+        }
         // fitted tools may be anywhere
         found.retain(|remark| remark.id != "tool-elsewhere" || refit == Refit::No);
         for remark in &mut found {

@@ -136,7 +136,11 @@ impl Job<'_> {
             format!("at {:.1} % of the move", 100.0 * found.at)
         };
         let place = format!("{when} (joints {joints} deg; point {x:.1}, {y:.1}, {z:.1} mm)");
-        let comparison = compared(reported.other, other.map(|near| near.nearest));
+        let comparison = compared(
+            reported.other,
+            found.pair,
+            other.map(|near| near.least_room),
+        );
         let name = reported.name;
         let (id, message) = if touches {
             let message = format!("the {name} arm's {a} touches {b} {place}{comparison}");
@@ -190,15 +194,22 @@ impl Job<'_> {
     }
 }
 
-/// What the other arm does meanwhile.
-fn compared(who: &str, other: Option<Clearance>) -> String {
-    match other {
-        None => String::new(),
-        Some(other) if other.sampled_m <= 0.0 => format!("; so does the {who} arm"),
-        Some(other) if other.pair.is_some() => format!(
-            "; the {who} arm stays clear by {:.3} mm",
-            mm_from_m(other.clearance_m)
-        ),
-        Some(_) => format!("; the {who} arm stays clear"),
+/// What the other arm does meanwhile, by the pair of it that has the least room.
+fn compared(who: &str, pair: Option<usize>, other: Option<Clearance>) -> String {
+    let Some(other) = other else {
+        return String::new();
+    };
+    let is_same = other.pair == pair;
+    let by = mm_from_m(other.clearance_m);
+    let keeps = other.clearance_m >= other.required_m && other.sampled_m > 0.0;
+    match (keeps, other.pair) {
+        (true, None) => format!("; the {who} arm stays clear"),
+        (true, Some(_)) if is_same => format!("; the {who} arm stays clear by {by:.3} mm"),
+        (true, Some(_)) => format!("; the {who} arm keeps what is required"),
+        (false, _) if !is_same => {
+            format!("; of the {who} arm another pair is nearer than required")
+        }
+        (false, _) if other.sampled_m <= 0.0 => format!("; so does the {who} arm"),
+        (false, _) => format!("; the {who} arm comes within {by:.3} mm"),
     }
 }

@@ -63,8 +63,11 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     if is_stl {
         refuse_cut(bytes)?;
     }
+    // keywords of an ASCII STL may be in capitals
+    let is_loud = is_stl && bytes.starts_with(b"SOLID") && bytes.is_ascii();
+    let small = is_loud.then(|| bytes.to_ascii_lowercase());
     let scene = if is_stl {
-        loader.load_stl_from_slice(bytes, name)
+        loader.load_stl_from_slice(small.as_deref().unwrap_or(bytes), name)
     } else {
         loader.load_obj_from_slice(bytes, name)
     }

@@ -215,7 +215,14 @@ impl<'a> World<'a> {
                 b"Program" | b"program" | b"Data" | b"data" => {
                     if let Some(file) = tag.attribute(b"file")? {
                         let path = below(&folder, file.value);
-                        claims.insert(path.to_lowercase(), own);
+                        let known = claims.insert(path.to_lowercase(), own);
+                        if known.is_some_and(|known| known != own) {
+                            return Err(Fault::bad_value(
+                                file.start..file.end - 1,
+                                "file of this project alone (another project names it, too)",
+                                "give each project in a call of its own",
+                            ));
+                        }
                         let is_data = tag.name.eq_ignore_ascii_case(b"data");
                         project.files.push(Named {
                             kind: if is_data {

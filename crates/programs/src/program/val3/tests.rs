@@ -469,6 +469,20 @@ fn libraries_are_found_by_their_paths() {
 }
 
 #[test]
+fn a_file_that_two_projects_name_is_refused() {
+    let pjx = "<Project xmlns=\"http://www.staubli.com/robotics/VAL3/Project/3\"><Parameters \
+        millimeterUnit=\"true\" /><Programs><Program file=\"start.pgx\" /></Programs></Project>";
+    let code = pgx("start", "", "delay(1)");
+    let one = ("c/cell.pjx", pjx.to_owned());
+    let other = ("c/old.pjx", pjx.to_owned());
+    let start = ("c/start.pgx", code);
+    assert!(read_files(&[one.clone(), start.clone()]).is_ok());
+    let error = read_files(&[one, other, start]).expect_err("two projects");
+    let error = error.to_string();
+    assert!(error.contains("another project names it"), "{error}");
+}
+
+#[test]
 fn sides_change_where_their_joint_truly_crosses() {
     let layout = Layout {
         shape: Shape::Pose,
