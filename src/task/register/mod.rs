@@ -1,7 +1,7 @@
 //! `register`: the rigid motion between two sets of points, or a frame from probe touches.
 
-#[cfg(feature = "icp")]
 mod balls;
+#[cfg(feature = "icp")]
 mod cloud;
 mod construct;
 mod matched;
