@@ -206,6 +206,26 @@ pub struct Header<'a> {
     pub left_out: &'a LeftOut,
 }
 
+impl Header<'_> {
+    /// The programs themselves, without files that are read for their declarations.
+    #[must_use]
+    pub fn own_inputs(&self) -> Vec<String> {
+        let inputs = self.inputs.iter().zip(self.sources);
+        let own = inputs.filter(|(_, source)| !source.is_context);
+        own.map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The program's own targets, by number, in its order.
+    pub fn own_targets<'a>(
+        &'a self,
+        compensation: &'a Compensation,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let targets = &compensation.program.targets;
+        (0..compensation.targets.len())
+            .filter(|index| !self.sources[targets[*index].file as usize].is_context)
+    }
+}
+
 /// What became of a target.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Target {
@@ -276,13 +296,8 @@ impl Targets<'_> {
             let place = (finding.file.as_str(), finding.line);
             findings.entry(place).or_default().push(finding.id);
         }
-        let count = self.compensation.targets.len();
-        let targets = &self.compensation.program.targets;
-        let is_own =
-            move |index: &usize| !self.header.sources[targets[*index].file as usize].is_context;
-        (0..count)
-            .filter(is_own)
-            .map(move |index| self.target(index, &findings))
+        let own = self.header.own_targets(self.compensation);
+        own.map(move |index| self.target(index, &findings))
     }
 
     fn target(
@@ -446,13 +461,8 @@ impl<'a> Compensated<'a> {
     #[must_use]
     pub fn new(header: &'a Header<'a>, compensation: &'a Compensation) -> Self {
         let s = &compensation.summary;
-        let inputs = header.inputs.iter().zip(header.sources);
-        let own: Vec<String> = inputs
-            .filter(|(_, source)| !source.is_context)
-            .map(|(name, _)| name.clone())
-            .collect();
         Self {
-            input: own.as_slice().into(),
+            input: header.own_inputs().as_slice().into(),
             output: header.outputs.as_slice().into(),
             language: header.language.about().id,
             profile_sha256: header.profile_sha256,

@@ -48,6 +48,10 @@ fn what_stands_behind_and_or_or_may_not_be_called() {
             "{open}: {:?}",
             done.findings
         );
+        // --split-targets cannot help
+        let mut shared = done.findings.iter().filter(|f| f.id == "target-shared");
+        let hint = shared.next().map(|f| f.hint.as_str());
+        assert!(hint.is_some_and(|hint| hint.starts_with("the approaches of one line are unlike")));
     }
     for certain in [
         "if s() and x:\nsync()\nend\n",

@@ -65,14 +65,28 @@ pub fn each(list: &Value, key: &str) -> Vec<Value> {
 
 #[test]
 fn the_page_of_compensate_has_the_numbers_of_its_json() {
+    let page = compensated(PROGRAM, &[]);
+    let cell = &page["sections"][0];
+    let paths: Vec<&str> = each_name(&cell["paths"]);
+    assert_eq!(paths, ["uncompensated", "compensated", "wanted"]);
+}
+
+#[test]
+fn the_page_lists_no_targets_of_files_that_are_read_for_their_declarations() {
+    let page = compensated("programs/rapid/cam/in/cam.mod", &["--with", PROGRAM]);
+    assert_eq!(page["title"], "Compensation of cam.mod");
+}
+
+/// Compensates with a page, whose numbers are those of the JSON, and gives the page's data.
+fn compensated(program: &str, more: &[&str]) -> Value {
     let folder = scratch();
     let (out, page) = (
         folder.path().join("out.mod"),
         folder.path().join("page.html"),
     );
-    let (status, json, error) = run(&[
+    let arguments = [
         "compensate",
-        PROGRAM,
+        program,
         "--profile",
         PROFILE,
         "-o",
@@ -80,8 +94,10 @@ fn the_page_of_compensate_has_the_numbers_of_its_json() {
         "--report",
         name(&page),
         "--json",
-    ]);
+    ];
+    let (status, json, error) = run(&[&arguments[..], more].concat());
     assert_eq!(status, 0, "{error}");
+    assert!(out.exists());
     let (report, data): (Value, _) = (serde_json::from_str(&json).expect("JSON"), data(&page));
     let targets = &report["targets"];
     for (label, unit, key, digits) in [
@@ -102,10 +118,7 @@ fn the_page_of_compensate_has_the_numbers_of_its_json() {
         let shown = column(&data, "targets", label, unit);
         agree(&shown, &each(targets, key), digits, label);
     }
-    let cell = &data["sections"][0];
-    let paths: Vec<&str> = each_name(&cell["paths"]);
-    assert_eq!(paths, ["uncompensated", "compensated", "wanted"]);
-    assert!(out.exists());
+    data
 }
 
 fn each_name(list: &Value) -> Vec<&str> {

@@ -8,6 +8,7 @@ use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation, add, scale};
 use crate::model::Conditions;
 use crate::program::{Shape, Value};
+use std::collections::BTreeMap;
 
 /// Numbers that differ by less serve all.
 const SAME: Separation = Separation {
@@ -65,8 +66,16 @@ impl Fake {
 /// # Errors
 /// Where no numbers serve all: what each approach would miss with the mean, and the mean.
 pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake)> {
+    match best(job, group) {
+        (fake, true) => Ok(fake),
+        (mean, false) => Err((refused(job, group, &mean), mean)),
+    }
+}
+
+/// The best fake target for all approaches of a target, and whether it serves them.
+fn best(job: &Job, group: &[Solved]) -> (Fake, bool) {
     if let [only] = group {
-        return Ok(Fake::of(job, only));
+        return (Fake::of(job, only), true);
     }
     let fakes: Vec<Fake> = group.iter().map(|solved| Fake::of(job, solved)).collect();
     let is_joints = job.ground.is_joints(group[0].approach.target as usize);
@@ -99,10 +108,8 @@ pub(super) fn common(job: &Job, group: &[Solved]) -> Result<Fake, (Finding, Fake
         |solved: &Solved| landing(job, solved, &mean).distance_m <= displaced::limit_m(job);
     let stops_agree = !are_stops
         || (0..meant.len()).all(|i| meant[..i].iter().all(|other| alike(&meant[i], other)));
-    if stops_agree && group.iter().filter(passed).all(is_near) {
-        return Ok(mean);
-    }
-    Err((refused(job, group, &mean), mean))
+    let serves = stops_agree && group.iter().filter(passed).all(is_near);
+    (mean, serves)
 }
 
 /// How far from its wanted pose the real tool lands with numbers for all approaches of a target:
@@ -170,12 +177,26 @@ fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
         Severity::Error,
         group[0].approach.target as usize,
         differing::message(job, group, &misses),
-        if job.options.split_targets {
+        if is_one_text_unlike(job, group) {
+            "the approaches of one line are unlike: write the line out for each, with a target of its \
+             own, or let the program come to it in one of them"
+        } else if job.options.split_targets {
             "give each use a target of its own: the text of one of these moves cannot hold one"
         } else {
             "give each use a target of its own, or --split-targets"
         },
     )
+}
+
+/// Whether no target serves all approaches of a single move of the text.
+fn is_one_text_unlike(job: &Job, group: &[Solved]) -> bool {
+    let mut each: BTreeMap<Option<u32>, Vec<Solved>> = BTreeMap::new();
+    for one in group {
+        let motion = job.ground.program.moves.get(one.approach.motion as usize);
+        let instruction = motion.map(|motion| motion.instruction);
+        each.entry(instruction).or_default().push(*one);
+    }
+    each.values().any(|alone| !best(job, alone).1)
 }
 
 /// How far from its wanted pose the real tool lands at the end of an approach, with given numbers.

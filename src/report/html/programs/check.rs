@@ -108,7 +108,7 @@ fn page(of: &Checked) -> Page {
         let path = moves[i].path.map_or(0.0, |p| p.bound.distance_m);
         path.max(moves[i].target_error.distance_m)
     };
-    let rows = kept(moves.len(), &error);
+    let rows = kept((0..moves.len()).collect(), &error);
     let tools = tools_of(of.scenery.profile, &found.program);
     let (table, columns) = move_table(of, &rows);
     let mut points = Points {

@@ -48,14 +48,15 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         ),
     };
     let (level, text) = answer(&compensation.findings, good, &bad);
+    let inputs = header.own_inputs();
     let mut page = Page::new(
-        format!("Compensation of {}", title_of(&header.inputs)),
+        format!("Compensation of {}", title_of(&inputs)),
         level,
         text,
     );
     lead(
         &mut page,
-        &header.inputs,
+        &inputs,
         &header.outputs,
         of.scenery.profile,
         header.profile_sha256,
@@ -106,7 +107,9 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
     if findings_first {
         page.findings(&compensation.findings);
     }
-    let rows = kept(reports.len(), &|i| reports[i].shift.distance_m);
+    let own: Vec<usize> = header.own_targets(compensation).collect();
+    let all = own.len();
+    let rows = kept(own, &|i| reports[i].shift.distance_m);
     let lines = Lines {
         sources: header.sources,
     };
@@ -251,7 +254,7 @@ pub(crate) fn compensate_page(of: &Compensated) -> Page {
         note: join(&[
             "Where the simulation wants the tool, and where the real tool goes without and with \
              compensation. Deviations are magnified; places are true.",
-            &thinned(&rows, reports.len(), "targets"),
+            &thinned(&rows, all, "targets"),
         ]),
         table: "targets".into(),
         robot: Some(Robot::of(

@@ -66,9 +66,8 @@ impl Lines<'_> {
 
 /// The rows to keep of those that there are: all, or the ones of the largest measure in their
 /// order.
-fn kept(count: usize, measure: &dyn Fn(usize) -> f64) -> Vec<usize> {
-    let mut rows: Vec<usize> = (0..count).collect();
-    if count > MOST_ITEMS {
+fn kept(mut rows: Vec<usize>, measure: &dyn Fn(usize) -> f64) -> Vec<usize> {
+    if rows.len() > MOST_ITEMS {
         rows.sort_by(|a, b| measure(*b).total_cmp(&measure(*a)));
         rows.truncate(MOST_ITEMS);
         rows.sort_unstable();

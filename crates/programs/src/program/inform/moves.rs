@@ -6,6 +6,7 @@ use super::lines::{Line, placed_words};
 use super::rconf;
 use super::reader::{Arc, Reader};
 use super::remarks::Cause;
+use super::variables::Variables;
 use crate::geometry::units::MM;
 use crate::program::script::{
     Expr, Instruction, Modal, Remark, Script, Span, Turn, VariableId, Written, short,
@@ -205,7 +206,7 @@ impl<'a> Reader<'a> {
         if kind == Kind::Joint {
             modal.configured = Expr::Value(self.honoured);
         }
-        let mut reasons = vec![self.variables.shift];
+        let mut reasons = vec![self.variables.shift, self.variables.seam];
         if let Some(cause) = cause_of(kind) {
             reasons.push(self.variables.reason(&mut self.builder, cause));
         }
@@ -333,10 +334,12 @@ impl<'a> Reader<'a> {
 
     /// The script, with what can only be said at the end.
     pub(super) fn finish(mut self) -> Script {
-        if !self.shifts {
-            let shift = self.variables.shift;
+        let Variables { shift, seam, .. } = self.variables;
+        for (never, variable) in [(!self.shifts, shift), (!self.tracks_seams, seam)] {
             for set in &mut self.builder.script.guards {
-                *set = set.iter().copied().filter(|one| *one != shift).collect();
+                if never {
+                    *set = set.iter().copied().filter(|one| *one != variable).collect();
+                }
             }
         }
         self.settle_indexed();

@@ -51,6 +51,7 @@ pub(super) fn script<'a>(
         called: HashSet::new(),
         indexed: Indexed::default(),
         shifts: false,
+        tracks_seams: false,
         here: Here::default(),
         external_names,
         several_robots: are_of_several_robots(sources, &positions.jobs, &lines),
@@ -137,7 +138,9 @@ pub(super) struct Reader<'a> {
     pub called: HashSet<RoutineId>,
     /// Moves to P variables by a number that is not written out.
     pub(super) indexed: Indexed,
+    /// Whether any job switches a shift or a seam tracker on.
     pub shifts: bool,
+    pub tracks_seams: bool,
     pub here: Here,
     /// External axes that the profile describes.
     pub(super) external_names: &'a ExternalNames,
@@ -313,6 +316,8 @@ impl<'a> Reader<'a> {
             }
             _ if first.starts_with(b"SFTON") => self.shift(line, true),
             _ if first.starts_with(b"SFTOF") => self.shift(line, false),
+            b"COMARCON" => self.track_seam(line, true),
+            b"COMARCOF" => self.track_seam(line, false),
             _ => self.writes(line, first, second),
         }
         if conditional {

@@ -11,6 +11,7 @@ pub(super) enum Cause {
     FrameAssigned,
     FrameCopied,
     Shifted,
+    SeamTracked,
     Coordinated,
     Conveyor,
     Relative,
@@ -57,6 +58,12 @@ impl Cause {
                 "displacement-active",
                 "a shift (SFTON) may be on",
                 "switch it off with SFTOF before the move, or write the shifted positions",
+            ),
+            Self::SeamTracked => (
+                "corrected-by-sensor",
+                "from here on the arc (COMARCON) corrects moves: each goes to its position, \
+                 compensated, and what the sensor adds",
+                "look at the first part: what the correction of the seam still has to do is less",
             ),
             Self::Coordinated => (
                 "moving-frame",
@@ -144,7 +151,7 @@ impl Cause {
         Remark {
             id,
             severity: match self {
-                Self::Computed => Severity::Warning,
+                Self::Computed | Self::SeamTracked => Severity::Warning,
                 _ => Severity::Error,
             },
             text: text.into(),

@@ -45,6 +45,20 @@ impl Reader<'_> {
         self.write(line, Written::One(variable), How::Whole(value));
     }
 
+    /// The arc corrects moves from COMARCON to COMARCOF.
+    pub(super) fn track_seam(&mut self, line: Line, is_on: bool) {
+        self.tracks_seams |= is_on;
+        let value = if is_on {
+            let script = &mut self.builder.script;
+            let remark = script.remark(Cause::SeamTracked.remark());
+            Expr::Value(script.value(Held::Remark(remark)))
+        } else {
+            Expr::Absent
+        };
+        let variable = self.variables.seam;
+        self.write(line, Written::One(variable), How::Whole(value));
+    }
+
     /// Notes what the next write switches on, until all jobs are read.
     fn note_shift(&mut self, line: Line) {
         let mut words = words(line.text).take_while(|word| *word != b"IF");

@@ -15,11 +15,12 @@ use std::collections::BTreeMap;
 
 /// Name of the tool of positions that tell none.
 const NO_TOOL: &str = "none";
-/// The beginning of everything.
 /// The variables of all jobs.
 pub(super) struct Variables {
     /// Shifted or not.
     pub shift: VariableId,
+    /// Corrected by the arc (COM-ARC) or not.
+    pub seam: VariableId,
     /// `P[…]`
     pub positions: TableId,
     /// `UF#(…)`
@@ -74,6 +75,7 @@ impl Variables {
     ) -> Self {
         let mut variables = Self {
             shift: constant(builder, Held::Shift(NOT_DISPLACED)),
+            seam: (builder.script).variable(Variable::new("", Place::NOWHERE, Expr::Absent)),
             positions: builder.script.table("P"),
             frames: builder.script.table("UF#"),
             tools: builder.script.table("TL#"),

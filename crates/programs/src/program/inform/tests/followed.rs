@@ -495,6 +495,29 @@ fn a_shift_is_followed_through_branches_loops_and_calls() {
 }
 
 #[test]
+fn moves_that_the_arc_corrects_are_reported_once_a_place() {
+    let positions = format!("{USER}{}", points(3));
+    let read_body = |instructions: &str| read(&job(&positions, instructions));
+    let program = read_body(
+        "MOVL C00000\nCOMARCON #(1) U/D=25.00 L/R=0.0\nMOVL C00001 V=5\nMOVL C00002 V=5\nCOMARCOF\n\
+         MOVL C00000",
+    );
+    assert_eq!(ids(&program), ["corrected-by-sensor"]);
+    let (found, severity) = (&program.findings[0], crate::finding::Severity::Warning);
+    assert_eq!((found.line, found.severity), (19, severity));
+    assert!(program.targets.iter().all(|target| !target.blocked));
+    // it lasts through calls, and the end of it does
+    let ended = read_body("COMARCON #(1)\nCOMARCOF\nMOVL C00000");
+    assert_eq!(ids(&ended), [""; 0]);
+    let (main, weld) = (
+        job("", "COMARCON #(1)\nCALL JOB:B\nCOMARCOF"),
+        job(&positions, "MOVL C00000").replace("//NAME A", "//NAME B"),
+    );
+    let program = read_files(&[&main, &weld], &Settings::default()).expect("jobs");
+    assert_eq!(ids(&program), ["corrected-by-sensor"]);
+}
+
+#[test]
 fn variables_belong_to_all_jobs() {
     let holder = job(&format!("{USER}P00018={P6}\nP00019={P6}"), "MOVL P019");
     let user = job("", "MOVJ P018 VJ=5").replace("//NAME A", "//NAME B");
