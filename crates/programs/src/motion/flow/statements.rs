@@ -371,6 +371,24 @@ impl<'a> Flow<'a> {
         state.before = self.sets.one(stop);
     }
 
+    /// What of a guard may say something: flags, numbers and loads leave room for what does.
+    fn speaking(&mut self, held: Holding) -> Holding {
+        let is_silent = |(atom, _): &(Atom, Site)| match atom {
+            Atom::Value(value) => matches!(
+                self.value(*value),
+                Held::Flag(_) | Held::Number(_) | Held::Load(_)
+            ),
+            _ => false,
+        };
+        let atoms = self.holdings.of(held);
+        if !atoms.iter().any(is_silent) {
+            return held;
+        }
+        let rest = atoms.iter().filter(|atom| !is_silent(atom)).copied();
+        let rest = rest.collect();
+        self.holdings.intern(rest)
+    }
+
     /// With what a move at a place runs.
     pub(super) fn modes(&mut self, of: ModalId, site: Site, state: &State) -> u32 {
         let script = self.script;
@@ -378,6 +396,7 @@ impl<'a> Flow<'a> {
         let mut guard = NOTHING;
         for &variable in &*script.guards[modal.guards as usize] {
             let one = self.variable(state, variable);
+            let one = self.speaking(one);
             guard = self.holdings.join(guard, one);
         }
         for expected in &*script.expected[modal.expected as usize] {

@@ -47,21 +47,32 @@ impl Reader {
         let mut buffer = [0; 24];
         let part = part.map(|part| capitals(cursor.text(part), &mut buffer));
         if let Some(state) = State::named(word) {
-            self.calls_in(cursor);
             return self.write_state(place, state, part, &mut cursor);
         }
         if matches!(word, b"$CIRC_TYPE" | b"$CIRC_MODE") {
-            let value = self.circle(first.start as usize, &mut cursor);
-            self.put(place, self.circles.state, value);
+            let values = self.circle(first, &mut cursor);
+            self.set_circles(place, values);
             return Ok(());
         }
         if word == b"LDAT_ACT" {
-            let value = match part {
-                None => self.ldat(&mut cursor),
-                Some(b"ORI_TYP") => self.orientation(&mut cursor),
-                Some(_) => return Ok(()),
-            };
-            self.set(place, State::LdatOrientation, value);
+            let active = self.circles.active;
+            match part {
+                None => {
+                    let (turning, [of_arcs, ..]) = self.ldat(&mut cursor);
+                    self.set(place, State::LdatOrientation, turning);
+                    self.put(place, active, of_arcs);
+                }
+                Some(b"ORI_TYP") => {
+                    let value = self.orientation(&mut cursor);
+                    self.set(place, State::LdatOrientation, value);
+                }
+                Some(b"CIRC_TYP") => {
+                    if let [Some(value), ..] = self.circle(first, &mut cursor) {
+                        self.put(place, active, value);
+                    }
+                }
+                Some(_) => {}
+            }
             return Ok(());
         }
         if word == b"FDAT_ACT" {
@@ -77,7 +88,6 @@ impl Reader {
             return self.write_entry(place, table, at, part, &mut cursor);
         }
         if word.first() == Some(&b'$') {
-            self.calls_in(cursor);
             return Ok(());
         }
         let at = index;
@@ -89,11 +99,9 @@ impl Reader {
                 let token = ahead.next();
                 let value = whole(number::parse(ahead.text(token)));
                 let alone = ahead.peek().kind == Kind::End;
-                self.calls_in(cursor);
                 self.count(name, at, value.filter(|_| alone));
             }
             Some(DataKind::Fdat) => {
-                self.calls_in(cursor);
                 if let Some(part) = part {
                     self.write_fdat(name, at, part, &mut cursor);
                 }
@@ -105,7 +113,7 @@ impl Reader {
             None if self.looks_like_position(cursor) => {
                 self.write_position(Owner::Nobody(name), at, part, cursor)?;
             }
-            _ => self.calls_in(cursor),
+            _ => {}
         }
         Ok(())
     }
@@ -133,10 +141,8 @@ impl Reader {
     ) -> Read<()> {
         self.last = None;
         let how = if let Some(how) = part.and_then(|part| self.axis_written(part)) {
-            self.calls_in(cursor);
             how
         } else if let Some(part) = part {
-            self.calls_in(cursor);
             match self.part_written(owner, part, cursor) {
                 Some(how) => how,
                 None => self.part_becomes(part, cursor),

@@ -54,11 +54,15 @@ fn known(word: &[u8]) -> Option<Known> {
         | b"SLOAD"
         | b"SIPO_MODE"
         | b"SORI_TYP"
+        | b"SCIRC_TYP"
+        | b"SCIRC_M"
         | b"SVEL_CP"
         | b"SVEL_JOINT"
         | b"SACC_CP"
         | b"SACC_JOINT"
         | b"SGEAR_JERK"
+        | b"SJERK"
+        | b"USE_CM_PRO_VALUES"
         | b"SAPO"
         | b"SAPO_PTP"
         | b"VARSTATE"
@@ -152,20 +156,31 @@ impl Reader {
         self.call_here(name, &mut cursor, true);
     }
 
-    /// The functions that an expression calls.
+    /// The functions that a part of a statement calls, those in arguments of others first.
     pub(super) fn calls_in(&mut self, mut cursor: Cursor) {
         if memchr::memchr(b'(', &cursor.bytes[cursor.at..cursor.end]).is_none() {
             return;
         }
+        // brackets that are open, and the function in front with what follows it
+        let mut open: Vec<Option<(Token, Cursor)>> = Vec::new();
         let mut calls = 0;
-        while calls < MOST_CALLS {
+        loop {
             let token = cursor.next();
             match token.kind {
                 Kind::End => return,
                 Kind::Name if cursor.blanks() == b'(' => {
-                    calls += 1;
-                    let mut inner = cursor;
-                    self.call_here(token, &mut inner, false);
+                    open.push(Some((token, cursor)));
+                    cursor.take(b'(');
+                }
+                Kind::Sign(b'(') => open.push(None),
+                Kind::Sign(b')') => {
+                    if let Some(Some((name, mut inner))) = open.pop() {
+                        calls += 1;
+                        if calls > MOST_CALLS {
+                            return;
+                        }
+                        self.call_here(name, &mut inner, false);
+                    }
                 }
                 _ => {}
             }
@@ -194,6 +209,12 @@ impl Reader {
             }
             (callee, _) => {
                 self.emit(place, symbol, callee, &arguments, is_statement);
+                if let Some(callee) = callee {
+                    self.note_returned(name, callee);
+                    if self.names.is_loud(callee) {
+                        self.lose_place();
+                    }
+                }
                 let word = capitals(cursor.text(name), &mut buffer);
                 if callee.is_none() && CONVEYORS.iter().any(|begins| word.starts_with(begins)) {
                     let spelled = self.names.symbols.spelling(symbol).to_owned();
@@ -486,6 +507,12 @@ impl Reader {
                     return part.map_or(Given::Named(symbol, at), |part| {
                         Given::Part(symbol, at, part.into())
                     });
+                }
+                if let Some(value) = self.returned(token)
+                    && super::states::inside(&mut ahead).is_some()
+                    && alone(&mut ahead)
+                {
+                    return Given::Position(value);
                 }
                 if alone(&mut ahead) {
                     return match at {

@@ -3,10 +3,11 @@
 
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
 use super::frames::{Table, pose_of, write_pose};
-use super::names::{DataKind, Datum, Fdat, Index, Stored, Turning, whole};
+use super::names::{DataKind, Datum, Fdat, Index, Ldat, Stored, Turning, whole};
 use super::reader::Reader;
 use super::remarks;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
+use super::turning::Arc;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM, m_from_mm, mm_from_m};
@@ -116,7 +117,7 @@ impl Reader {
             return Ok(Some(Stored::Fdat(fdat(cursor)?)));
         }
         if kind == DataKind::Ldat {
-            return Ok(Some(Stored::Turning(turning(cursor)?)));
+            return Ok(Some(Stored::Ldat(ldat(cursor)?)));
         }
         let start = cursor.at;
         let aggregate = aggregate::read(cursor)?;
@@ -217,11 +218,11 @@ impl Reader {
         };
         let is_aggregate = cursor.blanks() == b'{';
         match table {
-            Some(Table::Load) if is_aggregate => {
-                if let Carried::Load(load) = load(cursor)? {
-                    self.declared.loads.entry(element).or_insert(load);
-                }
-            }
+            Some(Table::Load) if is_aggregate => match load(cursor)? {
+                Carried::Load(load) => self.declared.add_load(element, Some(load)),
+                Carried::OfTool => self.declared.add_load(element, None),
+                Carried::Unknown => {}
+            },
             Some(Table::Load) => {}
             Some(table) => {
                 let frame = if is_aggregate {
@@ -291,22 +292,81 @@ pub(super) fn root_differs(
     Some(source.finding(at, id, Severity::Error, message, hint))
 }
 
-/// `{VEL 2.0,ACC 100.0,APO_DIST 100.0,APO_FAC 50.0,ORI_TYP #CONSTANT}`
-pub(super) fn turning(cursor: &mut Cursor) -> Read<Turning> {
+/// `{VEL 2.0,…,ORI_TYP #CONSTANT,CIRC_TYP #BASE,CB {AUX_PT {ORI #CONSIDER,…},…}}`
+pub(super) fn ldat(cursor: &mut Cursor) -> Read<Ldat> {
     let bytes = cursor.bytes;
-    let mut turning = Turning::Evenly;
+    let mut found = Ldat::default();
+    let mut modes = None;
     aggregate::each(cursor, |key, _, field| {
-        if let (b"ORI_TYP", aggregate::Field::Enum(name)) = (key, field) {
-            let name = &bytes[name.start as usize..name.end as usize];
-            turning = match Turning::named(capitals(name, &mut [0; 24])) {
-                // what the controller does not know leaves the orientation to the targets
-                Turning::Kept if !name.eq_ignore_ascii_case(b"CONSTANT") => Turning::Evenly,
-                known => known,
-            };
+        match (key, field) {
+            (b"ORI_TYP", aggregate::Field::Enum(name)) => {
+                let name = &bytes[name.start as usize..name.end as usize];
+                found.turning = match Turning::named(capitals(name, &mut [0; 24])) {
+                    // what the controller does not know leaves the orientation to the targets
+                    Turning::Kept if !name.eq_ignore_ascii_case(b"CONSTANT") => Turning::Evenly,
+                    known => known,
+                };
+            }
+            (b"CIRC_TYP", aggregate::Field::Enum(name)) => {
+                let name = &bytes[name.start as usize..name.end as usize];
+                found.arcs[0] = is_usual_arc(Arc::Type, name);
+            }
+            (b"CB", aggregate::Field::Nested(start)) => modes = Some(start),
+            _ => {}
         }
         Ok(())
     })?;
-    Ok(turning)
+    if let Some(start) = modes {
+        let set = arcs(&mut cursor.part(start, cursor.end), Arc::Between)?;
+        for (arc, set) in found.arcs.iter_mut().zip(set) {
+            *arc &= set.unwrap_or(true);
+        }
+    }
+    Ok(found)
+}
+
+/// Which arcs are usual by `{AUX_PT {ORI #CONSIDER,E1 #CONSIDER},TARGET_PT {ORI #INTERPOLATE}}`,
+/// where it says so; an orientation outside is that of `part`.
+pub(super) fn arcs(cursor: &mut Cursor, part: Arc) -> Read<[Option<bool>; 3]> {
+    let bytes = cursor.bytes;
+    let mut found = [None; 3];
+    let mut inner = Vec::new();
+    aggregate::each(cursor, |key, _, field| {
+        match (key, field) {
+            (b"ORI", aggregate::Field::Enum(name)) => {
+                let name = &bytes[name.start as usize..name.end as usize];
+                found[part as usize] = Some(is_usual_arc(part, name));
+            }
+            (b"ORI", _) => found[part as usize] = Some(false),
+            (b"AUX_PT", aggregate::Field::Nested(start)) => inner.push((Arc::Between, start)),
+            (b"TARGET_PT", aggregate::Field::Nested(start)) => inner.push((Arc::End, start)),
+            _ => {}
+        }
+        Ok(())
+    })?;
+    // no deeper: a point has no points
+    for (of, start) in inner {
+        let mut point = cursor.part(start, cursor.end);
+        aggregate::each(&mut point, |key, _, field| {
+            if let (b"ORI", aggregate::Field::Enum(name)) = (key, field) {
+                let name = &bytes[name.start as usize..name.end as usize];
+                found[of as usize] = Some(is_usual_arc(of, name));
+            }
+            Ok(())
+        })?;
+    }
+    Ok(found)
+}
+
+/// Whether an arc turns the tool from its beginning to its end in the base: the orientation of the
+/// point between is not to be reached, nor to choose the side.
+pub(super) fn is_usual_arc(of: Arc, name: &[u8]) -> bool {
+    let usual: &[&[u8]] = match of {
+        Arc::Type => &[b"BASE"],
+        Arc::Between => &[b"CONSIDER", b"IGNORE"],
+        Arc::End => &[b"INTERPOLATE"],
+    };
+    usual.iter().any(|usual| name.eq_ignore_ascii_case(usual))
 }
 
 /// What a load says.

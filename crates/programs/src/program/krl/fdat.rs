@@ -5,6 +5,7 @@ use super::data::fdat;
 use super::frames::{Choice, State, Table};
 use super::names::{DataKind, Fdat, Index, Stored};
 use super::reader::Reader;
+use super::remarks::fdat_missing;
 use super::tokens::{Cursor, Read};
 use crate::program::names::Symbol;
 use crate::program::script::{Expr, Place, Variable, VariableId};
@@ -82,6 +83,23 @@ impl Reader {
         Some(made)
     }
 
+    /// The number of the tool or base of an FDAT that the files do not have.
+    fn fdat_missing(&mut self, name: Symbol) -> Option<VariableId> {
+        let is_known = self.names.datum(name, self.context()).is_some();
+        if is_known || self.names.touched.contains(&name) {
+            return None;
+        }
+        if let Some(known) = self.fdats_missing.get(&name) {
+            return Some(*known);
+        }
+        let spelled = self.names.symbols.spelling(name).to_owned();
+        let unknown = self.unknown(fdat_missing(&spelled));
+        let script = &mut self.builder.script;
+        let made = script.variable(Variable::new(spelled, Place::NOWHERE, unknown));
+        self.fdats_missing.insert(name, made);
+        Some(made)
+    }
+
     /// What a part of an FDAT is.
     fn fdat_value(&mut self, name: Symbol, at: Index, part: Part) -> Expr {
         if let Some(fdat) = self.fdat_of(name, at) {
@@ -89,6 +107,11 @@ impl Reader {
         }
         if let Some(variable) = self.fdat_variable(name, at, part) {
             return Expr::Variable(variable);
+        }
+        if part != Part::Mode
+            && let Some(missing) = self.fdat_missing(name)
+        {
+            return Expr::Variable(missing);
         }
         // data that are not in the files are of a tool that the robot holds, as all that are
         let is_held =
@@ -107,7 +130,9 @@ impl Reader {
             return number.map(Choice::Entry);
         }
         let part = if is_tool { Part::Tool } else { Part::Base };
-        self.fdat_variable(name, at, part).map(Choice::By)
+        let variable = self.fdat_variable(name, at, part);
+        let variable = variable.or_else(|| self.fdat_missing(name));
+        variable.map(Choice::By)
     }
 
     /// The mode of an FDAT.
@@ -129,6 +154,9 @@ impl Reader {
         for (part, value) in PARTS.into_iter().zip(values) {
             self.set(place, part.state(), value);
         }
+        let [tool, base, _] = values;
+        let is_known = matches!((tool, base), (Expr::Value(_), Expr::Value(_)));
+        self.active = is_known.then_some((tool, base));
         Ok(())
     }
 
@@ -144,6 +172,7 @@ impl Reader {
     /// `FDAT_ACT.TOOL_NO=3`
     pub(super) fn activate_part(&mut self, place: Place, part: &[u8], cursor: &mut Cursor) {
         if let Some(part) = Part::named(part) {
+            self.active = None;
             let value = self.given_part(part, cursor);
             self.set(place, part.state(), value);
         }

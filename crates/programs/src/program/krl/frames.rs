@@ -4,7 +4,8 @@
 use super::names::{DataKind, Index, Stored, Turning};
 use super::reader::Reader;
 use super::remarks::{
-    ANGLE, CHOSEN, FRAME_ASSIGNED, KEEPS_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
+    ANGLE, CHOSEN, DECLARED_TWICE, FRAME_ASSIGNED, IGNORES_ORIENTATION, KEEPS_ORIENTATION, MOVING,
+    OF_ANOTHER_ROBOT, carried,
 };
 use super::targets::Owner;
 use super::tokens::capitals;
@@ -52,11 +53,20 @@ enum Entry {
     Ambiguous,
 }
 
+/// What data lists say of one load.
+#[derive(Clone, Copy, Debug)]
+enum Carrying {
+    /// None is that of the tool.
+    One(Option<Load>),
+    /// Several data lists say several things.
+    Ambiguous,
+}
+
 /// Tools, bases and loads of data lists.
 #[derive(Debug, Default)]
 pub(super) struct Declared {
     entries: HashMap<(Table, u32), Entry>,
-    pub loads: HashMap<u32, Load>,
+    loads: HashMap<u32, Carrying>,
     /// Bases that hang on another kinematic, and the number of that.
     pub moving: HashMap<u32, u32>,
     /// Bases that hang on a kinematic of another controller.
@@ -77,6 +87,23 @@ impl Declared {
             (Entry::Frame(old), Some(new)) if is_same(old, &new) => Entry::Frame(new),
             _ => Entry::Ambiguous,
         };
+    }
+
+    /// A load; none is that of the tool.
+    pub(super) fn add_load(&mut self, at: u32, new: Option<Load>) {
+        let entry = self.loads.entry(at).or_insert(Carrying::One(new));
+        match entry {
+            Carrying::One(old) if is_same_load(*old, new) => {}
+            _ => *entry = Carrying::Ambiguous,
+        }
+    }
+
+    /// The load that belongs to a tool of the table.
+    fn load_of_tool(&self, at: u32) -> Option<Load> {
+        match self.loads.get(&at) {
+            Some(Carrying::One(load)) => *load,
+            _ => None,
+        }
     }
 
     /// A tool, or a base that stands still.
@@ -107,13 +134,29 @@ pub(super) fn part(number: Number, file: u32) -> Part {
     }
 }
 
-/// Whether two frames are one, as far as the controller's numbers of 32 bits tell.
+/// Whether two numbers are one, as far as the controller's of 32 bits tell.
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-6 * a.abs().max(1.0)
+}
+
+/// Likewise two frames.
 fn is_same(a: &[Part; 6], b: &[Part; 6]) -> bool {
     let near = |(a, b): (&Part, &Part)| match (a.value, b.value) {
-        (PartValue::Number(a), PartValue::Number(b)) => (a - b).abs() <= 1e-6 * a.abs().max(1.0),
+        (PartValue::Number(a), PartValue::Number(b)) => is_near(a, b),
         _ => false,
     };
     a.iter().zip(b).all(near)
+}
+
+/// Likewise two loads.
+fn is_same_load(a: Option<Load>, b: Option<Load>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => {
+            let near = |(a, b): (&f64, &f64)| is_near(*a, *b);
+            is_near(a.mass_kg, b.mass_kg) && a.cog_m.iter().zip(&b.cog_m).all(near)
+        }
+        (a, b) => a.is_none() && b.is_none(),
+    }
 }
 
 /// A state of the controller.
@@ -187,18 +230,11 @@ pub(super) struct States {
     external: ValueId,
     /// The orientation stays what it is.
     keeps: ValueId,
-    /// Indices in the script's guards: by `$IPO_MODE` and `$LOAD`, by it and an angle, by a fixed
-    /// tool, by an unknown mode.
-    pub guards: u32,
-    pub angle_guards: u32,
-    /// Of moves on which the tool rotates: by the states and `$ORI_TYPE`, and where the move itself
-    /// keeps its orientation.
-    pub turning_guards: u32,
-    pub keeping_guards: u32,
-    fixed_guards: u32,
-    chosen_guards: u32,
-    /// Of moves to axes.
-    pub joint_guards: u32,
+    /// That of the point does not count.
+    ignored: ValueId,
+    /// Guards of moves: an angle (CA), and what `$ORI_TYPE` ignores.
+    pub angle: VariableId,
+    pub ignoring: VariableId,
     /// External axes that move independently of the program, and those that it does not move.
     pub apart: [VariableId; 2],
 }
@@ -276,29 +312,16 @@ impl States {
         let external = script.value(Held::Remark(external));
         let angle = script.remark(ANGLE);
         let angle = script.value(Held::Remark(angle));
-        let keeps = script.remark(KEEPS_ORIENTATION);
-        let keeps = script.value(Held::Remark(keeps));
-        let [angle, fixed, chosen, kept] = [
-            Expr::Value(angle),
-            Expr::Value(external),
-            Expr::Unknown(chosen),
-            Expr::Value(keeps),
-        ]
-        .map(|declared| script.variable(Variable::new("the move", Place::NOWHERE, declared)));
-        let mode = states[State::Ipo as usize];
-        let apart = ["$ASYNC_AXIS", "$ACT_EX_AX"]
-            .map(|name| script.variable(Variable::new(name, Place::NOWHERE, Expr::Value(on))));
-        let mut guard = |of: &[VariableId]| script.guard([of, &apart].concat());
-        let load = states[State::Load as usize];
+        let [keeps, ignored] = [KEEPS_ORIENTATION, IGNORES_ORIENTATION].map(|remark| {
+            let remark = script.remark(remark);
+            script.value(Held::Remark(remark))
+        });
+        let mut variable =
+            |name, value| script.variable(Variable::new(name, Place::NOWHERE, Expr::Value(value)));
         Self {
-            guards: guard(&[mode, load]),
-            turning_guards: guard(&[mode, load, states[State::Orientation as usize]]),
-            keeping_guards: guard(&[mode, load, kept]),
-            angle_guards: guard(&[mode, angle]),
-            fixed_guards: guard(&[fixed]),
-            chosen_guards: guard(&[chosen]),
-            joint_guards: guard(&[]),
-            apart,
+            angle: variable("the move", angle),
+            ignoring: variable("$ORI_TYPE", off),
+            apart: ["$ASYNC_AXIS", "$ACT_EX_AX"].map(|name| variable(name, on)),
             states,
             tables,
             entries: HashMap::new(),
@@ -309,21 +332,13 @@ impl States {
             off,
             external,
             keeps,
+            ignored,
         }
     }
 
     /// What a state holds.
     pub(super) fn expr(&self, state: State) -> Expr {
         Expr::Variable(self.states[state as usize])
-    }
-
-    /// What speaks against a move with a mode of its own.
-    pub(super) fn guards_of(&self, mode: Expr) -> u32 {
-        match mode {
-            Expr::Value(value) if value == self.on => 0,
-            Expr::Value(_) => self.fixed_guards,
-            _ => self.chosen_guards,
-        }
     }
 }
 
@@ -399,15 +414,14 @@ impl Reader {
         let name = format!("{}[{at}]", table.name());
         let declared = self.declared.entries.get(&(table, at)).copied();
         let declared = match declared.unwrap_or(Entry::Missing) {
-            _ if table == Table::Load => self.load_value(self.declared.loads.get(&at).copied()),
+            _ if table == Table::Load => match self.declared.loads.get(&at) {
+                Some(Carrying::Ambiguous) => self.unknown(DECLARED_TWICE),
+                _ => self.load_value(self.declared.load_of_tool(at)),
+            },
             _ if table == Table::Base && self.declared.of_others.contains(&at) => {
                 self.unknown(OF_ANOTHER_ROBOT)
             }
-            Entry::Ambiguous => self.unknown(Remark::error(
-                "frame-name-ambiguous",
-                "the tool or base is declared more than once with different values",
-                "pass one $config.dat only",
-            )),
+            Entry::Ambiguous => self.unknown(DECLARED_TWICE),
             Entry::Frame(parts) => Expr::Value(self.frame_value(table, &name, at, &parts)),
             Entry::Missing if table == Table::Base && self.declared.moving.contains_key(&at) => {
                 self.unknown(MOVING)
@@ -433,7 +447,7 @@ impl Reader {
 
     /// A frame, and behind it the load that belongs to a tool.
     fn frame_value(&mut self, table: Table, name: &str, at: u32, parts: &[Part; 6]) -> ValueId {
-        let load = self.declared.loads.get(&at);
+        let load = self.declared.load_of_tool(at);
         let mut parts = parts.to_vec();
         if let (Table::Tool, Some(load)) = (table, load) {
             let [x, y, z] = load.cog_m;
@@ -547,6 +561,7 @@ impl Reader {
     pub(super) fn orientation_value(&self, turning: Turning) -> Expr {
         Expr::Value(match turning {
             Turning::Kept => self.states.keeps,
+            Turning::Ignored => self.states.ignored,
             Turning::Evenly => self.states.off,
             Turning::AsWrist => self.states.on,
         })

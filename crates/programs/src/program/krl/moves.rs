@@ -1,15 +1,16 @@
 //! Moves: where they go, and with what.
 
-use super::aggregate::{self, Aggregate};
+use super::aggregate::{self, Aggregate, WHOLE};
 use super::frames::State;
-use super::names::Turning;
 use super::points::Point;
 use super::reader::Reader;
-use super::remarks::{FROM_NOWHERE, SOME_AXES, TURNED};
+use super::remarks::{FROM_NOWHERE, SOME_AXES, TURNED, carried};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm};
-use crate::program::script::{Expr, Instruction, Modal, NOT_DISPLACED, Place, Remark, Turn, short};
+use crate::program::script::{
+    Expr, Instruction, Modal, NOT_DISPLACED, Place, Remark, Turn, VariableId, short,
+};
 use crate::program::{
     Displacement, External, ExternalUse, Motion, Shape, Shift, SpeedZone, number,
 };
@@ -43,10 +44,42 @@ pub(super) fn motion(word: &[u8]) -> Option<(Path, bool)> {
 pub(super) struct With {
     tool: Option<Expr>,
     base: Option<Expr>,
-    load: Option<Expr>,
-    mode: Option<Expr>,
-    orientation: Option<Expr>,
-    circle: Option<Expr>,
+    pub load: Option<Expr>,
+    pub mode: Option<Expr>,
+    pub orientation: Option<Expr>,
+    /// By [`super::turning::Arc`].
+    pub circles: [Option<Expr>; 3],
+    /// External axes stand elsewhere than the target says.
+    pub axes_off: Option<VariableId>,
+}
+
+impl With {
+    /// What a move has that stands in a spline block.
+    fn within(self, block: Self) -> Self {
+        Self {
+            tool: self.tool.or(block.tool),
+            base: self.base.or(block.base),
+            load: self.load.or(block.load),
+            mode: self.mode.or(block.mode),
+            orientation: self.orientation.or(block.orientation),
+            circles: std::array::from_fn(|at| self.circles[at].or(block.circles[at])),
+            axes_off: self.axes_off.or(block.axes_off),
+        }
+    }
+
+    /// Whether it has a tool or base of its own.
+    pub(super) fn has_frame(&self) -> bool {
+        self.tool.is_some() || self.base.is_some()
+    }
+}
+
+/// The orientation of a position in the base, for the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Heading {
+    /// A, B and C, 0.001 deg.
+    angles: [f64; 3],
+    tool: Expr,
+    base: Expr,
 }
 
 /// Where the robot is, for moves relative to it.
@@ -109,25 +142,20 @@ impl Reader {
                 Path::Arc if is_via => Motion::ArcVia,
                 Path::Arc => Motion::ArcEnd,
             };
-            let mut modal = self.modal_of(motion, point.target, &rest);
+            let mut may_turn = false;
             if !is_via {
-                let heading = self.heading_of(point);
+                let heading = self.heading_of(point, &rest.with);
                 let before = std::mem::replace(&mut self.heading, heading);
-                if motion != Motion::Joint && (before.is_none() || before != self.heading) {
-                    self.guard_orientation(&mut modal, &rest.with);
-                }
+                may_turn = before.is_none() || before != self.heading;
             }
+            let modal = self.modal_of(place, motion, point.target, &rest, may_turn);
             let mut instruction = move_to(point.target, place, motion, &rest);
             instruction.displacement = point.displacement;
             if point.is_plain && !rest.has_angle && !is_referred {
                 instruction.target_span = point.span;
             }
-            if rest.has_angle {
-                modal.guards = self.states.angle_guards;
-            }
-            modal.guards = self.guards_on_arc(motion, modal.guards, rest.with.circle);
             self.builder.go(instruction, modal);
-            let plain = context.tool.is_none() && context.base.is_none();
+            let plain = !context.has_frame();
             if !is_via && plain && !rest.has_angle && point.is_pose {
                 self.last = self.shift_of(point).map(|shift| Last {
                     target: point.target,
@@ -139,14 +167,18 @@ impl Reader {
         Ok(())
     }
 
-    /// The angles of a position, to 0.001 deg; none where they are not known.
-    fn heading_of(&self, point: &Point) -> Option<[f64; 3]> {
+    /// The orientation of a position; none where it is not known.
+    fn heading_of(&self, point: &Point, with: &With) -> Option<Heading> {
+        let with = with.within(self.spline);
+        let [tool, base] = [(with.tool, State::Tool), (with.base, State::Base)].map(|(own, of)| {
+            let own = own.unwrap_or(self.states.expr(of));
+            // what chooses an entry may change before the next move
+            matches!(own, Expr::Value(_) | Expr::Variable(_)).then_some(own)
+        });
+        let (tool, base) = (tool?, base?);
         let script = &self.builder.script;
-        let mut target = point.target;
-        if let Expr::Variable(variable) = target {
-            target = script.variables[variable as usize].declared;
-        }
-        let Expr::Target(target) = target else {
+        // a variable may be written
+        let Expr::Target(target) = point.target else {
             return None;
         };
         let target = &script.targets[target];
@@ -155,65 +187,45 @@ impl Reader {
             .get(3..6)
             .filter(|_| target.layout.shape == Shape::Pose)?;
         let rounded = |at: usize| (angles[at].value * 1e3).round();
-        (point.displacement == NOT_DISPLACED).then(|| [0, 1, 2].map(rounded))
-    }
-
-    /// A move on which the tool rotates is refused where the orientation is kept.
-    fn guard_orientation(&self, modal: &mut Modal, with: &With) {
-        let of_states = [self.states.guards, 0].contains(&modal.guards);
-        if of_states {
-            modal.guards = match with.orientation.or(self.spline.orientation) {
-                Some(own)
-                    if [Turning::Evenly, Turning::AsWrist]
-                        .map(|turning| self.orientation_value(turning))
-                        .contains(&own) =>
-                {
-                    modal.guards
-                }
-                Some(Expr::Value(_)) => self.states.keeping_guards,
-                _ => self.states.turning_guards,
-            };
-        }
-    }
-
-    /// With what a move runs.
-    fn modal_of(&self, motion: Motion, target: Expr, rest: &Rest) -> Modal {
-        let With {
+        (point.displacement == NOT_DISPLACED).then(|| Heading {
+            angles: [0, 1, 2].map(rounded),
             tool,
             base,
-            load,
-            mode,
-            ..
-        } = rest.with;
-        let state = |own: Option<Expr>, of: Option<Expr>, state| {
-            own.or(of).unwrap_or(self.states.expr(state))
-        };
-        let spline = self.spline;
+        })
+    }
+
+    /// With what a move runs; `may_turn` as in [`Self::guards_of_pose`].
+    fn modal_of(
+        &mut self,
+        place: Place,
+        motion: Motion,
+        target: Expr,
+        rest: &Rest,
+        may_turn: bool,
+    ) -> Modal {
+        let mut with = rest.with.within(self.spline);
         let is_joints = matches!(target, Expr::Target(target)
             if self.builder.script.targets[target].layout.shape == Shape::Joints);
-        let is_external = match mode.or(spline.mode) {
-            Some(Expr::Variable(_)) | None => self.states.guards,
-            Some(mode) => self.states.guards_of(mode),
+        with.load = with.load.map(|load| self.watched(place, load).0);
+        let guards = if is_joints {
+            self.guards_of_axes(&with)
+        } else {
+            self.guards_of_pose(place, motion, &with, may_turn, rest.has_angle)
         };
+        let state = |own: Option<Expr>, state| own.unwrap_or(self.states.expr(state));
         Modal {
-            tool: state(tool, spline.tool, State::Tool),
-            frame: state(base, spline.base, State::Base),
-            load: state(load, spline.load, State::Load),
+            tool: state(with.tool, State::Tool),
+            frame: state(with.base, State::Base),
+            load: state(with.load, State::Load),
             configured: match motion {
                 Motion::Joint => Expr::Value(self.states.on),
                 _ => Expr::Absent,
             },
             wrist: match motion {
                 Motion::Joint => Expr::Absent,
-                _ => (rest.with.orientation.or(spline.orientation))
-                    .unwrap_or(self.states.expr(State::Orientation)),
+                _ => state(with.orientation, State::Orientation),
             },
-            // axes are the same whoever holds the tool
-            guards: if is_joints {
-                self.states.joint_guards
-            } else {
-                is_external
-            },
+            guards,
             speed_zone: rest.speed_zone,
             ..Modal::default()
         }
@@ -282,15 +294,36 @@ impl Reader {
                 (b"$TOOL", None) => with.tool = Some(self.state_value(State::Tool, cursor)?),
                 (b"$BASE", None) => with.base = Some(self.state_value(State::Base, cursor)?),
                 (b"$LOAD", None) => with.load = Some(self.state_value(State::Load, cursor)?),
+                (b"$LOAD", Some(_)) => {
+                    with.load = Some(self.unknown(carried()));
+                    skip_value(cursor);
+                }
                 (b"$IPO_MODE", None) => with.mode = Some(self.state_value(State::Ipo, cursor)?),
                 (b"$ORI_TYPE", None) => with.orientation = Some(self.orientation(cursor)),
                 (b"$CIRC_TYPE" | b"$CIRC_MODE", _) => {
-                    with.circle = Some(self.circle(name.start as usize, cursor));
+                    let set = self.circle(name, cursor);
+                    let before = std::mem::take(&mut with.circles);
+                    with.circles = std::array::from_fn(|at| set[at].or(before[at]));
                 }
-                (b"$TOOL", Some(_)) => with.tool = Some(self.chosen()),
-                (b"$BASE", Some(_)) => with.base = Some(self.chosen()),
+                (b"$EX_AX_IGNORE", None) => {
+                    let start = cursor.at;
+                    skip_value(cursor);
+                    with.axes_off = self.ignored_axes(&cursor.bytes[start..cursor.at]);
+                }
+                (b"$TOOL", Some(_)) => {
+                    with.tool = Some(self.chosen());
+                    skip_value(cursor);
+                }
+                (b"$BASE", Some(_)) => {
+                    with.base = Some(self.chosen());
+                    skip_value(cursor);
+                }
                 (b"$VEL", _) => speed_zone.speed_m_s = speed(cursor, part)?,
                 _ => skip_value(cursor),
+            }
+            // what is not understood hides nothing behind it
+            if matches!(cursor.peek().kind, Kind::Sign(_)) {
+                skip_value(cursor);
             }
             if !cursor.take(b',') {
                 return Ok(with);
@@ -320,8 +353,7 @@ impl Reader {
             Path::Spline => &[Motion::Spline],
             Path::Arc => &[Motion::ArcVia, Motion::ArcEnd],
         };
-        let own = rest.with.tool.is_some() || rest.with.base.is_some();
-        let is_known = steps.len() == motions.len() && !own;
+        let is_known = steps.len() == motions.len() && !rest.with.has_frame();
         for (at, motion) in motions.iter().enumerate() {
             let step = steps.get(at).and_then(Option::as_ref);
             let there = match (last, step, rest.in_tool) {
@@ -330,7 +362,7 @@ impl Reader {
             };
             let Some(mut there) = there else {
                 let target = self.unknown(FROM_NOWHERE);
-                let modal = self.modal_of(*motion, target, &rest);
+                let modal = self.modal_of(place, *motion, target, &rest, false);
                 self.builder
                     .go(move_to(target, place, *motion, &rest), modal);
                 continue;
@@ -341,11 +373,7 @@ impl Reader {
             let displacement = Displacement::By(Box::new(there.shift));
             let mut instruction = move_to(there.target, place, *motion, &rest);
             instruction.displacement = self.builder.script.displacement(displacement);
-            let mut modal = self.modal_of(*motion, there.target, &rest);
-            if rest.has_angle {
-                modal.guards = self.states.angle_guards;
-            }
-            modal.guards = self.guards_on_arc(*motion, modal.guards, rest.with.circle);
+            let modal = self.modal_of(place, *motion, there.target, &rest, false);
             self.builder.go(instruction, modal);
             self.last = (*motion != Motion::ArcVia && !rest.has_angle).then_some(there);
         }
@@ -360,9 +388,10 @@ impl Reader {
         let unknown = self.axes_of_move(&step.external, step.is_relative);
         let remark = if step.is_relative { TURNED } else { SOME_AXES };
         let target = unknown.unwrap_or_else(|| self.unknown(remark));
-        let mut instruction = move_to(target, self.place(first), Motion::Joint, rest);
+        let place = self.place(first);
+        let mut instruction = move_to(target, place, Motion::Joint, rest);
         instruction.turned = unknown.is_none().then(|| Box::new(turned));
-        let modal = self.modal_of(Motion::Joint, target, rest);
+        let modal = self.modal_of(place, Motion::Joint, target, rest, false);
         self.builder.go(instruction, modal);
     }
 
@@ -408,7 +437,7 @@ enum Way {
 impl Step {
     /// `{A1 -30}`: the other axes stay where they are.
     fn of_some_axes(found: &Aggregate) -> Option<Self> {
-        let is_some = found.is_axes() && found.has_axes != aggregate::WHOLE;
+        let is_some = found.is_axes() && found.has_axes != WHOLE;
         (is_some && found.has == 0 && !found.computed).then(|| Self {
             way: Way::Turned(turned(found, Turn::To)),
             external: found.external,
@@ -427,7 +456,7 @@ impl Step {
         let way = match (found.is_axes(), found.has) {
             _ if found.computed => return Ok(None),
             (true, 0) => Way::Turned(turned(&found, Turn::By)),
-            (false, has) if has & !0b111 == 0 => {
+            (false, has) if has & !WHOLE == 0 && is_straight(&found) => {
                 let part = |i: usize| match has & 1 << i {
                     0 => 0.0,
                     _ => m_from_mm(found.position[i].value),
@@ -442,6 +471,11 @@ impl Step {
             is_relative: true,
         }))
     }
+}
+
+/// Whether no angle of a relative move turns the tool.
+fn is_straight(found: &Aggregate) -> bool {
+    (3..6).all(|at| found.position[at].value == 0.0)
 }
 
 fn turned(found: &Aggregate, turn: fn(f64) -> Turn) -> [Turn; 6] {

@@ -78,7 +78,7 @@ pub(super) enum DataKind {
     Axes,
     /// FDAT: numbers of a tool and a base.
     Fdat,
-    /// LDAT: whether straight moves and arcs keep their orientation.
+    /// LDAT: how the tool rotates on straight moves and arcs.
     Ldat,
     /// INT.
     Number,
@@ -128,17 +128,46 @@ pub(super) enum Turning {
     AsWrist,
     /// Not at all.
     Kept,
+    /// Evenly past the point, whose own orientation does not count.
+    Ignored,
 }
 
 impl Turning {
-    /// Of `#VAR`, `#JOINT`, `#CONSTANT`: by this name in capitals. What is not known may keep it.
+    /// Of `#VAR`, `#JOINT`, `#CONSTANT`, `#IGNORE`: by this name in capitals. What is not known may
+    /// keep it.
     pub(super) fn named(name: &[u8]) -> Self {
         match name {
-            b"VAR" | b"IGNORE" => Self::Evenly,
+            b"VAR" => Self::Evenly,
             b"JOINT" => Self::AsWrist,
+            b"IGNORE" => Self::Ignored,
             _ => Self::Kept,
         }
     }
+}
+
+/// What LDAT tells of how the tool turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Ldat {
+    pub turning: Turning,
+    /// Whether its arcs are usual ones, by [`super::turning::Arc`].
+    pub arcs: [bool; 3],
+}
+
+impl Default for Ldat {
+    fn default() -> Self {
+        Self {
+            turning: Turning::Evenly,
+            arcs: [true; 3],
+        }
+    }
+}
+
+impl Ldat {
+    /// Only the running program knows it.
+    pub(super) const UNKNOWN: Self = Self {
+        turning: Turning::Kept,
+        arcs: [false; 3],
+    };
 }
 
 /// The value of a variable.
@@ -149,7 +178,7 @@ pub(super) enum Stored {
     /// Numbers of a tool and a base.
     Fdat(Fdat),
     /// How the tool rotates on straight moves and arcs.
-    Turning(Turning),
+    Ldat(Ldat),
     /// A whole number.
     Number(u32),
     /// Not written out.
@@ -214,6 +243,8 @@ pub(super) struct Names {
     pub elements: BTreeSet<(Symbol, Index)>,
     /// What is written into numbers.
     pub known: super::numbers::Known,
+    /// Which functions change nothing that moves depend on.
+    pub quiet: super::quiet::Quiet,
     /// Names that choose tools, bases and loads.
     pub choosing: HashSet<Symbol>,
     /// Names that are given to routines: the name, the routine, which argument, and where.
@@ -286,6 +317,7 @@ impl Names {
         self.settle_structures();
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
         self.carry_choosing();
+        self.settle_quiet();
         self.give_numbers();
     }
 

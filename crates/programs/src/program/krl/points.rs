@@ -6,6 +6,7 @@ use super::frames::{State, pose_of};
 use super::names::{DataKind, Index};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, COPIED};
+use super::states::inside;
 use super::tokens::{Cursor, Kind, Read, capitals};
 use crate::geometry::Pose;
 use crate::geometry::units::MM;
@@ -44,6 +45,12 @@ enum Operand {
     /// Of the controller, and no position of the robot.
     System,
     Other,
+}
+
+/// Whether a position ends here: a word such as `C_DIS` is none of it.
+fn ends_operand(mut cursor: Cursor) -> bool {
+    matches!(cursor.blanks(), 0 | b';' | b':' | b',' | b')' | b'}')
+        || cursor.peek().kind == Kind::Name
 }
 
 impl Reader {
@@ -115,7 +122,6 @@ impl Reader {
             _ => {}
         }
         let before = *cursor;
-        let mut result = None;
         let name = cursor.next();
         if name.kind == Kind::Name {
             let mut buffer = [0; 24];
@@ -144,20 +150,21 @@ impl Reader {
             if !matches!(cursor.blanks(), b'.' | b'(' | b'+' | b'-' | b'*' | b'/') {
                 return Ok(Operand::Named(symbol, at));
             }
-            if cursor.blanks() == b'(' {
-                result = self.result_of(symbol);
+            let mut behind = *cursor;
+            if inside(&mut behind).is_some() && ends_operand(behind) {
+                *cursor = behind;
+                if let Some(result) = self.returned(name) {
+                    return Ok(Operand::Returned(result));
+                }
+                *mentions |= self.mentions_position(before.part(before.at, behind.at));
+                return Ok(Operand::Other);
             }
         }
         *cursor = before;
         cursor.skip();
         let inner = before.part(before.at, cursor.at);
         *mentions |= self.mentions_position(inner);
-        self.calls_in(inner);
         let text = inner.bytes[inner.at..inner.end].trim_ascii();
-        let is_one_call = memchr::memchr_iter(b'(', text).count() == 1 && text.ends_with(b")");
-        if let Some(result) = result.filter(|_| is_one_call) {
-            return Ok(Operand::Returned(self.returned(name, result)));
-        }
         let is_system = text.starts_with(b"$");
         Ok(if is_system {
             Operand::System

@@ -1,8 +1,9 @@
 //! Files into a [`Script`]: first what all of them declare, then their statements.
 
 use super::frames::{Declared, States};
+use super::guards::Guards;
 use super::interrupts::{Action, Concurrent};
-use super::moves::Last;
+use super::moves::{Heading, Last};
 use super::names::{DataKind, Datum, Head, Index, Names};
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
@@ -20,6 +21,9 @@ pub(super) struct Reader {
     pub(super) names: Names,
     pub(super) states: States,
     pub(super) circles: Circles,
+    pub(super) guards: Guards,
+    /// Some file says `#IGNORE`.
+    pub(super) ignores: bool,
     /// Tools, bases and loads of data lists.
     pub(super) declared: Declared,
     pub(super) file: u32,
@@ -32,6 +36,11 @@ pub(super) struct Reader {
     pub(super) tables: HashMap<Owner, TableId>,
     /// Parts of FDAT that statements write.
     pub(super) fdats: HashMap<(u32, super::fdat::Part), VariableId>,
+    pub(super) fdats_missing: HashMap<Symbol, VariableId>,
+    /// The numbers of tool and base in `FDAT_ACT`, and those of the tool and base that are set, where
+    /// both come from there.
+    pub(super) active: Option<(Expr, Expr)>,
+    pub(super) applied: Option<(Expr, Expr)>,
     /// All elements of an array.
     pub(super) arrays: HashMap<Owner, Expr>,
     /// What a name stands for that is declared more than once.
@@ -51,17 +60,22 @@ pub(super) struct Reader {
     pub(super) external: ExternalNames,
     /// Where the robot stands in the world, where it stands still.
     pub(super) root: Option<Pose>,
+    /// Set so for one move.
+    pub(super) every_axis_off: Option<VariableId>,
     /// The present statement.
     pub(super) here: Place,
+    /// What the functions returned that it calls, by their first bytes.
+    pub(super) results: Vec<(u32, VariableId)>,
     /// Between SPLINE and ENDSPLINE.
     pub(super) in_spline: bool,
     /// What the spline that is open sets for its moves.
     pub(super) spline: super::moves::With,
     /// Where the robot is, for moves relative to it.
     pub(super) last: Option<Last>,
-    /// The angles of the position where the robot is.
-    pub(super) heading: Option<[f64; 3]>,
-    /// A trigger or stop stands before the next move and counts from its end.
+    /// The orientation of the position where the robot is.
+    pub(super) heading: Option<Heading>,
+    /// A trigger or stop stands before the next move and counts from its end, or the move calls
+    /// functions.
     pub(super) is_referred: bool,
 }
 
@@ -96,6 +110,8 @@ impl Reader {
         Self {
             states: States::new(&mut builder.script),
             circles: Circles::new(&mut builder.script),
+            guards: Guards::default(),
+            ignores: false,
             builder,
             external: settings.external.clone(),
             root: settings.world_from_base,
@@ -109,6 +125,9 @@ impl Reader {
             variables: HashMap::new(),
             tables: HashMap::new(),
             fdats: HashMap::new(),
+            fdats_missing: HashMap::new(),
+            active: None,
+            applied: None,
             arrays: HashMap::new(),
             ambiguous: HashMap::new(),
             refused: HashSet::new(),
@@ -117,7 +136,9 @@ impl Reader {
             actions: Vec::new(),
             unfollowed: Vec::new(),
             stays: Vec::new(),
+            every_axis_off: None,
             here: Place::NOWHERE,
+            results: Vec::new(),
             in_spline: false,
             spline: super::moves::With::default(),
             last: None,
@@ -126,9 +147,10 @@ impl Reader {
         }
     }
 
-    /// Nothing is known of where the robot is.
+    /// Nothing is known of where the robot is, and with which tool and base.
     pub(super) fn lose_place(&mut self) {
         (self.last, self.heading) = (None, None);
+        (self.active, self.applied) = (None, None);
     }
 
     /// Reads what a file declares, and which names its statements write.
@@ -138,11 +160,15 @@ impl Reader {
     pub(super) fn declarations(&mut self, source: &Source, file: u32) -> Read<()> {
         self.begin(source, file);
         let bytes = &source.bytes;
-        let is_fixed_tool = |at: usize| {
-            let name = bytes.get(at + 1..at + 4);
-            name.is_some_and(|name| name.eq_ignore_ascii_case(b"TCP"))
+        let says = |word: &[u8]| {
+            let is_it = |at: usize| {
+                let name = bytes.get(at + 1..at + 1 + word.len());
+                name.is_some_and(|name| name.eq_ignore_ascii_case(word))
+            };
+            memchr::memchr_iter(b'#', bytes).any(is_it)
         };
-        self.declared.has_fixed_tools |= memchr::memchr_iter(b'#', bytes).any(is_fixed_tool);
+        self.declared.has_fixed_tools |= says(b"TCP");
+        self.ignores |= says(b"IGNORE");
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {
@@ -301,7 +327,7 @@ impl Reader {
             b"EXT" | b"EXTFCT" | b"ENUM" | b"STRUC" | b"SIGNAL" => Line::Nothing,
             b"IMPORT" => Line::Import(cursor),
             b"INT" | b"REAL" | b"BOOL" | b"CHAR" | b"POS" | b"E3POS" | b"E6POS" | b"FRAME"
-            | b"AXIS" | b"E3AXIS" | b"E6AXIS" | b"FDAT"
+            | b"AXIS" | b"E3AXIS" | b"E6AXIS" | b"FDAT" | b"LDAT"
                 if cursor.peek().kind == Kind::Name =>
             {
                 Line::Typed {

@@ -82,12 +82,36 @@ pub(super) const KEEPS_ORIENTATION: Remark = Remark::error(
     "write A, B and C of the start into the target, or set $ORI_TYPE=#VAR",
 );
 
+/// Against a target whose orientation the controller leaves out.
+pub(super) const IGNORES_ORIENTATION: Remark = Remark::error(
+    "orientation-kept",
+    "the controller ignores A, B and C of this target ($ORI_TYPE=#IGNORE) and turns the tool on \
+         from the points around it: how it stands there is not known",
+    "set $ORI_TYPE=#VAR, with the A, B and C that the tool has there",
+);
+
 /// Only the running program knows the tool or base.
 pub(super) const CHOSEN: Remark = Remark::error(
     "frame-chosen-at-run-time",
     "only the running program knows the tool or base",
     "set $TOOL and $BASE before the move in the same routine",
 );
+
+pub(super) const DECLARED_TWICE: Remark = Remark::error(
+    "frame-name-ambiguous",
+    "the tool, base or load is declared more than once with different values",
+    "pass one $config.dat only",
+);
+
+/// Against moves with the tool and base of data that are not in the files.
+pub(super) fn fdat_missing(name: &str) -> Remark {
+    Remark::error_about(
+        "frame-chosen-at-run-time",
+        format!("{name} is not in the files: the numbers of its tool and base are not known"),
+        "give the file that declares it by --with: the $config.dat of the controller, or the .dat \
+         of the same name as the program",
+    )
+}
 
 pub(super) const FRAME_ASSIGNED: Remark = Remark::error(
     "frame-assigned-at-run-time",

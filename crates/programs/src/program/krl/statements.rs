@@ -9,13 +9,23 @@ use super::names::Index;
 use super::reader::Reader;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use crate::program::names::Symbol;
-use crate::program::script::{Call, Expr, Held, How, Written};
+use crate::program::script::{Call, Expr, Held, How, Place, Variable, VariableId, Written};
 use crate::program::{ExternalUse, Source, SpeedZone};
+
+/// Whether a number of bits says no axis, by any of the ways to write it.
+fn is_no_axis(value: &[u8]) -> bool {
+    value.trim_ascii().iter().all(|b| b"0'BbHh ".contains(b))
+}
 
 /// Whether a word in capitals starts a move.
 pub(super) fn is_motion(word: &[u8]) -> bool {
     motion(word).is_some()
 }
+
+/// Words in front of what may stand in brackets, and is no argument.
+const CONDITIONS: [&[u8]; 7] = [
+    b"IF", b"WHILE", b"UNTIL", b"SWITCH", b"CASE", b"RETURN", b"WAIT",
+];
 
 fn is_any(name: &[u8], known: &[&[u8]]) -> bool {
     known.iter().any(|known| name.eq_ignore_ascii_case(known))
@@ -51,6 +61,18 @@ pub(super) fn action(mut cursor: Cursor) -> Option<(Token, Cursor)> {
     (name.kind == Kind::Name).then_some((name, cursor))
 }
 
+/// What stands in front of DO.
+fn in_front_of_do(cursor: Cursor) -> Cursor {
+    let mut ahead = cursor;
+    loop {
+        let token = ahead.next();
+        let is_do = ahead.text(token).eq_ignore_ascii_case(b"DO");
+        if token.kind == Kind::End || is_do {
+            return cursor.part(cursor.at, token.start as usize);
+        }
+    }
+}
+
 /// Whether a trigger is at the end of the next move, or at a point of it: `TRIGGER WHEN PATH=-50`,
 /// `WHEN DISTANCE=1`.
 fn refers_to_end(mut cursor: Cursor) -> bool {
@@ -83,6 +105,7 @@ impl Reader {
         self.note_displacing(cursor);
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
+            self.note_loud();
             // WITH $BASE=BASE_DATA[n]
             let line = &cursor.bytes[cursor.at..cursor.end];
             if memchr::memchr(b'[', line).is_some() {
@@ -98,6 +121,7 @@ impl Reader {
         match word {
             b"GOTO" | b"ELSE" | b"ENDIF" | b"LOOP" | b"ENDLOOP" | b"EXIT" | b"HALT" => return,
             b"BAS" => {
+                self.note_loud();
                 while !matches!(cursor.blanks(), 0 | b';' | b',') {
                     cursor.next();
                 }
@@ -107,9 +131,12 @@ impl Reader {
                     let name = self.symbol(&cursor, name);
                     self.names.choosing.insert(name);
                 }
+                self.note_arguments(cursor);
+                self.note_given(name, cursor);
                 return;
             }
             b"INTERRUPT" | b"TRIGGER" => {
+                self.note_loud();
                 let declares = cursor.text(cursor.peek()).eq_ignore_ascii_case(b"DECL");
                 let routine = self.context().routine.filter(|_| declares);
                 self.names.interrupted.extend(routine);
@@ -122,6 +149,10 @@ impl Reader {
                 self.names.touched.insert(name);
             }
             _ => {
+                if next == b'(' && !CONDITIONS.contains(&word) {
+                    let name = self.symbol(&cursor, first);
+                    self.note_called(name);
+                }
                 self.note_assignment(first, cursor);
                 match cursor.brackets() {
                     Ok(Some((at, end))) => {
@@ -196,11 +227,13 @@ impl Reader {
             return;
         };
         let mut name = self.symbol(&cursor, name);
+        self.note_written(name);
         self.touch(name, at);
         // what is behind may be a member of a structure that is not declared yet
         for (part, inner) in &parts {
             let path = self.names.symbols.path(name, cursor.text(*part));
             (name, at) = (self.names.symbols.intern(&path), at.inside(*inner));
+            self.note_written(name);
             self.touch(name, at);
         }
         // a whole structure, on any level
@@ -283,12 +316,21 @@ impl Reader {
     /// One line of a routine.
     pub(super) fn statement(&mut self, first: Token, mut cursor: Cursor) -> Read<()> {
         self.here = self.place(first);
+        self.results.clear();
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(first), &mut buffer);
+        let calls = self.builder.script.calls.len();
+        match word {
+            // what stands behind DO is not run here, and a condition in every round
+            b"INTERRUPT" | b"WHILE" => {}
+            b"TRIGGER" => self.calls_in(in_front_of_do(cursor)),
+            _ => self.calls_in(cursor),
+        }
         if let Some((path, relative)) = motion(word) {
             let next = cursor.peek();
             // a variable or label may have such a name
             if !next.is(b'=') && !next.is(b':') && !next.is(b'.') {
+                self.is_referred |= self.builder.script.calls.len() > calls;
                 return if relative {
                     self.relative(first, path, cursor)
                 } else {
@@ -313,9 +355,11 @@ impl Reader {
                 if cursor.text(with).eq_ignore_ascii_case(b"WITH") {
                     self.spline = self.with(&mut cursor, &mut SpeedZone::default())?;
                 }
+                self.last = self.last.filter(|_| !self.spline.has_frame());
                 return Ok(());
             }
             b"ENDSPLINE" => {
+                self.last = self.last.filter(|_| !self.spline.has_frame());
                 (self.spline, self.in_spline) = (With::default(), false);
                 return Ok(());
             }
@@ -355,12 +399,7 @@ impl Reader {
                 return Ok(());
             }
             b"WAIT" | b"HALT" | b"BRAKE" | b"RESUME" | b"CONTINUE" | b"ANIN" | b"ANOUT"
-            | b"PULSE" => {
-                if word == b"WAIT" {
-                    self.calls_in(cursor);
-                }
-                return Ok(());
-            }
+            | b"PULSE" => return Ok(()),
             _ => {}
         }
         let behind_name = cursor;
@@ -414,11 +453,23 @@ impl Reader {
 
     /// `$ASYNC_AXIS='B0001'`
     fn asynchronous(&mut self, cursor: Cursor) {
-        let rest = cursor.bytes[cursor.at..cursor.end].trim_ascii();
-        // none, by any of the ways to write a number
-        if !rest.iter().all(|b| b"0'BbHh".contains(b)) {
+        if !is_no_axis(&cursor.bytes[cursor.at..cursor.end]) {
             self.axes_off(0, self.external.every_axis());
         }
+    }
+
+    /// What stands elsewhere in a move `WITH $EX_AX_IGNORE='B0001'`.
+    pub(super) fn ignored_axes(&mut self, value: &[u8]) -> Option<VariableId> {
+        let all = self.external.every_axis();
+        if self.external.listed.is_empty() || is_no_axis(value) {
+            return None;
+        }
+        let value = *self.every_axis_off.get_or_insert_with(|| {
+            let value = self.builder.script.value(Held::AxesOff(all));
+            let variable = Variable::new("$EX_AX_IGNORE", Place::NOWHERE, Expr::Value(value));
+            self.builder.script.variable(variable)
+        });
+        Some(value)
     }
 
     /// `$ACT_EX_AX=1`: axes beyond this number are not moved.
@@ -457,35 +508,27 @@ impl Reader {
     /// Branches, loops and jumps; whether it is one.
     fn flow(&mut self, word: &[u8], mut cursor: Cursor) -> bool {
         match word {
-            b"IF" => {
-                self.calls_in(cursor);
-                self.builder.begin_if(None);
-            }
+            b"IF" => self.builder.begin_if(None),
             b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
             b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
-            b"SWITCH" => {
-                self.calls_in(cursor);
-                self.builder.begin_choice();
-            }
+            b"SWITCH" => self.builder.begin_choice(),
             b"CASE" => self.builder.next_branch(false),
             b"LOOP" | b"REPEAT" => self.builder.begin_loop(false),
             b"WHILE" => {
-                self.builder.begin_loop(true);
+                self.builder.begin_loop(false);
                 self.calls_in(cursor);
+                self.builder.begin_if(None);
+                self.builder.leave_loop();
+                self.builder.end_choice();
             }
             b"FOR" => {
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
-                self.calls_in(cursor);
                 self.builder.begin_loop(true);
                 self.count(name, Index::Whole, None);
             }
-            b"ENDLOOP" => self.builder.end_loop(true),
-            b"ENDWHILE" | b"ENDFOR" => self.builder.end_loop(false),
-            b"UNTIL" => {
-                self.calls_in(cursor);
-                self.builder.end_loop(false);
-            }
+            b"ENDLOOP" | b"ENDWHILE" => self.builder.end_loop(true),
+            b"ENDFOR" | b"UNTIL" => self.builder.end_loop(false),
             b"EXIT" => self.builder.leave_loop(),
             b"GOTO" => {
                 let label = cursor.next();

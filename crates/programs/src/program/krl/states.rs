@@ -20,6 +20,14 @@ impl Reader {
         }
         let variable = self.states.states[state as usize];
         self.put(place, variable, value);
+        if state == State::Orientation && self.ignores {
+            let ignored = if value == self.ignored() {
+                value
+            } else {
+                self.orientation_value(Turning::Evenly)
+            };
+            self.put(place, self.states.ignoring, ignored);
+        }
     }
 
     pub(super) fn put(&mut self, place: Place, variable: VariableId, value: Expr) {
@@ -336,7 +344,8 @@ impl Reader {
                     State::Orientation,
                     self.orientation_value(Turning::Evenly),
                 );
-                self.usual_circles(place);
+                let [circle, ..] = self.circles.states;
+                self.put(place, circle, self.circles.value(true));
             }
             b"TOOL" => {
                 let choice = choice(self, Table::Tool);
@@ -351,20 +360,23 @@ impl Reader {
                 self.set(place, State::Base, carried);
             }
             command @ (b"FRAMES" | b"PTP_PARAMS" | b"CP_PARAMS" | b"PARAMS") => {
+                let active = self.active;
+                let is_same = active.is_some() && active == self.applied;
+                let (last, heading) = (self.last, self.heading);
                 let [tool, base] = [State::FdatTool, State::FdatBase]
                     .map(|state| Choice::By(self.states.states[state as usize]));
                 self.choose(place, Table::Tool, Some(tool));
                 self.choose(place, Table::Base, Some(base));
                 self.set(place, State::Ipo, self.states.expr(State::FdatIpo));
+                (self.active, self.applied) = (active, active);
+                if is_same {
+                    (self.last, self.heading) = (last, heading);
+                }
                 if command == b"CP_PARAMS" {
-                    let kept = self.states.expr(State::LdatOrientation);
-                    self.set(place, State::Orientation, kept);
+                    self.take_ldat(place);
                 }
             }
-            b"CP_DAT" => {
-                let kept = self.states.expr(State::LdatOrientation);
-                self.set(place, State::Orientation, kept);
-            }
+            b"CP_DAT" => self.take_ldat(place),
             b"PTP_DAT" | b"GROUP" => {}
             // speeds and outputs
             command
@@ -373,6 +385,17 @@ impl Reader {
                     .any(|of| command.starts_with(of)) => {}
             _ => self.anything_chosen(place),
         }
+    }
+
+    /// What `LDAT_ACT` says of how the tool turns holds from here on.
+    fn take_ldat(&mut self, place: Place) {
+        self.set(
+            place,
+            State::Orientation,
+            self.states.expr(State::LdatOrientation),
+        );
+        let [circle, ..] = self.circles.states;
+        self.put(place, circle, Expr::Variable(self.circles.active));
     }
 
     /// A command that nobody knows may set any tool and base.
@@ -488,6 +511,7 @@ impl Reader {
         part: Option<&[u8]>,
         cursor: &mut Cursor,
     ) -> Read<()> {
+        (self.heading, self.applied) = (None, None);
         let at = Index::of(at, cursor);
         let variable = self.entry_written(table, at);
         if let Some(part) = part {

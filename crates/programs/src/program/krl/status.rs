@@ -15,7 +15,7 @@
 //! "Status" and "Turn".
 
 use crate::program::notation::truly_changes;
-use crate::program::{Configuration, Posture};
+use crate::program::{Configuration, Posture, Source};
 use std::ops::Range;
 
 /// Bit of S that an absolutely accurate robot sets.
@@ -88,20 +88,22 @@ fn update(
 /// Writes S or T as whole number or as the bits that stood there, at least as many.
 pub(super) fn write(value: u32, old: &[u8], out: &mut Vec<u8>) {
     let text = match old {
-        [
-            b'\'',
-            kind @ (b'B' | b'b' | b'H' | b'h'),
-            digits @ ..,
-            b'\'',
-        ] => {
-            let width = digits.len();
-            let kind = char::from(*kind);
+        [b'\'', literal @ .., b'\''] => {
+            // what stands around the digits stays: the letter, blanks
+            let is_digit = |byte: &u8| byte.is_ascii_hexdigit();
+            let letter = literal.iter().position(|b| *b != b' ').unwrap_or_default();
+            let start = (letter + 1..literal.len()).find(|at| is_digit(&literal[*at]));
+            let start = start.unwrap_or(literal.len());
+            let width = literal[start..].iter().take_while(|b| is_digit(b)).count();
+            let digits = &literal[start..start + width];
             let small = digits.iter().any(u8::is_ascii_lowercase);
-            match kind {
-                'B' | 'b' => format!("'{kind}{value:0width$b}'"),
-                _ if small => format!("'{kind}{value:0width$x}'"),
-                _ => format!("'{kind}{value:0width$X}'"),
-            }
+            let digits = match literal.get(letter) {
+                Some(b'B' | b'b') => format!("{value:0width$b}"),
+                _ if small => format!("{value:0width$x}"),
+                _ => format!("{value:0width$X}"),
+            };
+            let around = [&literal[..start], &literal[start + width..]].map(Source::text);
+            format!("'{}{digits}{}'", around[0], around[1])
         }
         [b'+', ..] => format!("+{value}"),
         _ => {
@@ -177,6 +179,8 @@ mod tests {
             ("'B000010'", 51, "'B110011'"),
             ("'b10'", 51, "'b110011'"),
             ("'H0a'", 26, "'H1a'"),
+            ("'B 010'", 6, "'B 110'"),
+            ("' H FF '", 10, "' H 0A '"),
             ("2.0", 6, "6.0"),
         ] {
             let mut out = Vec::new();

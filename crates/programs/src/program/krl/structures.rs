@@ -217,12 +217,6 @@ impl Reader {
     }
 
     /// The variable that holds what a function with a position returns.
-    pub(super) fn result_of(&mut self, function: Symbol) -> Option<VariableId> {
-        let routine = self.names.routine(function, self.context())?;
-        self.result_in(routine)
-    }
-
-    /// Likewise of the routine.
     pub(super) fn result_in(&mut self, routine: u32) -> Option<VariableId> {
         let head = &self.names.heads[routine as usize];
         if !head.returns.is_place() {
@@ -240,26 +234,33 @@ impl Reader {
         Some(made)
     }
 
-    /// What a function just returned: it may return something else before the move runs.
-    pub(super) fn returned(&mut self, name: Token, result: VariableId) -> Expr {
+    /// Notes what a function just returned to where it is called: it may return something else before
+    /// that is used.
+    pub(super) fn note_returned(&mut self, name: Token, routine: u32) {
+        let Some(result) = self.result_in(routine) else {
+            return;
+        };
         let script = &self.builder.script;
         let of = script.variables[result as usize].clone();
         let place = Place::new(self.file, name.start);
         let copy = self.builder.script.variable(Variable { place, ..of });
         self.put(place, copy, Expr::Variable(result));
-        Expr::Variable(copy)
+        self.results.push((name.start, copy));
+    }
+
+    /// What the function returned that this statement calls there.
+    pub(super) fn returned(&self, name: Token) -> Option<Expr> {
+        let of = self.results.iter().find(|(start, _)| *start == name.start);
+        of.map(|(_, result)| Expr::Variable(*result))
     }
 
     /// `RETURN XP2`; the cursor stands behind RETURN.
     pub(super) fn return_value(&mut self, mut cursor: Cursor) -> Read<()> {
         let result = self.context().routine.and_then(|of| self.result_in(of));
-        match result {
-            Some(result) if cursor.peek().kind != Kind::End => {
-                let point = self.point(&mut cursor)?;
-                let value = self.value_of(&point);
-                self.put(self.here, result, value);
-            }
-            _ => self.calls_in(cursor),
+        if let Some(result) = result.filter(|_| cursor.peek().kind != Kind::End) {
+            let point = self.point(&mut cursor)?;
+            let value = self.value_of(&point);
+            self.put(self.here, result, value);
         }
         Ok(())
     }

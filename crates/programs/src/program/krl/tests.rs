@@ -3,11 +3,14 @@
 mod deciding;
 mod flow;
 mod frames;
+mod loads;
+mod nested;
 mod posts;
 mod products;
 mod robust;
 mod samples;
 mod structures;
+mod turning;
 mod writing;
 
 use super::*;

@@ -18,7 +18,7 @@ pub(super) enum Kind {
     /// Something that starts like a number, with everything that clings to it: `12`, `.5`,
     /// `1.5E-12`, `12.3.4`.
     Number,
-    /// `'B0101'` or `'HFF'`, quotes included.
+    /// `'B0101'`, `'HFF'` or `'B 0101'`, quotes included.
     Bits,
     /// A string with its quotes.
     Text,
@@ -218,7 +218,7 @@ impl<'a> Cursor<'a> {
         let rest = &self.bytes[self.at + 1..self.end];
         let digits = rest
             .iter()
-            .take_while(|b| b.is_ascii_alphanumeric())
+            .take_while(|b| b.is_ascii_alphanumeric() || **b == b' ')
             .count();
         if rest.get(digits) == Some(&b'\'') && digits > 0 {
             self.at += digits + 2;
@@ -274,16 +274,16 @@ pub(super) fn capitals<'b>(word: &[u8], buffer: &'b mut [u8; 24]) -> &'b [u8] {
     }
 }
 
-/// The value of `'B0101'` or `'HFF'`.
+/// The value of `'B0101'`, `'HFF'` or `'B 0101'`.
 pub(super) fn bits_value(text: &[u8]) -> Option<u32> {
     let inner = text.strip_prefix(b"'")?.strip_suffix(b"'")?;
-    let (&kind, digits) = inner.split_first()?;
+    let (&kind, digits) = inner.trim_ascii_start().split_first()?;
     let radix = match kind.to_ascii_uppercase() {
         b'B' => 2,
         b'H' => 16,
         _ => return None,
     };
-    u32::from_str_radix(std::str::from_utf8(digits).ok()?, radix).ok()
+    u32::from_str_radix(std::str::from_utf8(digits).ok()?.trim(), radix).ok()
 }
 
 /// The lines of a file: first byte and the byte behind the last, line end not included. Empty ones
@@ -333,6 +333,9 @@ mod tests {
     fn bit_literals_have_two_bases() {
         assert_eq!(bits_value(b"'B110000'"), Some(48));
         assert_eq!(bits_value(b"'h1F'"), Some(31));
+        assert_eq!(bits_value(b"'B 010'"), Some(2));
+        assert_eq!(bits_value(b"' H FF '"), Some(255));
+        assert_eq!(bits_value(b"'B 0 1'"), None);
         assert_eq!(bits_value(b"'B2'"), None);
         assert_eq!(bits_value(b"'B'"), None);
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXIS XHOME={A1 0,A2 \
+pub(super) const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXIS XHOME={A1 0,A2 \
     -90,A3 90,A4 0,A5 0,A6 0}\n\
     FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 100.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nTOOL_DATA[2]={x 0,y \
         0,z 50,a 0,b 90,c 0}\n\
@@ -12,7 +12,7 @@ const CONFIG: &str = "&ACCESS RV\n&REL 2\nDEFDAT  $CONFIG\nBOOL B_IN\nDECL E6AXI
     LOAD_DATA[2]={M -1.0,CM {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}\n\
     DECL MACHINE_FRAME_DATA_TYPE x\nMACHINE_FRAME_DAT[7]={MACH_DEF_INDEX 2,COOP_KRC_INDEX 0,PARENT[] \" \",GEO \" \"}\nENDDAT\n";
 
-fn in_cell(statements: &str) -> Program {
+pub(super) fn in_cell(statements: &str) -> Program {
     let text = format!("DEF M()\n{statements}\nEND\n");
     read_files(&[
         ("System/$config.dat", CONFIG),
@@ -21,7 +21,7 @@ fn in_cell(statements: &str) -> Program {
     ])
 }
 
-fn used(program: &Program) -> Vec<(&str, &str)> {
+pub(super) fn used(program: &Program) -> Vec<(&str, &str)> {
     let moves = program.moves.iter();
     moves
         .map(|used| {
@@ -588,5 +588,25 @@ fn a_move_to_which_a_trigger_counts_is_not_repeated() {
         let used = program.moves.last().expect("a move");
         let span = program.instructions[used.instruction as usize].target_span;
         assert_eq!(span.range().is_some(), may_be_repeated, "{before}");
+    }
+}
+
+#[test]
+fn data_that_are_not_in_the_files_are_asked_for_by_name_and_file() {
+    for set in [
+        "FDAT_ACT=FHOME\nBAS(#PTP_PARAMS,100)",
+        "$TOOL=STOOL2(FHOME)\n$BASE=SBASE(FHOME.BASE_NO)",
+    ] {
+        let program = in_cell(&format!("{set}\nPTP XP1"));
+        let id = "frame-chosen-at-run-time";
+        let found = program.findings.iter().find(|found| found.id == id);
+        let found = found.expect(set);
+        assert!(
+            found.message.contains("FHOME is not in the files"),
+            "{found:?}"
+        );
+        for part in ["--with", "$config.dat", ".dat"] {
+            assert!(found.hint.contains(part), "{found:?}");
+        }
     }
 }

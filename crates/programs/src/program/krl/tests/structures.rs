@@ -100,9 +100,14 @@ fn functions_return_positions() {
     // each call returns its own
     let program = with_types("CIRC up(s.P),up(s.Q)\nXP1=up(s.Q)\nLIN XP1", pick);
     assert_eq!(to(&program), ["s.P", "s.Q", "s.Q"]);
-    // of two in one expression nobody knows which is the last
+    // what the one inside returns is given to the other
     let program = with_types("LIN up(up(s.P))", pick);
-    assert_eq!(reported(&program), ["computed-target"]);
+    assert_eq!(to(&program), ["s.P"]);
+    let Displacement::By(shift) = &program.moves[0].displacement else {
+        panic!("{:?}", program.moves[0]);
+    };
+    assert_eq!(shift.in_tool.translation, [0.0, 0.0, 0.02]);
+    assert_eq!(reported(&program), [""; 0]);
 }
 
 #[test]

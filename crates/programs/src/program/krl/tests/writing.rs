@@ -178,3 +178,18 @@ fn the_marker_is_a_comment_behind_the_line_that_opens_the_file() {
         assert_eq!(read_again.is_ok(), read_before.is_ok());
     }
 }
+
+#[test]
+fn status_and_turn_in_bits_with_blanks_are_read() {
+    for (text, status, turn) in [
+        ("S 'B 010',T 'B 001010'", 2.0, 10.0),
+        ("S 'H 2',T 'H 0A'", 2.0, 10.0),
+        ("S'B010',T'HA'", 2.0, 10.0),
+    ] {
+        let program = path(&format!("PTP {{X 1,Y 2,Z 3,A 0,B 0,C 0,{text}}}"));
+        let target = program.moves[0].target.expect("a target");
+        assert_eq!(program.targets[target].layout, CONFIGURED, "{text}");
+        assert_eq!(values(&program, target)[6..], [status, turn], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
+    }
+}

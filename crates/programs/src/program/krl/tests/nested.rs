@@ -1,0 +1,139 @@
+//! Functions in expressions: what they write counts wherever they are called.
+
+use super::frames::used;
+use super::*;
+
+/// Functions that move.
+const MOVING: &str = "END\nDEFFCT INT moves(n:IN)\nINT n\nPTP XHOME\nRETURN 1\nENDFCT\n\
+    DEFFCT INT calls(n:IN)\nINT n\nRETURN moves(n)";
+
+/// Functions that set a base or a position, and that do neither.
+const FUNCTIONS: &str = "END\nDEFFCT INT three(n:IN)\nINT n\n$BASE=BASE_DATA[3]\nRETURN 1\nENDFCT\n\
+    DEFFCT INT four(n:IN)\nINT n\n$BASE=BASE_DATA[4]\nRETURN 1\nENDFCT\n\
+    DEFFCT INT raises(p:OUT)\nE6POS p\np.Z=p.Z+50\nRETURN 1\nENDFCT\n\
+    DEFFCT INT counts(n:IN)\nINT n,m\nm=n+1\nRETURN abs(m)\nENDFCT\n\
+    DEFFCT E6POS up(p:IN)\nE6POS p\np.Z=p.Z+10\nRETURN p\nENDFCT\nDEF sub(n:IN)\nINT n\nHALT";
+
+fn with_functions(statements: &str) -> Program {
+    path(&format!("{statements}\n{FUNCTIONS}"))
+}
+
+#[test]
+fn functions_are_seen_wherever_they_are_called() {
+    for call in [
+        "n=k[three(1)]",
+        "k[three(1)]=2",
+        "$OUT[three(1)]=TRUE",
+        "sub(three(1))",
+        "n=abs(three(1))",
+        "n=counts(three(1))",
+        "BAS(#ACC_CP,three(1))",
+        "BAS(#TOOL,three(1))\nBAS(#TOOL,1)",
+        "LIN w[three(1)]",
+        "LIN {X three(1),Y 0,Z 0,A 0,B 0,C 0}",
+        "LIN_REL {X three(1)}",
+        "SPTP XP2 WITH $VEL_AXIS[1]=three(1)",
+        "SLIN XP2 WITH $VEL.CP=three(1),$APO.CDIS=5 C_SPL",
+        "SPLINE WITH $VEL.CP=three(1)\nSPL XP2\nENDSPLINE",
+        "TRIGGER WHEN DISTANCE=0 DELAY=three(1) DO $OUT[1]=TRUE\nLIN XP2",
+        "WHILE three(1)>2\nHALT\nENDWHILE",
+        "FOR i=three(1) TO 2\nHALT\nENDFOR",
+        "REPEAT\nHALT\nUNTIL three(1)>2",
+        "SWITCH three(1)\nCASE 1\nHALT\nENDSWITCH",
+        "WAIT FOR three(1)==1",
+        // the one inside runs first
+        "n=three(four(1))",
+        "sub(three(four(1)))",
+    ] {
+        let program = with_functions(&format!("{call}\nLIN XP1"));
+        let last = used(&program).pop();
+        assert_eq!(last, Some(("TOOL_DATA[1]", "BASE_DATA[3]")), "{call}");
+    }
+    // it runs before the move
+    let program = with_functions("SPTP XP2 WITH $VEL_AXIS[1]=three(1)");
+    assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[3]")]);
+    // what an interrupt does runs when it does
+    let program = with_functions("TRIGGER WHEN DISTANCE=0 DELAY=0 DO n=counts(1)\nLIN XP1");
+    assert_eq!(used(&program), [("TOOL_DATA[1]", "BASE_DATA[2]")]);
+}
+
+#[test]
+fn what_functions_return_is_given_on_to_others() {
+    for (text, count, height) in [
+        ("LIN up(XP1)", 1, 0.01),
+        ("LIN up(XP1) C_DIS", 1, 0.01),
+        ("LIN up(up(XP1)) C_DIS", 1, 0.02),
+        ("XP3=up(up(up(XP1)))\nLIN XP3", 1, 0.03),
+        ("CIRC up(XP1),up(up(XP1))", 2, 0.02),
+    ] {
+        let program = with_functions(text);
+        assert_eq!(program.moves.len(), count, "{text}");
+        let last = program.moves.last().expect("a move");
+        let name = program.targets[last.target.expect("a target")]
+            .name
+            .as_deref();
+        assert_eq!(name, Some("XP1"), "{text}");
+        let along = Shift::along([0.0, 0.0, height]);
+        let Displacement::By(shift) = &last.displacement else {
+            panic!("{text}: {:?}", last.displacement);
+        };
+        let gap = shift.in_frame.separation(&along.in_frame);
+        assert!(gap.distance_m < 1e-9, "{text}: {shift:?}");
+    }
+}
+
+#[test]
+fn relative_moves_behind_functions_that_move_start_anywhere() {
+    for (call, ids) in [
+        ("n=counts(1)", &[][..]),
+        ("n=counts(counts(1))", &[]),
+        ("n=moves(1)", &["relative-move"]),
+        ("n=calls(1)", &["relative-move"]),
+        ("sub(calls(1))", &["relative-move"]),
+        ("n=three(1)", &["relative-move"]),
+        ("n=raises(XP2)", &["relative-move"]),
+    ] {
+        let program = with_functions(&format!("LIN XP1\n{call}\nLIN_REL {{Z 10}}\n{MOVING}"));
+        let mut found = reported(&program);
+        found.retain(|id| *id == "relative-move");
+        assert_eq!(found, ids, "{call}");
+    }
+}
+
+#[test]
+fn a_move_that_calls_functions_is_not_repeated() {
+    for (text, may_be_repeated) in [
+        ("SLIN XP1 WITH $VEL.CP=counts(1)", false),
+        ("SLIN XP1 WITH $VEL=SVEL_CP(2.0, , LCPDAT1)", true),
+    ] {
+        let program = with_functions(text);
+        let used = program.moves.last().expect("a move");
+        let span = program.instructions[used.instruction as usize].target_span;
+        assert_eq!(span.range().is_some(), may_be_repeated, "{text}");
+    }
+}
+
+#[test]
+fn relative_moves_with_angles_of_zero_go_straight() {
+    for (text, along) in [
+        ("LIN_REL {X 10,A 0,B 0,C 0}", Some([0.01, 0.0, 0.0])),
+        (
+            "LIN_REL {Z -5.0,A 0.0,B -0.0,C 0} #BASE",
+            Some([0.0, 0.0, -0.005]),
+        ),
+        ("PTP_REL {X 0,Y 3,Z 0,A 0,B 0,C 0}", Some([0.0, 0.003, 0.0])),
+        ("LIN_REL {X 10,A 1,B 0,C 0}", None),
+        ("LIN_REL {X 10,A a}", None),
+        ("LIN_REL {X 10,A 0,S 2}", None),
+    ] {
+        let program = path(&format!("LIN XP1\n{text}"));
+        let moved = along.map(|by| Displacement::By(Box::new(Shift::along(by))));
+        match moved {
+            Some(moved) => {
+                assert_eq!(reported(&program), [""; 0], "{text}");
+                assert_eq!(program.moves[1].displacement, moved, "{text}");
+            }
+            None => assert_eq!(reported(&program), ["relative-move"], "{text}"),
+        }
+    }
+}
