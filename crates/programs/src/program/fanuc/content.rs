@@ -63,6 +63,11 @@ impl Entered {
         self.read.contains(&number) || bound.any(|(_, entered)| entered.has_read(number))
     }
 
+    /// Whether a number stands in it.
+    pub(super) fn names(&self, number: u32) -> bool {
+        self.read.contains(&number) || self.bound.iter().any(|(bound, _)| *bound == number)
+    }
+
     pub(super) fn exact(&self) -> Option<f64> {
         match self.content {
             Content::Exactly(value) => Some(value),

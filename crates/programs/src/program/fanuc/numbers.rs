@@ -20,6 +20,8 @@ use std::rc::Rc;
 
 /// Numbers of a position: of the arm, and of other axes.
 pub(super) const ELEMENTS: u32 = 9;
+/// Those of the arm stand first.
+pub(super) const OF_ARM: u32 = 6;
 /// Registers have numbers below this.
 pub(super) const MOST_NUMBER: u32 = (1 << 19) - 1;
 const OF_POSITIONS: u32 = 1 << 24;
@@ -101,6 +103,9 @@ pub(super) struct Known {
     pub points: HashMap<(RoutineId, u32), TargetId>,
     /// The numbers of those that nothing rewrites.
     pub values: HashMap<TargetId, [f64; 6]>,
+    /// Numbers of other axes that are written one by one, of a register or any: the first of a
+    /// position being 0.
+    pub axes: HashSet<(Option<u32>, u32)>,
     /// What POSREG.VA shows of registers; `None` where two such files differ.
     pub shown: BTreeMap<u32, Option<Shown>>,
 }

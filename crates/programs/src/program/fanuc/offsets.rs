@@ -5,7 +5,7 @@
 //! a rotation, nothing is taken for known.
 
 use super::content::{Entered, canonical};
-use super::numbers::{ELEMENTS, Known, of_position};
+use super::numbers::{ELEMENTS, Known, OF_ARM, of_position};
 use super::reader::{Listing, Reader};
 use super::words::{Named, each_position, position, register, whole};
 use crate::geometry::Pose;
@@ -13,14 +13,14 @@ use crate::geometry::units::{DEG, MM};
 use crate::program::displacing::Displacing;
 use crate::program::notation::pose_of_angles;
 use crate::program::quantity::Quantity;
-use crate::program::script::{DISPLACED_SOMEHOW, Expr, RoutineId, UNBOUNDED, VariableId};
-use crate::program::{Displacement, Shape, TargetId};
+use crate::program::script::{DISPLACED_SOMEHOW, Expr, RoutineId, UNBOUNDED, VariableId, short};
+use crate::program::{Displacement, External, ExternalUse, Shape, TargetId};
 use foldhash::{HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Numbers of the arm.
-const OF_ARM: usize = 6;
+/// The external axes of group 1, whose numbers stand behind those of the arm.
+const EXTENDED: [&str; 3] = ["E1", "E2", "E3"];
 
 /// In which axes an offset counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -288,7 +288,7 @@ impl Reader<'_> {
             let of = &script.targets[target];
             let range = of.numbers.start as usize..of.numbers.end as usize;
             let numbers = script.numbers.get(range).unwrap_or_default();
-            let first = numbers.first_chunk::<OF_ARM>();
+            let first = numbers.first_chunk::<{ OF_ARM as usize }>();
             if let Some(first) = first.filter(|_| of.layout.shape == Shape::Pose && !of.blocked) {
                 values.insert(target, first.each_ref().map(|number| number.value));
             }
@@ -303,7 +303,7 @@ impl Reader<'_> {
             self.conditioned.entry(routine).or_insert_with(reached);
         }
         for offset in std::mem::take(&mut self.offsets) {
-            let by = self.of_offset(&offset, &copied);
+            let (by, axes) = self.of_offset(&offset, &copied);
             let in_joints = match by {
                 Displacement::None | Displacement::Unknown => DISPLACED_SOMEHOW,
                 _ => UNBOUNDED,
@@ -313,6 +313,11 @@ impl Reader<'_> {
                 let is_joints = self.is_joints(self.builder.script.instructions[at].target);
                 let by = if is_joints { in_joints } else { by };
                 self.builder.script.instructions[at].displacement = by;
+                let shifts = axes.iter().map(|&axis| {
+                    let value = f64::NAN;
+                    (short(at), External { axis, value })
+                });
+                self.builder.script.external_shifts.extend(shifts);
             }
         }
         copied
@@ -333,18 +338,54 @@ impl Reader<'_> {
         }
     }
 
-    fn of_offset(&self, offset: &Offset, copied: &Copied) -> Displacement {
+    /// What an offset displaces by, and the external axes that it shifts by what only the running
+    /// program knows.
+    fn of_offset(&self, offset: &Offset, copied: &Copied) -> (Displacement, Vec<u8>) {
         let mut by = Displacing::new();
         let mut is_known = true;
+        let mut axes = Vec::new();
         for amount in &offset.amounts {
             let (values, is_followed) = self.amount(amount, offset, copied);
+            axes.extend(self.shifted(&amount.of, &values));
             is_known &= add(&mut by, amount.axes, values, is_followed);
         }
-        if is_known {
+        let displacement = if is_known {
             by.displacement()
         } else {
             Displacement::Unbounded
+        };
+        (displacement, axes)
+    }
+
+    /// The external axes that an offset shifts so.
+    fn shifted(&self, of: &Which, values: &[Quantity]) -> Vec<u8> {
+        self.open_axes(values, &|number, _| match of {
+            Which::One(one) => number == *one,
+            Which::Index(_) | Which::Condition => true,
+        })
+    }
+
+    /// The external axes among these numbers that the text does not tell, and of which the program
+    /// writes the number of such a register for itself. What a register holds otherwise is taken to
+    /// be nothing.
+    pub(super) fn open_axes(
+        &self,
+        values: &[Quantity],
+        is_of: &dyn Fn(u32, u32) -> bool,
+    ) -> Vec<u8> {
+        let mut axes = Vec::new();
+        for (at, name) in (OF_ARM..).zip(EXTENDED) {
+            let written = |(number, element): &(Option<u32>, u32)| {
+                *element == at && number.is_none_or(|number| is_of(number, at))
+            };
+            if let ExternalUse::Listed(axis) = self.names.meaning(name)
+                && values[at as usize].exact().is_none()
+                && self.known.axes.iter().any(written)
+            {
+                axes.push(axis);
+            }
         }
+        axes
     }
 
     /// The numbers of an offset, and whether they count as they are.
@@ -447,7 +488,7 @@ fn is_something(value: &Quantity) -> bool {
 
 /// Adds an offset; whether it is known by what it adds.
 fn add(by: &mut Displacing, axes: Axes, values: Vec<Quantity>, is_followed: bool) -> bool {
-    if values[OF_ARM..].iter().any(is_something) {
+    if values[OF_ARM as usize..].iter().any(is_something) {
         return false;
     }
     let is_of_program = values.iter().any(is_something);

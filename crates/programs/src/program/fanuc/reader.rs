@@ -74,6 +74,7 @@ pub(super) struct Taught {
 pub(super) struct Reader<'a> {
     pub builder: Builder,
     pub sources: &'a [Source],
+    pub names: &'a ExternalNames,
     /// The present program, its file, where it is while it is read, and the present instruction.
     pub listing: Listing,
     pub bytes: &'a [u8],
@@ -186,7 +187,7 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         builder.script.findings.push(finding);
     }
     for (_, values, listings) in controllers {
-        builder = of_controller(builder, sources, values, listings);
+        builder = of_controller(builder, (sources, names), values, listings);
     }
     Ok(builder.finish())
 }
@@ -211,7 +212,7 @@ fn several_controllers(first: &str, more: &[&str]) -> Finding {
 /// Adds the programs of one controller.
 fn of_controller(
     mut builder: Builder,
-    sources: &[Source],
+    (sources, names): (&[Source], &ExternalNames),
     mut values: frames::All,
     listings: Vec<Listing>,
 ) -> Builder {
@@ -227,6 +228,7 @@ fn of_controller(
     let mut reader = Reader {
         builder,
         sources,
+        names,
         listing: Listing::default(),
         plain_words: None,
         bytes: &[],

@@ -2,7 +2,7 @@
 
 use super::content::{Entered, canonical};
 use super::controller::Kind;
-use super::numbers::{ELEMENTS, MOST_NUMBER, of_position};
+use super::numbers::{ELEMENTS, MOST_NUMBER, OF_ARM, of_position};
 use super::offsets::Copied;
 use super::reader::Reader;
 use super::words::{
@@ -87,6 +87,10 @@ impl Reader<'_> {
             Some(one) => one.saturating_sub(1)..one,
             None => 0..ELEMENTS,
         };
+        if is_element {
+            let others = elements.clone().filter(|at| *at >= OF_ARM);
+            self.known.axes.extend(others.map(|at| (number, at)));
+        }
         let text = match terms(&text) {
             Some(terms) if !is_element => joined(&terms),
             _ => text,
@@ -421,8 +425,13 @@ impl Reader<'_> {
 
     /// What numbers add to a position.
     fn added(&mut self, added: &[Entered]) -> DisplacementId {
-        let added = added.iter().map(|entered| self.known.value(entered, None));
-        let by = super::offsets::of_sum(&added.collect::<Vec<_>>());
+        let values = added.iter().map(|entered| self.known.value(entered, None));
+        let values: Vec<_> = values.collect();
+        let is_of = |number, at| added[at as usize].names(of_position(number, at));
+        if !self.open_axes(&values, &is_of).is_empty() {
+            return UNBOUNDED;
+        }
+        let by = super::offsets::of_sum(&values);
         self.builder.script.displacement(by)
     }
 

@@ -12,7 +12,7 @@ use super::*;
 use crate::finding::Severity;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::number::{Fraction, Style};
-use crate::program::{Displacement, Motion, Program, Shape, Shift, Stride, Value};
+use crate::program::{Displacement, ExternalNames, Motion, Program, Shape, Shift, Stride, Value};
 
 const POSE: Layout = Layout {
     shape: Shape::Pose,
@@ -44,11 +44,15 @@ fn listing(lines: &str, points: &str) -> String {
 }
 
 fn read_files(files: &[(&str, &str)]) -> Result<Program, ReadError> {
+    read_with(files, &Settings::default())
+}
+
+fn read_with(files: &[(&str, &str)], settings: &Settings) -> Result<Program, ReadError> {
     let sources: Vec<Source> = files
         .iter()
         .map(|(name, text)| Source::new(*name, text.as_bytes().to_vec()))
         .collect();
-    crate::motion::read(&Fanuc, &sources, &Settings::default())
+    crate::motion::read(&Fanuc, &sources, settings)
 }
 
 fn read(lines: &str, points: &str) -> Program {

@@ -329,3 +329,68 @@ fn counters_displace_through_numbers_of_registers_as_far_as_loops_count() {
         [0.0, 0.25]
     );
 }
+
+/// A program whose point stands on a rail that the profile lists.
+fn on_a_rail(lines: &str) -> Program {
+    let rail = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
+    let settings = Settings {
+        external: ExternalNames {
+            listed: vec!["E1".into()],
+            linear: vec![true],
+            ..ExternalNames::default()
+        },
+        ..Settings::default()
+    };
+    let files = [("a.ls", &*listing(lines, &rail))];
+    read_with(&files, &settings).expect("a program")
+}
+
+/// Whether the last move shifts the rail by what only the running program knows.
+fn shifts_the_rail(lines: &str) -> bool {
+    let program = on_a_rail(lines);
+    let last = program.moves.last().expect("a move").instruction;
+    let mut shifts = program.external_shifts.iter();
+    shifts.any(|(at, shift)| *at == last && shift.axis == 0 && shift.value.is_nan())
+}
+
+#[test]
+fn an_offset_whose_axis_is_set_at_run_time_shifts_the_rail_somewhere() {
+    let set = "PR[7,7]=R[61] ;\n";
+    for lines in [
+        format!("{ZERO}{set}{GO}"),
+        format!("{set}{GO}"),
+        format!("{GO}{set}"),
+        format!("{ZERO}CALL X ;\nPR[7,7]=GI[1]*10 ;\n{GO}"),
+        format!("{ZERO}PR[R[1],7]=R[61] ;\n{GO}"),
+        format!("{ZERO}{set}L P[1] 9mm/sec FINE Tool_Offset,PR[7] ;\n"),
+        format!("{ZERO}{set}OFFSET CONDITION PR[7] ;\nL P[1] 9mm/sec FINE Offset ;\n"),
+        format!("{ZERO}{set}L P[1] 9mm/sec FINE Offset,PR[R[5]] ;\n"),
+    ] {
+        assert!(shifts_the_rail(&lines), "{lines}");
+    }
+    for lines in [
+        GO.to_owned(),
+        format!("{ZERO}{GO}"),
+        format!("{ZERO}PR[7,3]=R[61] ;\n{GO}"),
+        format!("PR[7]=PR[8] ;\n{GO}"),
+        format!("{ZERO}PR[8,7]=R[61] ;\n{GO}"),
+        format!("{ZERO}PR[7,8]=R[61] ;\n{GO}"),
+        format!("{set}{ZERO}{GO}"),
+        format!("{ZERO}R[61]=0 ;\n{set}{GO}"),
+        format!("{ZERO}{set}L P[1] 9mm/sec FINE ;\n"),
+    ] {
+        assert!(!shifts_the_rail(&lines), "{lines}");
+    }
+}
+
+#[test]
+fn a_sum_with_such_a_register_is_nowhere_that_the_text_tells() {
+    let sum = "PR[5]=P[1]+PR[7] ;\nL PR[5] 9mm/sec FINE ;\n";
+    let by = |lines: &str| {
+        let program = on_a_rail(&format!("UTOOL_NUM=1 ;\nUFRAME_NUM=2 ;\n{lines}{sum}"));
+        program.moves.last().expect("a move").displacement.clone()
+    };
+    assert_eq!(by(&format!("{ZERO}PR[7,3]=100 ;\n")), up(0.1));
+    let lines = format!("{ZERO}PR[7,3]=100 ;\nPR[7,7]=R[61] ;\n");
+    assert_eq!(by(&lines), Displacement::Unbounded);
+}
