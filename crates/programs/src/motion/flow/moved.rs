@@ -30,6 +30,8 @@ struct Added {
     by: DisplacementId,
     /// How often at most; [`ENDLESS`].
     most: u32,
+    /// The loop around it has begun again since.
+    is_before: bool,
 }
 
 /// How a displacement came to be.
@@ -67,6 +69,11 @@ impl Flow<'_> {
             Some(own) => &self.displacements.all[own].1,
             None => &script[id as usize],
         }
+    }
+
+    /// Whether writes made a displacement, one after another.
+    pub(in crate::motion) fn is_made(&self, id: DisplacementId) -> bool {
+        id as usize >= self.script.displacements.len()
     }
 
     /// What displaces a target that is displaced already and then `by` something else at a place. A
@@ -210,11 +217,14 @@ impl Flow<'_> {
         match known {
             Some(at) => {
                 let most = self.most_at(added.site);
-                let before = steps[at].most;
-                steps[at].most = match (before, most) {
+                let before = steps[at];
+                steps[at].most = match (before.most, most) {
                     (ENDLESS, _) | (_, ENDLESS) => ENDLESS,
+                    // those that the loop made before add up with those that it makes now
+                    _ if before.is_before => ENDLESS,
                     (before, most) => before.max(most),
                 };
+                steps[at].is_before = false;
             }
             None => steps.push(added),
         }
@@ -316,7 +326,7 @@ impl Flow<'_> {
         product
     }
 
-    /// A loop begins: steps that it made before add up with those that it makes now.
+    /// A loop begins: steps that it made before are no longer counted.
     pub(super) fn begin_rounds(&mut self, number: u32, state: &mut State) {
         if self.displacements.all.is_empty() {
             return;
@@ -328,9 +338,9 @@ impl Flow<'_> {
             let mut is_other = false;
             for (atom, _) in &mut atoms {
                 if let Atom::Target { displacement, .. } = atom {
-                    let endless = self.endless(*displacement, &of);
-                    is_other |= endless != *displacement;
-                    *displacement = endless;
+                    let before = self.made_before(*displacement, &of);
+                    is_other |= before != *displacement;
+                    *displacement = before;
                 }
             }
             if is_other {
@@ -341,22 +351,22 @@ impl Flow<'_> {
         }
     }
 
-    /// A displacement whose steps at these places may have been made any number of times.
-    fn endless(&mut self, id: DisplacementId, of: &std::ops::Range<u32>) -> DisplacementId {
+    /// A displacement whose steps at these places were made before the loop around them begins.
+    fn made_before(&mut self, id: DisplacementId, of: &std::ops::Range<u32>) -> DisplacementId {
         let own = (id as usize).checked_sub(self.script.displacements.len());
-        let steps = match own.map(|own| &self.displacements.all[own].0) {
-            Some(Moved::Exactly(steps) | Moved::Within(steps)) => steps,
-            Some(Moved::Somehow(_)) | None => return id,
-        };
-        let is_in = |step: &Added| of.contains(&step.site);
-        if !steps.iter().any(|step| is_in(step) && step.most != ENDLESS) {
+        let Some(own) = own else {
             return id;
+        };
+        let mut moved = self.displacements.all[own].0.clone();
+        let (Moved::Exactly(steps) | Moved::Within(steps)) = &mut moved else {
+            return id;
+        };
+        let mut is_other = false;
+        for step in steps.iter_mut().filter(|step| of.contains(&step.site)) {
+            is_other |= !step.is_before && step.most != ENDLESS;
+            step.is_before |= step.most != ENDLESS;
         }
-        let mut steps = steps.to_vec();
-        for step in steps.iter_mut().filter(|step| is_in(step)) {
-            step.most = ENDLESS;
-        }
-        self.some_of(steps)
+        if is_other { self.moved(moved) } else { id }
     }
 }
 
@@ -367,5 +377,10 @@ fn axes(shift: &Shift) -> Option<[bool; 3]> {
 }
 
 fn once(by: DisplacementId, site: Site) -> Added {
-    Added { site, by, most: 1 }
+    Added {
+        site,
+        by,
+        most: 1,
+        is_before: false,
+    }
 }

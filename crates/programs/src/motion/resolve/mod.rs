@@ -14,8 +14,8 @@ use crate::program::script::{
     short,
 };
 use crate::program::{
-    Called, ExternalState, FrameId, Language, Program, ReadError, Settings, Shape, Source, Target,
-    TargetId, ToolId,
+    Called, Displacement, ExternalState, FrameId, Language, Program, ReadError, Settings, Shape,
+    Source, Target, TargetId, ToolId,
 };
 use foldhash::{HashMap, HashMapExt};
 use report::Report;
@@ -194,6 +194,7 @@ impl Resolver<'_, '_> {
             external_state,
             is_dead: reached.is_dead,
             near: Vec::new(),
+            displaced: Vec::new(),
             is_one_of: false,
             is_shifted: false,
         };
@@ -431,6 +432,8 @@ struct Listed<'a> {
     is_dead: bool,
     /// Targets that the move goes near: once for all that only the running program knows.
     near: Vec<TargetId>,
+    /// Those that writes displace: once for each that comes to the same.
+    displaced: Vec<(TargetId, Displacement)>,
     /// It may go to targets of the files, and to something else.
     is_one_of: bool,
     /// Something displaces all that moves go to.

@@ -229,6 +229,7 @@ impl Resolver<'_, '_> {
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         // of another joint the correction is another one
+        let is_made = self.flow.is_made(displacement);
         let displacement = if is_joints && listed.is_shifted {
             Displacement::Unbounded
         } else {
@@ -242,6 +243,15 @@ impl Resolver<'_, '_> {
                 return;
             }
             listed.near.push(target);
+        } else if is_made {
+            let all = &mut listed.displaced;
+            if all
+                .iter()
+                .any(|(of, by)| *of == target && *by == displacement)
+            {
+                return;
+            }
+            all.push((target, displacement.clone()));
         }
         let choices = &*listed.choices;
         if !is_joints {

@@ -227,3 +227,35 @@ fn a_tool_of_an_array_is_each_that_is_written_out() {
     let program = of("ta{1}:=t;\n");
     assert!(ids(&program).iter().any(|id| id.starts_with("frame-")));
 }
+
+#[test]
+fn what_a_loop_writes_anew_is_displaced_as_often_as_it_counts() {
+    let counted = |statements: &str| {
+        let program = read(&format!(
+            "MODULE m\nCONST robtarget p1:=[[1,2,3],[1,0,0,0],CONF;\nVAR robtarget \
+             a{{3}};\nVAR robtarget q;\nPROC main()\n{statements}\nENDPROC\nENDMODULE\n"
+        ));
+        let strides = program.moves.iter().filter_map(|motion| {
+            let Displacement::Within(strides) = &motion.displacement else {
+                return None;
+            };
+            let is_counted = |of: &Stride| matches!(of, Stride::By { most: Some(_), .. });
+            Some(strides.iter().all(is_counted))
+        });
+        strides.collect::<Vec<_>>()
+    };
+    let fill = "FOR i FROM 1 TO 3 DO\na{i}:=Offs(p1,0,0,i*10);\nENDFOR\n";
+    let go = "MoveL a{2},v5,z5,tool0;\n";
+    // in another loop, and in one run after another
+    for text in [
+        format!("WHILE go DO\n{fill}{go}ENDWHILE"),
+        format!("{fill}{go}"),
+        format!("{go}{fill}"),
+    ] {
+        assert_eq!(counted(&text), [true], "{text}");
+    }
+    // what grows goes on growing
+    let grows = "FOR i FROM 1 TO 3 DO\nq:=Offs(q,0,0,10);\nENDFOR\n";
+    let text = format!("q:=p1;\nWHILE go DO\n{grows}MoveL q,v5,z5,tool0;\nENDWHILE");
+    assert_eq!(counted(&text).last(), Some(&false));
+}
