@@ -3,7 +3,8 @@
 use super::aggregate::{self, JOINTTARGET, LOADDATA, Leaf, Leaves, ROBTARGET};
 use super::reader::Reader;
 use super::syntax::{Amount, BadValue, Base, Composed, Expression, Index, Part, Path, Step, Verb};
-use super::tokens::{Fault, Kind, Token};
+use super::tokens::{Fault, Kind};
+use super::verbs::Displaces;
 use crate::geometry::Quaternion;
 use crate::program::script::{Place, short};
 use crate::program::{Layout, Number, Shape, Target, number};
@@ -124,10 +125,10 @@ impl Reader<'_> {
         let mark = self.mark();
         self.advance()?;
         if self.token.is(b'(') {
-            let relative = self.text(first).eq_ignore_ascii_case(b"reltool");
-            let displaces = relative || self.text(first).eq_ignore_ascii_case(b"offs");
-            if depth < DEEPEST && displaces && self.is_built_in(first) {
-                return self.displaced(of, relative, depth);
+            if depth < DEEPEST
+                && let Some(how) = self.displaces(self.text(first))
+            {
+                return self.displaced(of, how == Displaces::InTool, depth);
             }
             self.rewind(mark);
             self.expression()?;
@@ -140,10 +141,12 @@ impl Reader<'_> {
         Ok(Some(Written::Base(Base::Named { name, index })))
     }
 
-    /// Whether no routine of the files hides Offs or `RelTool`, this token.
-    fn is_built_in(&mut self, token: Token) -> bool {
-        let name = self.parsed.symbols.intern(self.text(token));
-        self.verbs.displaces(name, self.context.module)
+    /// How the function of this name displaces a position, where no routine of the files hides it.
+    pub(super) fn displaces(&mut self, name: &[u8]) -> Option<Displaces> {
+        let how = Displaces::named(name)?;
+        let name = self.parsed.symbols.intern(name);
+        let is_built_in = self.verbs.displaces(name, self.context.module);
+        is_built_in.then_some(how)
     }
 
     /// `Offs(point, x, y, z)` or `RelTool(point, x, y, z \Rx:=a \Ry:=b \Rz:=c)`; the present token
@@ -264,9 +267,10 @@ impl Reader<'_> {
     fn written_target(&mut self, verb: Verb, position: usize) -> Result<Option<Written>, Fault> {
         let offset = self.token.start;
         let (template, shape, wanted) = match verb {
-            Verb::Move { path, first, .. } => {
-                let last = usize::from(first) + usize::from(path == Path::Arc);
-                let wanted = (usize::from(first)..=last).contains(&position);
+            Verb::Move { path, led, .. } => {
+                let first = usize::from(led.first());
+                let last = first + usize::from(path == Path::Arc);
+                let wanted = (first..=last).contains(&position);
                 if path == Path::Absolute {
                     (JOINTTARGET, Shape::Joints, wanted)
                 } else {

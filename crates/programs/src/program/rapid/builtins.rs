@@ -36,44 +36,38 @@ const TOOL_WRITERS: &str = "\
 
 /// Instructions that move nothing and write no target, tool or frame.
 const HARMLESS: &str = "\
-    accset actevent aliasio bookerrno break cambreak camflush camloadjob camreqimage \
-        camsetexposure \
-    camsetparameter camsetprogrammode camsetrunmode camstartloadjob camwaitloadjob \
-    clearpath clearrawbytes clkreset clkstart clkstop close closedir collisiondetect copyfile \
-        copyrawbytes \
-    corrclear corrcon corrdiscon corrwrite dropsensor dropwobj egmactjoint egmactpose egmgetid \
-        egmreset \
-    egmsetupai egmsetupuc egmstop egmstreamstart egmstreamstop eoffsgoto erase errlog errwrite \
-    fricidinit fricidsetfriclevels gettrapdata iactunit idelete idisable ienable ierror indamove \
-        indcmove inddmove \
-    indreset indrmove invertdo iodisable ioenable ipathpos ipers isignalai isignalao isignaldi \
-        isignaldo isignalgi \
-    isignalgo isleep itimer iwatch load makedir mechunitload motionprocessmodeset \
-        motionsup moveextj nop \
-    open opendir packdnheader packrawbytes pathacclim pathreclstart pathrecstart pathrecstop \
-        pathresol \
-    procerrrecovery pulsedo readblock removedir removefile renamefile \
-        reset resetppmoved \
-    restopath rewind save set setao setdatasearch setdo setgo setleadthrough setsysdata sismoveoff \
-        skipwarn \
+    accset actevent acteventbuffer aliascamera aliasio aliasioreset bookerrno break cambreak \
+    camflush camloadjob camreqimage camsetexposure camsetparameter camsetprogrammode \
+    camsetrunmode camstartloadjob camwaitloadjob cancelload checkprogref cleariobuff \
+    clearrawbytes clkreset clkstart clkstop close closedir collisiondetect copyfile copyrawbytes \
+    corrclear corrcon corrdiscon corrwrite deacteventbuffer ditheract ditherdeact dropsensor \
+    dropwobj egmactjoint egmactmove egmactpose egmgetid egmreset egmsetupai egmsetupao \
+    egmsetupgi egmsetupltapp egmsetupuc egmstop egmstreamstart egmstreamstop eoffsgoto erase \
+    erasemodule errlog errwrite fccalib fccondforce fccondorient fccondpos fccondreorispeed \
+    fccondtcpspeed fccondtorque fccondwaitwhile fcrefcircle fcrefforce fcrefline fcrefmoveframe \
+    fcrefrot fcrefspiral fcrefsprforcecart fcreftorque fcresetdampingtune fcresetlpfiltertune \
+    fcsetdampingtune fcsetlpfiltertune fcspdchgact fcspdchgdeact fcspdchgtunreset fcspdchgtunset \
+    fcsupvforce fcsupvorient fcsupvpos fcsupvreorispeed fcsupvtcpspeed fcsupvtorque \
+    fricidevaluate fricidinit fricidsetfriclevels gettrapdata hollowwristreset iactunit idelete \
+    idisable ienable ierror indamove indcmove inddmove indreset indrmove invertdo iobusstart \
+    iodisable ioenable ipathpos ipers irmqmessage isignalai isignalao isignaldi isignaldo \
+    isignalgi isignalgo isleep itimer iwatch load makedir mechunitload motionprocessmodeset \
+    motionsup moveextj nop open opendir packdnheader packrawbytes pathacclim pathreclstart \
+    pathrecstart pathrecstop pathresol procerrrecovery pulsedo readblock removeallcyclicbool \
+    removecyclicbool removedir removefile renamefile reset resetppmoved resetretrycount \
+    restopath rewind rmqemptyqueue rmqfindslot rmqsendmessage rmqsendwait save savecfgdata \
+    scwrite sendevice set setao setdatasearch setdo setgo setsysdata sismoveoff skipwarn \
     socketaccept socketbind socketclose socketconnect socketcreate socketlisten socketreceive \
-        socketsend \
-    socketsendto softact softdeact speedlimaxis speedlimcheckpoint speedrefresh spyon spystart \
-        spystop startload \
-    startmove stop stopmove stopmovereset storepath syncmoveoff syncmoveon \
-        syncmoveresume \
-    syncmovesuspend syncmoveundo systemstopaction testsigndefine testsignreset texttabinstall \
-        tpdefaultdi tperase \
-    tpshow tpwrite triggcheckio triggdatacopy triggdatareset triggequip triggint triggio \
-        triggrampao triggspeed \
-    triggstopproc triggtabdef tunereset tuneservo uialphaentry uimsgbox uimsgwrite uishow unload \
-        velset waitai \
-    waitao waitdi waitdo waitgi waitgo waitload waitrob waitsensor waitsyncmove waitsynctask \
-        waittestandset \
-    waittime waituntil waitwobj warmstart worldacclim worldzone write writeanybin writebin \
-        writeblock writecfgdata \
-    writerawbytes writestrbin writevar wzboxdef wzcyldef wzdisable wzdosset wzenable wzfree \
-        wzhomejointdef \
+    socketsend socketsendto softact softdeact speedlimaxis speedlimcheckpoint speedrefresh spyon \
+    spystart spystop startload startmove stclose stop stopen stopmove stopmovereset storepath \
+    syncmoveoff syncmoveon syncmoveresume syncmovesuspend syncmoveundo systemstopaction \
+    testsigndefine testsignreset texttabinstall tpdefaultdi tperase tpshow tpwrite triggcheckio \
+    triggdatacopy triggdatareset triggequip triggint triggio triggrampao triggspeed \
+    triggstopproc triggtabdef tryint tunereset tuneservo uialphaentry uimsgbox uimsgwrite uishow \
+    unload velset waitai waitao waitdi waitdo waitgi waitgo waitload waitrob waitsensor \
+    waitsyncmove waitsynctask waittestandset waittime waituntil waitwobj warmstart worldacclim \
+    worldzone write writeanybin writebin writeblock writecfgdata writerawbytes writestrbin \
+    writevar wzboxdef wzcyldef wzdisable wzdoset wzdosset wzenable wzfree wzhomejointdef \
     wzlimjointdef wzlimsup wzsphdef";
 
 /// Functions that write the argument at this position.
@@ -86,38 +80,26 @@ const ACTUAL_FUNCTIONS: &str = "\
 /// Functions that write nothing.
 const HARMLESS_FUNCTIONS: &str = "\
     abs absdnum acos acosdnum ainput aoutput argname asin asindnum atan atan2 atan2dnum atandnum \
-        bitand bitanddnum \
-    bitcheck bitcheckdnum bitlsh bitlshdnum bitneg bitnegdnum bitor bitordnum bitrsh bitrshdnum \
-        bitxor bitxordnum \
-    bytetostr camgetexposure camgetloadedjob camgetname camnumberofresults cdate clkread corrread \
-        cos cosdnum \
-    ctime ctool cwobj dectohex defaccframe defdframe defframe dim dinput distance dnumtonum \
-        dnumtostr dotprod \
-    doutput eulerzyx eventtype execlevel exp filesize filetime fssize getaxisdistance \
-        getaxismoveduration \
-    getmecunitname getmodalpayloadmode getmotorcurrent getmotortorque getnextmechunit \
-        getnextoption getserviceinfo \
-    getsignalorigin getsysinfo gettaskname gettime gettsstatus getuasstatus ginput ginputdnum \
-        goutput goutputdnum \
-    hextodec indinpos indspeed iobusstate iounitstate isbrakecheckactive iscyclicbool isfile \
-        isleadthrough \
-    ismechunitactive ispers isstopmoveact issyncmoveon issysid isvar log10 max maxrobspeed min \
-        mirpos modexist \
-    modtime modtimednum motionplannerno nonmotionmode numtodnum numtostr opmode orient orientzyx \
-        orobt \
-    paridposvalid paridrobvalid pathlengthget pathlevel pathrecvalidbwd pathrecvalidfwd pfrestart \
-        poseinv posemult \
-    posevect pow powdnum present progmemfree quad quaddnum rawbyteslen readbin readdir readmotor \
-        readnum readstr \
-    readstrbin readvar rmqgetslotname robname robos round rounddnum runmode sin sindnum \
-        socketgetstatus socketpeek \
-    sqrt sqrtdnum strdigcalc strdigcmp strdigitcmp strfind strlen strmap strmatch strmemb strorder \
-        strpart \
-    strtobyte tan tandnum taskrunmec taskrunrob tasksinsync testdi testsignread textget \
-        texttabfreetouse \
-    texttabget triggdatavalid trunc truncdnum type uialphaentry uiclientexist uidnumentry \
-        uidnumtune uilistview \
-    uimessagebox uinumentry uinumtune validio valtostr vectmagn";
+    bitand bitanddnum bitcheck bitcheckdnum bitlsh bitlshdnum bitneg bitnegdnum bitor bitordnum \
+    bitrsh bitrshdnum bitxor bitxordnum bytetostr camgetexposure camgetloadedjob camgetname \
+    camnumberofresults cdate clkread corrread cos cosdnum ctime ctool cwobj dectohex defaccframe \
+    defdframe defframe dim dinput distance dnumtonum dnumtostr dotprod doutput eulerzyx \
+    eventtype execlevel exp fcgetforce fcgetprocessdata fcisforcemode fcloadid filesize filetime \
+    fssize getaxisdistance getaxismoveduration getmecunitname getmodalpayloadmode \
+    getmotorcurrent getmotortorque getnextmechunit getnextoption getserviceinfo getsignalorigin \
+    getsysinfo gettaskname gettime gettsstatus getuasstatus ginput ginputdnum goutput \
+    goutputdnum hextodec indinpos indspeed iobusstate iounitstate isbrakecheckactive \
+    iscyclicbool isfile isleadthrough ismechunitactive ispers isstopmoveact issyncmoveon issysid \
+    isvar log10 max maxrobspeed min mirpos modexist modtime modtimednum motionplannerno \
+    nonmotionmode numtodnum numtostr opmode orient orientzyx orobt paridposvalid paridrobvalid \
+    pathlengthget pathlevel pathrecvalidbwd pathrecvalidfwd pfrestart poseinv posemult posevect \
+    pow powdnum present progmemfree quad quaddnum rawbyteslen readbin readdir readmotor readnum \
+    readstr readstrbin readvar rmqgetslotname robname robos round rounddnum runmode sin sindnum \
+    socketgetstatus socketpeek sqrt sqrtdnum strdigcalc strdigcmp strdigitcmp strfind strlen \
+    strmap strmatch strmemb strorder strpart strtobyte tan tandnum taskrunmec taskrunrob \
+    tasksinsync testdi testsignread textget texttabfreetouse texttabget triggdatavalid trunc \
+    truncdnum type uialphaentry uiclientexist uidnumentry uidnumtune uilistview uimessagebox \
+    uinumentry uinumtune validio valtostr vectmagn";
 
 /// Functions whose value is worked out of the numbers that they are given.
 const WORKED_OUT: &str = "\

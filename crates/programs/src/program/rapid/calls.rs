@@ -4,19 +4,18 @@
 use super::builtins::Known;
 use super::moves::plain;
 use super::resolved::{Callees, Entity, Resolved, named};
-use super::syntax::{
-    Argument, Base, Callee, Datum, Expression, Index, Part, Path, Storage, Type, Verb, indices,
-};
+use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
+use super::verbs::Led;
 use crate::program::names::Symbol;
 use crate::program::notation::mentions;
-use crate::program::script::{self, Call, Expr, Held, How, Remark, VariableId, Written};
+use crate::program::script::{self, Call, Expr, Held, How, Remark, VariableId};
 use foldhash::HashSet;
 
 /// How a routine that is not in the files is taken to move.
 const UNKNOWN_MOVE: Verb = Verb::Move {
     path: Path::Linear,
-    first: 0,
+    led: Led::Alone,
     tool_inside: false,
 };
 
@@ -47,6 +46,8 @@ impl Translator<'_> {
         match meant {
             Verb::Mode(mode, set) => self.mode(mode, set, arguments),
             Verb::Wander { back } => self.wander(back, end),
+            Verb::Yields { begins } => self.yields(callee, begins),
+            Verb::ClearsPath => self.clear_path(),
             Verb::GripLoad => self.grip_load(arguments),
             Verb::Writes(position) => {
                 let mut positional = all.iter().filter(|argument| argument.option.is_none());
@@ -65,7 +66,7 @@ impl Translator<'_> {
                 }
             }
             Verb::WritesNamed => self.writes_named(arguments),
-            verb @ Verb::Move { .. } => self.go(verb, arguments, end),
+            verb @ Verb::Move { .. } => self.go(callee, verb, arguments, end),
             Verb::CallByVar => {
                 let callees = match all.first().map(|argument| argument.expression) {
                     Some(Expression::Text(start, end)) => {
@@ -179,9 +180,9 @@ impl Translator<'_> {
         match self.meant(callee, verb, arguments) {
             Verb::Move {
                 path,
-                first,
+                led,
                 tool_inside,
-            } => self.wants_of_move(all, path, first, tool_inside),
+            } => self.wants_of_move(all, path, led, tool_inside),
             Verb::Other => {
                 let callees =
                     self.resolved
@@ -510,22 +511,6 @@ impl Translator<'_> {
         };
         self.write_argument(argument, How::Whole(value));
     }
-
-    /// `SetDataVal`, `SetAllDataVal`: writes data whose names or types it is given.
-    fn writes_named(&mut self, arguments: Part) {
-        for datum in self.resolved.set_by_name(arguments, self.here.file) {
-            if self.resolved.datum(datum).kind == Type::Loaddata {
-                continue;
-            }
-            let variable = match self.held_by(datum) {
-                Expr::Variable(variable) => Written::One(variable),
-                Expr::Any { .. } => Written::AnyOf(self.table(Entity::Declared(datum))),
-                _ => continue,
-            };
-            let how = How::PartSomehow(self.changed());
-            self.emit_write(self.here, variable, how);
-        }
-    }
 }
 
 impl Resolved<'_> {
@@ -555,33 +540,5 @@ impl Resolved<'_> {
             open.extend(called);
         }
         false
-    }
-
-    /// The data of modules that `SetDataVal` or `SetAllDataVal` may write: of the name or the type
-    /// that is its first argument, of any where only the running program knows that.
-    pub(super) fn set_by_name(&self, arguments: Part, file: u32) -> Vec<u32> {
-        let mut all = self.parsed.arguments[indices(arguments)].iter();
-        let text = match all.find(|of| of.option.is_none()).map(|of| of.expression) {
-            Some(Expression::Text(start, end)) => {
-                let bytes = &self.sources[file as usize].bytes;
-                Some(bytes[indices((start, end))].to_ascii_lowercase())
-            }
-            _ => None,
-        };
-        let kind = text.as_deref().map(Type::named);
-        let is_meant = |datum: &Datum| match (&text, kind) {
-            (Some(text), Some(Type::Other)) => self
-                .spelling(datum.name)
-                .as_bytes()
-                .eq_ignore_ascii_case(text),
-            (_, Some(kind)) => kind == datum.kind,
-            _ => true,
-        };
-        let data = (0..).zip(&self.parsed.data);
-        let meant = data.filter(|(_, datum)| {
-            let is_kept = datum.storage != Storage::Constant && datum.context.routine.is_none();
-            is_kept && datum.kind.is_of_moves() && is_meant(datum)
-        });
-        meant.map(|(at, _)| at).collect()
     }
 }

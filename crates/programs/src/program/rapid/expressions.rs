@@ -238,12 +238,11 @@ impl Reader<'_> {
 
     /// A function is called; the present token is its bracket.
     fn open_call(&mut self, name: Symbol, offset: u32) {
-        let token = &self.bytes[offset as usize..self.behind as usize];
+        let bytes = self.bytes;
+        let token = &bytes[offset as usize..self.behind as usize];
         let known = self.verbs.function(name, token, self.context.module);
         // what is given to another function is a position near that of its own target
-        let is_displaced = !self.calls.is_empty()
-            && DISPLACING.iter().any(|of| token.eq_ignore_ascii_case(of))
-            && self.verbs.displaces(name, self.context.module);
+        let is_displaced = !self.calls.is_empty() && self.displaces(token).is_some();
         if known != Known::Harmless && !is_displaced {
             self.calls.push(OpenCall {
                 name,
@@ -371,9 +370,6 @@ impl Reader<'_> {
         self.alone = (depth == 1 && call.offset == first).then_some(function);
     }
 }
-
-/// Functions that give a position near another.
-const DISPLACING: [&[u8]; 2] = [b"Offs", b"RelTool"];
 
 /// A function whose call is not closed yet.
 #[derive(Clone, Copy, Debug)]

@@ -19,6 +19,7 @@ mod axes;
 mod blocks;
 mod builtins;
 mod by_calls;
+mod by_name;
 mod calls;
 mod conditions;
 mod confdata;

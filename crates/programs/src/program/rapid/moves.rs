@@ -2,8 +2,9 @@
 
 use super::records::load_of;
 use super::resolved::Entity;
-use super::syntax::{Argument, Base, Expression, Index, Part, Path, Type, Verb, indices};
+use super::syntax::{Argument, Base, Callee, Expression, Index, Part, Path, Type, Verb, indices};
 use super::translate::Translator;
+use super::verbs::Led;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Call, Expr, Held, How, Instruction, Modal, Remark, Span, Written};
@@ -36,6 +37,9 @@ const SPEEDS: [u16; 25] = [
     3000, 4000, 5000, 6000, 7000,
 ];
 const ZONES: [u16; 14] = [0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200];
+
+/// What leads the robot elsewhere than its targets.
+const FORCE: &str = "a force that leads the arm";
 
 /// The number that a predefined name ends on.
 fn predefined(name: &str, letter: char, known: &[u16]) -> Option<f64> {
@@ -97,13 +101,13 @@ impl Translator<'_> {
     }
 
     /// Takes a move instruction apart; `None` where it has no argument for a target.
-    fn parts(&self, all: &[Argument], path: Path, first: u8, tool_inside: bool) -> Option<Parts> {
+    fn parts(&self, all: &[Argument], path: Path, led: Led, tool_inside: bool) -> Option<Parts> {
         let positional = || {
             all.iter()
                 .enumerate()
                 .filter(|(_, argument)| argument.option.is_none())
         };
-        let candidates = || positional().skip(usize::from(first));
+        let candidates = || positional().skip(usize::from(led.first()));
         let start = candidates()
             .find(|(_, argument)| self.is_target(argument))
             .or_else(|| candidates().next())?
@@ -165,13 +169,13 @@ impl Translator<'_> {
     pub(super) fn tool_of_move(&self, verb: Verb, all: &[Argument]) -> Option<usize> {
         let Verb::Move {
             path,
-            first,
+            led,
             tool_inside,
         } = verb
         else {
             return None;
         };
-        self.parts(all, path, first, tool_inside)?.tool
+        self.parts(all, path, led, tool_inside)?.tool
     }
 
     /// Speed and zone of a move with what `\V`, `\T` and `\Z` replace of them: with a time for the
@@ -208,10 +212,10 @@ impl Translator<'_> {
         &self,
         all: &[Argument],
         path: Path,
-        first: u8,
+        led: Led,
         tool_inside: bool,
     ) -> Vec<(Symbol, Type)> {
-        let Some(parts) = self.parts(all, path, first, tool_inside) else {
+        let Some(parts) = self.parts(all, path, led, tool_inside) else {
             return Vec::new();
         };
         let kind = if path == Path::Absolute {
@@ -248,10 +252,10 @@ impl Translator<'_> {
     }
 
     /// A move instruction up to `end`.
-    pub(super) fn go(&mut self, verb: Verb, arguments: Part, end: u32) {
+    pub(super) fn go(&mut self, callee: Callee, verb: Verb, arguments: Part, end: u32) {
         let Verb::Move {
             path,
-            first,
+            led,
             tool_inside,
         } = verb
         else {
@@ -260,7 +264,7 @@ impl Translator<'_> {
         let resolved = self.resolved;
         let all = &resolved.parsed.arguments[indices(arguments)];
         let absolute = path == Path::Absolute;
-        let Some(parts) = self.parts(all, path, first, tool_inside) else {
+        let Some(parts) = self.parts(all, path, led, tool_inside) else {
             let target = self.computed();
             let instruction = Instruction {
                 end,
@@ -275,7 +279,7 @@ impl Translator<'_> {
             load => load,
         };
         let speed_zone = self.switched(all, parts.speed_zone);
-        self.tell(&parts);
+        self.tell(&parts, callee, led);
         let tool = match parts.tool {
             Some(at) => self.frame_from(all[at].expression),
             None => self.frame_chosen(),
@@ -340,26 +344,49 @@ impl Translator<'_> {
             };
             self.emit_move(instruction, modal);
         }
-        if first == 2 {
-            self.found(all, tool, frame);
-            self.stop_on_the_way(all);
+        match led {
+            Led::Alone | Led::Guided => {}
+            Led::Search => {
+                self.found(all, tool, frame);
+                if self.stops(all) {
+                    self.ends_elsewhere("a search that stops");
+                }
+            }
+            Led::Contact => self.ends_elsewhere("a move that contact ends"),
+            Led::Pressed => self.ends_elsewhere(FORCE),
         }
     }
 
-    /// A search that stops at the signal: anywhere on its path.
-    fn stop_on_the_way(&mut self, all: &[Argument]) {
+    /// Whether a search stops at the signal.
+    fn stops(&self, all: &[Argument]) -> bool {
         let is_stop = |argument: &Argument| {
             let spelling = argument.option.map(|name| self.resolved.spelling(name));
             let stops = ["Stop", "PStop", "SStop"];
             spelling.is_some_and(|of| stops.iter().any(|stop| of.eq_ignore_ascii_case(stop)))
         };
-        if all.iter().any(is_stop) {
-            self.emit_call(Call {
-                foreign: false,
-                leads: true,
-                ..Call::of(self.here, [].into(), "a search that stops", 0..0)
-            });
+        all.iter().any(is_stop)
+    }
+
+    /// What ended here need not have come to its target: the next move begins anywhere.
+    fn ends_elsewhere(&mut self, what: &str) {
+        self.emit_call(Call {
+            foreign: false,
+            leads: true,
+            ..Call::of(self.here, [].into(), what, 0..0)
+        });
+    }
+
+    /// What has not run yet of the path before is dropped.
+    pub(super) fn clear_path(&mut self) {
+        self.ends_elsewhere("a path that is cleared");
+    }
+
+    /// The arm goes where forces lead it, from here on or no longer.
+    pub(super) fn yields(&mut self, callee: Callee, begins: bool) {
+        if begins {
+            self.tell_corrected(callee);
         }
+        self.ends_elsewhere(FORCE);
     }
 
     /// A target inside a record: the text that names it stands in this place.
@@ -419,19 +446,32 @@ impl Translator<'_> {
         self.held_load(load)
     }
 
-    fn tell(&mut self, parts: &Parts) {
+    fn tell(&mut self, parts: &Parts, callee: Callee, led: Led) {
         if parts.synchronised {
             let message = "this move runs together with one of another robot";
             let hint = "both robots' programs have to be compensated";
             self.say(Remark::note("sync-move", message, hint));
         }
         if let Some(option) = parts.corrected {
-            let message = format!(
-                "a sensor corrects the path here ({option}): the targets are compensated, what the \
-                 sensor adds is not"
-            );
-            self.say(Remark::warning_about("corrected-by-sensor", message, ""));
+            self.tell_of_sensor(option);
+        } else if matches!(led, Led::Guided | Led::Pressed) {
+            self.tell_corrected(callee);
         }
+    }
+
+    /// An instruction goes where a sensor leads it.
+    fn tell_corrected(&mut self, callee: Callee) {
+        if let Callee::Named(name) = callee {
+            self.tell_of_sensor(self.resolved.spelling(name));
+        }
+    }
+
+    fn tell_of_sensor(&mut self, by: &str) {
+        let message = format!(
+            "a sensor corrects the path here ({by}): the targets are compensated, what the sensor \
+             adds is not"
+        );
+        self.say(Remark::warning_about("corrected-by-sensor", message, ""));
     }
 
     /// An instruction that goes along a recorded path, or where a sensor says.

@@ -146,11 +146,9 @@ impl Resolved<'_> {
                             self.lose_all(false, arguments, context, &mut noted);
                         }
                         (Some(_), Verb::WritesNamed) => {
-                            for (at, datum) in (0..).zip(&self.parsed.data) {
-                                if datum.storage != Storage::Constant {
-                                    noted.numbers.give_up(self.number(at));
-                                    self.note_whole_place(at, Value::Unfollowed, &mut noted.places);
-                                }
+                            for at in self.set_by_name(arguments, context, file) {
+                                noted.numbers.give_up(self.number(at));
+                                self.note_whole_place(at, Value::Unfollowed, &mut noted.places);
                             }
                         }
                         (None, _) | (_, Verb::Other | Verb::CallByVar) => {

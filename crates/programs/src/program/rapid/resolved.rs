@@ -9,7 +9,7 @@ use super::syntax::{
     Argument, Assigned, Base, Callee, Component, Datum, Expression, Function, Index, Parsed, Part,
     StatementKind, Storage, Stored, Type, Verb, indices,
 };
-use super::verbs::Verbs;
+use super::verbs::{Led, Verbs};
 use crate::program::Source;
 use crate::program::contexts::Given as GivenNumbers;
 use crate::program::names::{Context, Meaning, Scopes, Symbol};
@@ -572,7 +572,9 @@ impl<'a> Resolved<'a> {
         };
         match verb {
             Verb::Writes(position) => self.mark_argument(given, position),
-            Verb::Move { first: 2, .. } => self.mark_argument(given, 1),
+            Verb::Move {
+                led: Led::Search, ..
+            } => self.mark_argument(given, 1),
             Verb::WritesTool => {
                 for at in indices(given.arguments) {
                     if let Some(place) = self.place_of(&self.parsed.arguments[at].expression) {
@@ -581,7 +583,8 @@ impl<'a> Resolved<'a> {
                 }
             }
             Verb::WritesNamed => {
-                for datum in self.set_by_name(given.arguments, given.file) {
+                let meant = self.moves_set_by_name(given.arguments, given.context, given.file);
+                for datum in meant {
                     self.otherwise.insert(datum);
                     self.written[datum as usize] = true;
                 }

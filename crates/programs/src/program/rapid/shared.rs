@@ -270,7 +270,7 @@ impl Resolved<'_> {
                         .is_some_and(Type::is_target)
                 })
             };
-            moves[routine] |= matches!(verb, Verb::Move { .. })
+            moves[routine] |= matches!(verb, Verb::Move { .. } | Verb::Yields { .. })
                 || verb == Verb::Other && callees.foreign && is_given();
             calls[routine].extend(callees.routines);
         }

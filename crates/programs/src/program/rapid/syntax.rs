@@ -1,6 +1,7 @@
 //! What the reader parsed of a text before names are resolved.
 
 use super::aggregate::Leaf;
+use super::verbs::Led;
 use crate::program::names::{Context, Symbol, Symbols};
 use crate::program::script::{Place, short};
 use crate::program::{Number, Target, TargetId};
@@ -571,13 +572,16 @@ pub(super) enum Verb {
     /// Goes to its targets.
     Move {
         path: Path,
-        /// The first argument that can be a target, where the name tells.
-        first: u8,
+        led: Led,
         /// The tool stands after targets, speed and zone, before other arguments.
         tool_inside: bool,
     },
     /// Goes where only the running program knows; along the path that it came where `back`.
     Wander { back: bool },
+    /// The arm gives way to forces from here on, or no longer.
+    Yields { begins: bool },
+    /// `ClearPath`
+    ClearsPath,
     /// A mode of the controller is set.
     Mode(Mode, Set),
     /// Measures and writes the tool in its arguments.

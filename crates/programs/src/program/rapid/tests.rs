@@ -11,6 +11,7 @@ mod loads;
 mod posts;
 mod robust;
 mod samples;
+mod sensors;
 mod tasks;
 mod text;
 

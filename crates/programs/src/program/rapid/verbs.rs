@@ -8,29 +8,76 @@ use foldhash::{HashMap, HashSet};
 
 /// First parts of the names of instructions that move; J, L, C or `AbsJ` follows. What another one
 /// begins with stands behind that.
-const MOVING: [&[u8]; 21] = [
-    b"move",
-    b"arc",
-    b"trigg",
-    b"search",
-    b"egmmove",
-    b"cap",
-    b"disp",
-    b"spotm",
-    b"spot",
-    b"paint",
-    b"cut",
-    b"laser",
-    b"clad",
-    b"weld",
-    b"glue",
-    b"seal",
-    b"process",
-    b"contact",
-    b"fcpress1",
-    b"fcpress",
-    b"nut",
+const MOVING: [(&[u8], Led); 21] = [
+    (b"move", Led::Alone),
+    (b"arc", Led::Alone),
+    (b"trigg", Led::Alone),
+    (b"search", Led::Search),
+    (b"egmmove", Led::Guided),
+    (b"cap", Led::Alone),
+    (b"disp", Led::Alone),
+    (b"spotm", Led::Alone),
+    (b"spot", Led::Alone),
+    (b"paint", Led::Alone),
+    (b"cut", Led::Alone),
+    (b"laser", Led::Alone),
+    (b"clad", Led::Alone),
+    (b"weld", Led::Alone),
+    (b"glue", Led::Alone),
+    (b"seal", Led::Alone),
+    (b"process", Led::Alone),
+    (b"contact", Led::Contact),
+    (b"fcpress1", Led::Pressed),
+    (b"fcpress", Led::Pressed),
+    (b"nut", Led::Alone),
 ];
+
+/// Functions that give a position near another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Displaces {
+    /// `Offs`
+    InFrame,
+    /// `RelTool`
+    InTool,
+}
+
+impl Displaces {
+    /// The one of this name.
+    pub(super) fn named(spelling: &[u8]) -> Option<Self> {
+        let is = |name: &[u8]| spelling.eq_ignore_ascii_case(name);
+        match () {
+            () if is(b"offs") => Some(Self::InFrame),
+            () if is(b"reltool") => Some(Self::InTool),
+            () => None,
+        }
+    }
+}
+
+/// What says where a move goes, with its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Led {
+    /// Nothing else.
+    Alone,
+    /// A signal: it may stop there.
+    Search,
+    /// Contact ends it.
+    Contact,
+    /// A device that corrects its path (EGM).
+    Guided,
+    /// The force with which the tool presses.
+    Pressed,
+}
+
+impl Led {
+    /// The first argument that can be a target.
+    pub(super) fn first(self) -> u8 {
+        match self {
+            Self::Search => 2,
+            Self::Guided => 1,
+            Self::Alone | Self::Contact | Self::Pressed => 0,
+        }
+    }
+}
 
 /// Last parts of names of instructions that move.
 const ENDINGS: [&[u8]; 8] = [b"", b"do", b"ao", b"go", b"sync", b"ios", b"start", b"end"];
@@ -86,7 +133,7 @@ impl Verbs {
         self.known(name, module)
     }
 
-    /// Whether the function of this name, Offs or `RelTool`, is that of the language in a module.
+    /// Whether the function of this name, one of [`Displaces`], is that of the language in a module.
     pub(super) fn displaces(&mut self, name: Symbol, module: u32) -> bool {
         self.displacing.insert(name);
         !self.is_hidden(name, module)
@@ -162,6 +209,14 @@ pub(super) fn verb(spelling: &[u8]) -> Verb {
         b"eoffsoff" => Verb::Mode(Mode::ExternalOffset, Set::Off),
         b"pathrecmovebwd" | b"pathrecmovefwd" | b"stepbwdpath" => Verb::Wander { back: true },
         b"egmrunjoint" | b"egmrunpose" => Verb::Wander { back: false },
+        b"fcact" | b"fcrefstart" => Verb::Yields { begins: true },
+        b"fcrefstop" | b"fcdeact" | b"setleadthrough" => Verb::Yields { begins: false },
+        b"clearpath" => Verb::ClearsPath,
+        b"fcpressend" => Verb::Move {
+            path: Path::Linear,
+            led: Led::Pressed,
+            tool_inside: false,
+        },
         b"gripload" => Verb::GripLoad,
         b"setdataval" | b"setalldataval" => Verb::WritesNamed,
         b"callbyvar" => Verb::CallByVar,
@@ -183,7 +238,7 @@ pub(super) fn calls(spelling: &[u8]) -> bool {
 }
 
 fn moving(spelling: &[u8], lower: &[u8]) -> Option<Verb> {
-    let first = MOVING.iter().find(|first| lower.starts_with(first))?;
+    let (first, led) = MOVING.iter().find(|(first, _)| lower.starts_with(first))?;
     let rest = &lower[first.len()..];
     let (path, letters) = match rest {
         [b'a', b'b', b's', b'j', ..] => (Path::Absolute, 4),
@@ -205,11 +260,7 @@ fn moving(spelling: &[u8], lower: &[u8]) -> Option<Verb> {
     }
     Some(Verb::Move {
         path,
-        first: match *first {
-            b"search" => 2,
-            b"egmmove" => 1,
-            _ => 0,
-        },
+        led: *led,
         tool_inside: TOOL_INSIDE.contains(&ending),
     })
 }
@@ -241,6 +292,7 @@ mod tests {
             ("SpotML", Some(Path::Linear)),
             ("FCPress1LStart", Some(Path::Linear)),
             ("FCPressC", Some(Path::Arc)),
+            ("FCPressEnd", Some(Path::Linear)),
             ("ContactL", Some(Path::Linear)),
             ("NutJ", Some(Path::Joint)),
             ("MoveLift", None),

@@ -51,7 +51,7 @@ fn process_instructions_that_move_are_known() {
     for call in [
         "SpotML p2,v5,gun1,spot1\\G2:=g2,t\\WObj:=w;",
         "ContactL\\DesiredTorque:=0.1,p2,v5,t\\WObj:=w;",
-        "FCPressL p2,v5,10,fine,t\\WObj:=w;",
+        "NutL p2,v5,nut1,gun1,t\\WObj:=w;",
     ] {
         let program = path(call);
         assert_eq!(
@@ -101,7 +101,9 @@ fn data_that_are_set_by_their_names_or_types_are_not_known() {
         "SetDataVal \"W\",x;",
         "SetDataVal \"t\",x;",
         "SetDataVal name,x;",
-        "SetDataVal name,\"text\";",
+        "SetDataVal name,w;",
+        "SetDataVal name,[FALSE,TRUE,s,f,f];",
+        "SetDataVal name,s.frame;",
         "SetAllDataVal \"wobjdata\"\\Object:=\"w.*\",x;",
         "SetAllDataVal \"tooldata\",x;",
     ] {
@@ -111,8 +113,21 @@ fn data_that_are_set_by_their_names_or_types_are_not_known() {
             "{call}: {found:?}"
         );
     }
-    for call in ["SetDataVal \"t2\",x;", "SetAllDataVal \"num\",x;"] {
-        assert_eq!(before_a_move(call), [""; 0], "{call}");
+    for call in [
+        "SetDataVal \"t2\",x;",
+        "SetAllDataVal \"num\",x;",
+        // a value of another type than that of tools and work objects
+        "SetDataVal name,\"text\";",
+        "SetDataVal name,TRUE;",
+        "SetDataVal name,5;",
+        "SetDataVal name\\TaskName:=\"T_ROB2\",n+1;",
+        "SetDataVal name,place;",
+        "SetDataVal name,w.uframe;",
+        "SetDataVal name,Offs(p1,0,0,5);",
+        "GetDataVal name,place;",
+    ] {
+        let given = format!("VAR num n;\nVAR pos place;\n{call}");
+        assert_eq!(before_a_move(&given), [""; 0], "{call}");
     }
 }
 
