@@ -155,6 +155,10 @@ impl Flow<'_> {
             let waiting = &mut self.instances[callee as usize].waiting;
             waiting.insert((instance, statement));
             self.enter(callee, &entry);
+            if let Some(raised) = self.instances[callee as usize].raised.clone() {
+                let back = self.back_from(&start, &raised, call, routine, instance);
+                self.catch(instance, statement, &back);
+            }
             let Some(exit) = self.instances[callee as usize].exit.clone() else {
                 continue;
             };
@@ -165,6 +169,23 @@ impl Flow<'_> {
             });
         }
         behind
+    }
+
+    /// A routine that a statement calls ends with an error.
+    fn catch(&mut self, instance: u32, statement: u32, state: &State) {
+        let script = self.script;
+        let behind = &script.statements[statement as usize + 1..];
+        let mut is_caught = false;
+        for following in behind {
+            let Statement::Catch(label) = *following else {
+                break;
+            };
+            self.arrive(instance, label, state);
+            is_caught = true;
+        }
+        if !is_caught {
+            self.raise(instance, state);
+        }
     }
 
     /// The state in which a call enters a routine: its own variables are as declared, whatever an

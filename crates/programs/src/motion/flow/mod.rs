@@ -84,6 +84,8 @@ struct Instance {
     first_stop: Stop,
     entry: Option<State>,
     exit: Option<State>,
+    /// Where it ends with an error.
+    raised: Option<State>,
     /// Calls that wait for its end: instance and statement.
     waiting: BTreeSet<(u32, u32)>,
 }

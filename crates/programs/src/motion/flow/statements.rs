@@ -76,6 +76,7 @@ impl<'a> Flow<'a> {
             same: Rc::default(),
             entry: None,
             exit: None,
+            raised: None,
             waiting: BTreeSet::new(),
         });
         short(self.instances.len() - 1)
@@ -295,6 +296,11 @@ impl<'a> Flow<'a> {
                 }
                 Statement::Enter(number) => self.begin_rounds(number, &mut state),
                 Statement::Return | Statement::Exit => break,
+                Statement::Raise => {
+                    self.raise(instance, &state);
+                    return visits;
+                }
+                Statement::Catch(_) => {}
             }
             at += 1;
         }
@@ -303,20 +309,26 @@ impl<'a> Flow<'a> {
     }
 
     pub(super) fn leave(&mut self, instance: u32, state: &State) {
+        self.end(instance, state, |of| &mut of.exit);
+    }
+
+    /// A routine ends with an error.
+    pub(super) fn raise(&mut self, instance: u32, state: &State) {
+        self.end(instance, state, |of| &mut of.raised);
+    }
+
+    fn end(&mut self, instance: u32, state: &State, of: fn(&mut Instance) -> &mut Option<State>) {
         if self.dead == Some(instance) && self.instances[instance as usize].entry.is_some() {
             return;
         }
-        let joined = match &self.instances[instance as usize].exit {
-            Some(exit) => {
-                let exit = exit.clone();
-                self.join(&exit, state)
-            }
+        let joined = match of(&mut self.instances[instance as usize]).clone() {
+            Some(end) => self.join(&end, state),
             None => state.clone(),
         };
-        let of = &mut self.instances[instance as usize];
-        if of.exit.as_ref() != Some(&joined) {
-            of.exit = Some(joined);
-            for (caller, statement) in of.waiting.clone() {
+        let end = of(&mut self.instances[instance as usize]);
+        if end.as_ref() != Some(&joined) {
+            *end = Some(joined);
+            for (caller, statement) in self.instances[instance as usize].waiting.clone() {
                 self.push(caller, statement, From::Call);
             }
         }

@@ -1,5 +1,6 @@
 //! Statements that lead elsewhere: choices, loops, jumps, handlers.
 
+use super::errors::Handles;
 use super::reader::{OpenLoop, Reader};
 use super::syntax::{Counting, Expression, StatementKind};
 use super::tokens::{Fault, Kind};
@@ -35,6 +36,8 @@ pub(super) fn is_block_word(word: &[u8]) -> bool {
             | b"goto"
             | b"return"
             | b"raise"
+            | b"errraise"
+            | b"raisetouser"
             | b"retry"
             | b"startmoveretry"
             | b"trynext"
@@ -100,7 +103,7 @@ impl Reader<'_> {
                 self.condition()?;
                 self.note(start, StatementKind::Test);
             }
-            b"error" | b"undo" | b"backward" => self.handler(start)?,
+            b"error" | b"undo" | b"backward" => self.handler(start, word == b"error")?,
             b"goto" => {
                 if self.token.kind == Kind::Name {
                     let label = self.parsed.symbols.intern(self.text(self.token));
@@ -119,20 +122,20 @@ impl Reader<'_> {
             }
             b"retry" | b"startmoveretry" | b"trynext" => {
                 self.end_statement()?;
-                self.note(start, StatementKind::Retry);
+                let is_next = word == b"trynext";
+                self.note(start, StatementKind::Retry { is_next });
             }
             b"exit" | b"exitcycle" => {
                 self.end_statement()?;
                 self.note(start, StatementKind::Exit);
             }
-            // an error that is raised is for the caller's handler
             _ => {
                 if !self.token.is(b';') && !self.at_statement(true) {
                     self.finish_statement()?;
                 } else {
                     self.end_statement()?;
                 }
-                self.note(start, StatementKind::Return(Expression::Nothing));
+                self.note(start, StatementKind::Raise);
             }
         }
         Ok(())
@@ -195,14 +198,20 @@ impl Reader<'_> {
     }
 
     /// `ERROR`, `UNDO`, `BACKWARD`, with the numbers of errors in brackets.
-    fn handler(&mut self, start: u32) -> Result<(), Fault> {
-        if self.token.is(b'(') {
+    fn handler(&mut self, start: u32, is_error: bool) -> Result<(), Fault> {
+        let is_listed = self.token.is(b'(');
+        if is_listed {
             self.expression()?;
         }
         if let Some(routine) = self.context.routine {
             self.parsed.routines[routine as usize].has_handler = true;
         }
-        self.note(start, StatementKind::Handler);
+        let handles = match (is_error, is_listed) {
+            (true, false) => Handles::Errors,
+            (true, true) => Handles::SomeErrors,
+            (false, _) => Handles::Other,
+        };
+        self.note(start, StatementKind::Handler(handles));
         Ok(())
     }
 

@@ -1,27 +1,38 @@
 //! Error, undo and backward handlers: they may run between any two statements of their routine.
 
+use super::errors::{Caught, Handles};
 use super::syntax::StatementKind;
 use super::translate::Translator;
 use crate::program::script::Expr;
 
 /// Keys of labels besides those of names: handlers, places to go on at, where going on is chosen,
 /// nowhere.
-const HANDLERS: u64 = 1 << 40;
+pub(super) const HANDLERS: u64 = 1 << 40;
 const PLACES: u64 = 1 << 41;
 const GOING_ON: u64 = 1 << 42;
-const NOWHERE: u64 = 1 << 43;
+pub(super) const NOWHERE: u64 = 1 << 43;
 
 /// The handlers of the present routine.
 #[derive(Debug, Default)]
 pub(super) struct Handlers {
     /// For each whether it changes anything that matters, or ends the routine.
-    matters: Vec<bool>,
+    pub matters: Vec<bool>,
+    /// The one that errors go to.
+    pub caught: Option<Caught>,
+    /// Handlers of callers may hear of errors here.
+    pub is_guarded: bool,
+    /// Calls whose errors are met by a handler that changes nothing, so far.
+    pub calls: u64,
+    /// What stands behind the present statement, where one of these fails in a function of it.
+    pub behind: Vec<u64>,
+    /// Errors leave the routine where it ends.
+    pub raises: bool,
     /// Some of them go on where the error was, after statements that change something.
     go_on: bool,
     /// Places to go on at so far.
     places: u64,
     /// The one that stands here, from 1; 0 in the routine's own statements.
-    present: usize,
+    pub present: usize,
     /// The present one is passed over.
     pub is_skipping: bool,
 }
@@ -30,7 +41,7 @@ impl Translator<'_> {
     /// The handlers of a routine whose statements begin there.
     pub(super) fn handlers_of(&self, first: usize) -> Handlers {
         let mut found = Handlers::default();
-        let mut inside = false;
+        let (mut inside, mut is_caught) = (false, false);
         let (mut acts, mut leaves, mut retries) = (false, true, false);
         let end = |found: &mut Handlers, acts: bool, leaves: bool, retries: bool| {
             found.matters.push(acts || leaves);
@@ -39,10 +50,15 @@ impl Translator<'_> {
         for statement in &self.resolved.parsed.statements[first..] {
             match statement.kind {
                 StatementKind::Text { .. } => break,
-                StatementKind::Handler => {
+                StatementKind::Handler(handles) => {
                     if inside {
                         end(&mut found, acts, leaves, retries);
                     }
+                    if handles != Handles::Other {
+                        let at = found.matters.len();
+                        found.caught = Some(Caught::by(at, handles == Handles::SomeErrors));
+                    }
+                    is_caught = handles != Handles::Other;
                     inside = true;
                     (acts, leaves, retries) = (false, true, false);
                 }
@@ -56,12 +72,15 @@ impl Translator<'_> {
                     acts = true;
                     leaves = true;
                 }
-                StatementKind::Retry => {
+                StatementKind::Retry { is_next } => {
                     retries = true;
+                    if let Some(caught) = found.caught.as_mut().filter(|_| is_caught) {
+                        caught.goes_on(is_next);
+                    }
                     // at its end it goes on, whatever it asked before
                     leaves = false;
                 }
-                StatementKind::Return(_) | StatementKind::Exit => {
+                StatementKind::Return(_) | StatementKind::Raise | StatementKind::Exit => {
                     acts = true;
                     leaves = true;
                 }
@@ -88,10 +107,11 @@ impl Translator<'_> {
                 self.builder.may_go_to(key);
             }
         }
+        self.may_raise();
     }
 
     /// A handler begins; what stands before it ends the routine.
-    pub(super) fn handler(&mut self, _: usize) {
+    pub(super) fn handler(&mut self) {
         self.end_part();
         let key = HANDLERS + self.handlers.present as u64;
         self.handlers.present += 1;
@@ -117,18 +137,23 @@ impl Translator<'_> {
         self.builder.go_to(if goes_on { GOING_ON } else { NOWHERE });
     }
 
-    /// The routine ends: where handlers go on.
+    /// The routine ends: where handlers go on, and errors leave it.
     pub(super) fn end_handlers(&mut self) {
-        if self.handlers.present == 0 || !self.handlers.go_on {
+        let goes_on = self.handlers.present > 0 && self.handlers.go_on;
+        if !goes_on && !self.handlers.raises {
             return;
         }
         if !self.handlers.is_skipping {
             self.builder.back();
         }
-        self.builder.label(GOING_ON);
-        for place in 0..self.handlers.places {
-            self.builder.may_go_to(PLACES + place);
+        if goes_on {
+            self.builder.label(GOING_ON);
+            for place in 0..self.handlers.places {
+                self.builder.may_go_to(PLACES + place);
+            }
+            self.builder.back();
         }
+        self.end_raising();
     }
 
     /// What a function gives back.

@@ -28,6 +28,7 @@ mod declarations;
 mod derived;
 mod drive;
 mod elements;
+mod errors;
 mod expressions;
 mod grips;
 mod handlers;

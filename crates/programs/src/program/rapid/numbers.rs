@@ -178,7 +178,9 @@ impl Resolved<'_> {
                     self.bound(at, context, blocks.last(), &mut noted.numbers);
                 }
                 StatementKind::EndChoice | StatementKind::EndLoop { .. } => blocks.close(),
-                StatementKind::Goto(_) | StatementKind::Handler | StatementKind::Retry => {
+                StatementKind::Goto(_)
+                | StatementKind::Handler(_)
+                | StatementKind::Retry { .. } => {
                     noted.numbers.jumps(context.routine.unwrap_or(u32::MAX));
                 }
                 _ => {}

@@ -1,6 +1,7 @@
 //! What the reader parsed of a text before names are resolved.
 
 use super::aggregate::Leaf;
+use super::errors::Handles;
 use super::verbs::Led;
 use crate::program::names::{Context, Symbol, Symbols};
 use crate::program::script::{Place, short};
@@ -548,11 +549,14 @@ pub(super) enum StatementKind {
     /// From here on the trap of this name may run at any time.
     Connect(Symbol),
     /// `ERROR`, `UNDO`, `BACKWARD`: what follows may run between any statements before it.
-    Handler,
-    /// `RETRY`, `TRYNEXT`
-    Retry,
-    /// `RETURN`, `RAISE`
+    Handler(Handles),
+    /// `RETRY`; `TRYNEXT` where the statement is not made again.
+    Retry {
+        is_next: bool,
+    },
     Return(Expression),
+    /// `RAISE`
+    Raise,
     Exit,
 }
 

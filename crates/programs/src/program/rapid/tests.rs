@@ -4,6 +4,7 @@ mod arrays;
 mod calls;
 mod deciding;
 mod derived;
+mod errors;
 mod foreign;
 mod frames;
 mod grips;

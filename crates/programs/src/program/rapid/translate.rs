@@ -44,6 +44,10 @@ pub(super) struct Translator<'a> {
     /// The present routine is open.
     is_open: bool,
     pub handlers: Handlers,
+    /// Routines of whose errors handlers of their callers may hear.
+    guarded: HashSet<u32>,
+    /// The present statement is a function of another one.
+    pub is_function: bool,
     pub words: Words,
     pub modes: Modes,
     pub actual: ValueId,
@@ -120,6 +124,8 @@ pub(super) fn translate(
         },
         is_open: false,
         handlers: Handlers::default(),
+        guarded: resolved.guarded(),
+        is_function: false,
         words: Words {
             wobj: find(b"wobj"),
             tool: find(b"tool"),
@@ -211,7 +217,7 @@ impl Translator<'_> {
     pub(super) fn emit_call(&mut self, call: Call) {
         self.may_fail();
         let given = call.arguments.clone();
-        self.builder.call(call);
+        self.call_caught(call);
         for at in given {
             if let Some(element) = self.builder.script.arguments[at as usize].back {
                 self.gather(element);
@@ -235,6 +241,7 @@ impl Translator<'_> {
         if of.has_handler {
             self.handlers = self.handlers_of(at + 1);
         }
+        self.handlers.is_guarded = self.guarded.contains(&routine);
         for datum in self.own.get(&routine).cloned().unwrap_or_default() {
             self.begin_own(datum);
         }
@@ -256,7 +263,7 @@ impl Translator<'_> {
             self.text(at, file, context);
             return;
         }
-        if self.handlers.is_skipping && !matches!(statement.kind, StatementKind::Handler) {
+        if self.handlers.is_skipping && !matches!(statement.kind, StatementKind::Handler(_)) {
             return;
         }
         if !self.is_open {
@@ -264,6 +271,17 @@ impl Translator<'_> {
             let routine = self.builder.declare("", self.here, Start::Called);
             self.builder.open(routine);
             self.is_open = true;
+        }
+        self.is_function = matches!(statement.kind, StatementKind::Function(_));
+        let is_block = !matches!(
+            statement.kind,
+            StatementKind::Function(_)
+                | StatementKind::Assign { .. }
+                | StatementKind::Call(_)
+                | StatementKind::Return(_)
+        );
+        if is_block {
+            self.behind_functions();
         }
         match statement.kind {
             StatementKind::Text { .. } => {}
@@ -297,16 +315,18 @@ impl Translator<'_> {
             StatementKind::Label(name) => self.builder.label(u64::from(name.0)),
             StatementKind::Goto(name) => self.builder.go_to(u64::from(name.0)),
             StatementKind::Connect(trap) => self.connect(trap),
-            StatementKind::Handler => self.handler(at),
-            StatementKind::Retry => self.retry(),
+            StatementKind::Handler(_) => self.handler(),
+            StatementKind::Retry { .. } => self.retry(),
+            StatementKind::Raise => self.raise(),
             StatementKind::Return(value) => {
                 self.give_back(value);
                 self.builder.back();
             }
             StatementKind::Exit => self.builder.exit(),
         }
-        if !matches!(statement.kind, StatementKind::Function(_)) {
+        if !self.is_function {
             self.kept_results.clear();
+            self.behind_functions();
         }
     }
 

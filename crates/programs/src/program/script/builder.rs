@@ -373,6 +373,11 @@ impl Builder {
                 self.script.loops[*number as usize].most = None;
             }
         }
+        self.place(key);
+    }
+
+    /// Likewise one that only statements before it go to.
+    pub fn place(&mut self, key: u64) {
         let label = self.named(key);
         self.put(label);
     }
@@ -392,6 +397,17 @@ impl Builder {
     /// Back to the caller.
     pub fn back(&mut self) {
         self.script.statements.push(Statement::Return);
+    }
+
+    /// The routine ends with an error.
+    pub fn raise(&mut self) {
+        self.script.statements.push(Statement::Raise);
+    }
+
+    /// Where the program goes on if a routine that the last call runs ends with an error.
+    pub fn catch(&mut self, key: u64) {
+        let label = self.named(key);
+        self.script.statements.push(Statement::Catch(label));
     }
 
     /// The program ends.

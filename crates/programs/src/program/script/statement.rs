@@ -58,6 +58,12 @@ pub enum Statement {
     Return,
     /// The program ends.
     Exit,
+    /// The routine ends with an error, which its caller has then; behind the last of them the
+    /// program stops.
+    Raise,
+    /// Behind a call, one or several: there the program goes on, where a routine that it calls ends
+    /// with an error. Where none follows, the caller ends with it, too.
+    Catch(Label),
     /// A loop begins that is in no other one whose rounds the text counts: index in
     /// [`super::Script::loops`].
     Enter(u32),
