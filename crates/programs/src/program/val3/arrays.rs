@@ -5,7 +5,8 @@ use super::project::Declared;
 use super::reader::{Reader, functions};
 use super::remarks::{COMPUTED, UNFOLLOWED};
 use super::targets::{Known, Of};
-use crate::program::script::{Argument, Expr, RoutineId, TableId};
+use crate::program::TargetId;
+use crate::program::script::{Argument, Expr, RoutineId, TableId, VariableId};
 use crate::program::words::Words;
 use foldhash::{HashMap, HashSet};
 use std::collections::BTreeSet;
@@ -141,18 +142,25 @@ impl<'a> Reader<'a> {
             let entries = &self.builder.script.tables[*table as usize].entries;
             open.extend(entries.values().copied());
         }
-        let remark = self.builder.script.remark(UNFOLLOWED);
-        let mut seen = HashSet::default();
+        for target in self.declared_targets(open) {
+            self.builder.script.refuse(target, UNFOLLOWED);
+        }
+    }
+
+    /// The targets that variables, or those that they may be copies of, are declared with.
+    pub(super) fn declared_targets(&self, mut open: Vec<VariableId>) -> Vec<TargetId> {
+        let (mut seen, mut found) = (HashSet::default(), Vec::new());
         while let Some(variable) = open.pop() {
             if !seen.insert(variable) {
                 continue;
             }
             open.extend(self.copies.get(&variable).into_iter().flatten());
-            let script = &mut self.builder.script;
-            if let Expr::Target(target) = script.variables[variable as usize].declared {
-                script.refused.push((target, remark));
+            let declared = self.builder.script.variables[variable as usize].declared;
+            if let Expr::Target(target) = declared {
+                found.push(target);
             }
         }
+        found
     }
 }
 

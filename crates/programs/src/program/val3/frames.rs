@@ -2,14 +2,16 @@
 
 use super::code::Reference;
 use super::data::{Element, Father, Kind};
-use super::reader::Reader;
-use super::remarks::{FRAME_CHOSEN, endless_fathers, frame_assigned};
+use super::reader::{Reader, functions};
+use super::remarks::{
+    FRAME_CHOSEN, FRAME_OF_POINTS_UNUSED, endless_fathers, frame_assigned, frame_of_points,
+};
 use super::targets::{Of, pose_of};
 use crate::geometry::Pose;
 use crate::program::displacing::Displacing;
 use crate::program::kit;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NamedFrame, Remark, UNBOUNDED, VariableId,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, Held, NamedFrame, Place, Remark, UNBOUNDED, VariableId,
 };
 use crate::program::transformations::Steps;
 use crate::program::words::Words;
@@ -23,6 +25,15 @@ pub(super) struct Composed<'a> {
     /// The frame that it names, and the project that does.
     asked: (u32, Father<'a>),
     by: Steps,
+}
+
+/// A `setFrame(origin,x,xy,frame)` of the code.
+#[derive(Debug)]
+pub(super) struct Framing {
+    points: Vec<VariableId>,
+    /// Index in [`super::project::World::data`]; `None` where it is no frame of a project.
+    frame: Option<u32>,
+    place: Place,
 }
 
 /// Frames on frames.
@@ -99,6 +110,91 @@ impl<'a> Reader<'a> {
         let mut by = Displacing::new();
         let is_followed = composed.by.in_frame(&own_from_asked.rotation, &mut by);
         is_followed.then(|| by.displacement())
+    }
+
+    /// `setFrame(origin,x,xy,frame)`
+    pub(super) fn set_frame(&mut self, line: Words<'a, '_>, at: usize) {
+        let given = line.inside(at + 1).0.list();
+        let Some((frame, points)) = given.split_last() else {
+            return;
+        };
+        let mut all = Vec::new();
+        for point in points {
+            let point = self.position(*point);
+            all.extend(self.roots(point));
+        }
+        self.framing.push(Framing {
+            points: all,
+            frame: Reference::of(*frame).and_then(|name| self.project_frame(&name)),
+            place: self.place(line.span().start),
+        });
+    }
+
+    fn project_frame(&self, name: &Reference) -> Option<u32> {
+        match self.meaning(name)?.of {
+            Of::Project(datum) if self.world.data[datum as usize].kind == Kind::Frame => {
+                Some(datum)
+            }
+            _ => None,
+        }
+    }
+
+    /// Notes the frames that a statement names, but for those that `setFrame` makes, where programs
+    /// change any.
+    pub(super) fn note_frames(&mut self, line: Words<'a, '_>) {
+        if self.assigned.is_empty() {
+            return;
+        }
+        let sets = functions(line).find(|at| line.text(*at) == b"setFrame");
+        let names = (0..sets.unwrap_or(line.len())).filter_map(|at| {
+            let is_inside = at > 0 && (line.is(at - 1, b'.') || line.is(at - 1, b':'));
+            Reference::of(line.behind(at)).filter(|_| !is_inside)
+        });
+        let frames: Vec<u32> = names.filter_map(|name| self.project_frame(&name)).collect();
+        self.named_frames.extend(frames);
+    }
+
+    /// Points that a frame is made of stay as they are where something uses that frame.
+    pub(super) fn settle_framing(&mut self) {
+        for framing in std::mem::take(&mut self.framing) {
+            let targets = self.declared_targets(framing.points);
+            let source = &self.sources[framing.place.file as usize];
+            let (line, _) = source.line_column(framing.place.offset as usize);
+            let is_used = framing.frame.is_none_or(|frame| self.is_used(frame));
+            for &target in targets.iter().filter(|_| is_used) {
+                let remark = frame_of_points(&source.name, line);
+                self.builder.script.refuse(target, remark);
+            }
+            if !is_used && !targets.is_empty() {
+                let script = &mut self.builder.script;
+                script.say(self.sources, framing.place, FRAME_OF_POINTS_UNUSED);
+            }
+        }
+    }
+
+    /// Whether programs name a frame, or points that hang on it.
+    fn is_used(&self, frame: u32) -> bool {
+        let fathers = self.variables.named().into_iter();
+        let fathers = fathers.map(|target| self.variables.father_of[target] as usize);
+        let on_it = |father: usize| {
+            let mut next: Option<(u32, Father)> = Some(self.variables.fathers[father]);
+            for _ in 0..LONGEST_CHAIN {
+                let Some((project, of)) = next else {
+                    return false;
+                };
+                let Some(datum) = self.world.datum(project, of.alias, of.name) else {
+                    return false;
+                };
+                if datum == frame {
+                    return true;
+                }
+                let data = &self.world.data[datum as usize];
+                let at = data.element(of.index);
+                next = at.map(|at| (data.project, data.elements[at].father));
+            }
+            true
+        };
+        self.named_frames.contains(&frame) || fathers.into_iter().any(on_it)
     }
 
     /// The tool that an argument is.

@@ -119,6 +119,7 @@ impl<'a> Reader<'a> {
         by_calls.hand_over(&self.entries.given, &mut self.builder.script);
         self.settle_composed();
         self.refuse_arrays();
+        self.settle_framing();
         self.frame_points();
         self.tell_apart();
         self.builder.finish()

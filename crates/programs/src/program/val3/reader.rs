@@ -3,7 +3,7 @@
 use super::arrays::Arrays;
 use super::code::{Code, Reference};
 use super::data::{Kind, POSE};
-use super::frames::Composed;
+use super::frames::{Composed, Framing};
 use super::moves::Verb;
 use super::numbers::{axis, turned_by_any};
 use super::project::{Program, World};
@@ -19,7 +19,7 @@ use crate::program::script::{
 };
 use crate::program::transformations::{EACH, Entries};
 use crate::program::words::{self, Words, unquoted};
-use foldhash::HashMap;
+use foldhash::{HashMap, HashSet};
 
 /// Built-in instructions, and which of their arguments they write.
 ///
@@ -67,6 +67,8 @@ pub(super) struct Reader<'a> {
     /// Frames, transformations, descriptors and tools that the running program changes, by index
     /// in [`World::data`], and where first.
     pub assigned: HashMap<u32, Place>,
+    /// Arrays of data that programs fill by an index that only the running program knows.
+    pub filled_anywhere: HashSet<u32>,
     /// Values of data that programs write, by key.
     filled: Vec<(Known, &'a [u8])>,
     /// What each variable may be a copy of.
@@ -75,6 +77,10 @@ pub(super) struct Reader<'a> {
     /// Nothing new was found about arrays.
     pub is_settled: bool,
     pub composed: Vec<Composed<'a>>,
+    /// Points that `setFrame` makes frames of.
+    pub framing: Vec<Framing>,
+    /// Frames that programs name elsewhere, where any is made so.
+    pub named_frames: HashSet<u32>,
     /// Tools and frames that the files do not have: what they are asked for by, what has them, and
     /// the project that asks.
     pub asked: Vec<(Expr, (String, String), u32)>,
@@ -176,8 +182,15 @@ impl<'a> Reader<'a> {
                     Some(argument) => argument == number,
                     None => parameter.is_none_or(|parameter| parameter.by_reference),
                 };
+                let is_array = parameter.is_some_and(|parameter| parameter.is_array);
                 if let Some(target) = Reference::of(given).filter(|_| is_written) {
                     self.note(&target);
+                    if is_array {
+                        self.note(&Reference {
+                            key: None,
+                            ..target
+                        });
+                    }
                 }
             }
         }
@@ -190,6 +203,9 @@ impl<'a> Reader<'a> {
         if let Of::Project(datum) = known.of {
             let place = self.place(self.here.at as usize);
             self.assigned.entry(datum).or_insert(place);
+            if target.key.is_none() && !target.has_field {
+                self.filled_anywhere.insert(datum);
+            }
             if known.kind.is_place() || known.kind == Kind::Tool {
                 self.filled.extend(target.key.map(|key| (known, key)));
             }
@@ -302,12 +318,15 @@ impl<'a> Reader<'a> {
 
     /// Moves and built-in instructions of a statement.
     fn uses(&mut self, line: Words<'a, '_>) {
+        self.note_frames(line);
         for at in functions(line) {
             let name = line.text(at);
             if let Some(verb) = Verb::of(name) {
                 self.moves(line, at, verb);
             } else if name == b"libLoad" {
                 self.load(line, at);
+            } else if name == b"setFrame" {
+                self.set_frame(line, at);
             } else if let Some(argument) = written_argument(name) {
                 let given = line.inside(at + 1).0.list();
                 let target = given.get(argument).and_then(|one| Reference::of(*one));
@@ -367,11 +386,7 @@ impl<'a> Reader<'a> {
             let how = self.part_becomes(line.part(0..target.words), value);
             return self.write(&target, offset, how);
         }
-        let joints = match kind {
-            Kind::Joint => self.joints(value),
-            _ => None,
-        };
-        let value = joints.unwrap_or_else(|| self.given(kind, value));
+        let value = self.given(kind, value);
         let of = self.roots(value);
         if kind != Kind::Tool {
             for variable in self.variables_of(&target) {
@@ -385,6 +400,7 @@ impl<'a> Reader<'a> {
     fn given(&mut self, kind: Kind, value: Words<'a, '_>) -> Expr {
         match kind {
             Kind::Tool => self.tool(value),
+            Kind::Joint => (self.joints(value)).unwrap_or_else(|| self.position(value)),
             _ => self.position(value),
         }
     }
@@ -497,7 +513,11 @@ impl<'a> Reader<'a> {
             let parameter =
                 callee.and_then(|callee| Some((callee, self.parameter(callee, number)?)));
             let target = Reference::of(value).filter(|name| name.words == value.len());
-            let kind = target.map_or(Kind::Other, |target| self.kind_of(&target));
+            // of what is no name, such as `appro(p,{…})`, the parameter says it
+            let kind = match (target, parameter) {
+                (Some(target), _) => self.kind_of(&target),
+                (None, parameter) => parameter.map_or(Kind::Other, |(_, one)| one.kind),
+            };
             let is_given = kind.is_place() || kind == Kind::Tool;
             if let Some(parameter) = parameter.filter(|(_, one)| one.is_array && is_given) {
                 if !self.give_array(parameter, value, &mut arguments) && parameter.1.by_reference {

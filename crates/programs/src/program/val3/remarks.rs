@@ -52,6 +52,18 @@ pub(super) fn not_taught(name: &str, is_written: bool) -> Remark {
     Remark::error_about("target-uninitialised", text, hint)
 }
 
+/// Likewise one of an array that programs fill.
+pub(super) fn filled(name: &str) -> Remark {
+    Remark::warning_about(
+        "target-uninitialised",
+        format!(
+            "{name} has no numbers in the .dtx, and only the running program knows whether it has \
+             filled it before (p[n]=…): the move is taken to go to what the program writes there"
+        ),
+        "see that the program fills the element before the move, or teach the point",
+    )
+}
+
 /// Declared joints without numbers.
 pub(super) fn joints_not_taught(name: &str) -> Remark {
     kit::joints_not_in_files(
@@ -130,6 +142,26 @@ pub(super) fn frame_assigned(name: &str, place: Option<(&str, usize)>) -> Remark
         "set it in the .dtx, or keep the moves with it out of the compensation",
     )
 }
+
+/// A target that `setFrame` reads.
+pub(super) fn frame_of_points(file: &str, line: usize) -> Remark {
+    Remark::error_about(
+        "target-used-as-frame",
+        format!(
+            "setFrame makes a frame of this target (see {file} line {line}): of a corrected one it \
+             would be another frame"
+        ),
+        "teach a point of its own for the frame",
+    )
+}
+
+/// Likewise where nothing uses the frame.
+pub(super) const FRAME_OF_POINTS_UNUSED: Remark = Remark::note(
+    "target-used-as-frame",
+    "setFrame makes a frame of points that a move may go to: of corrected ones it is another frame, \
+     which nothing in the files uses",
+    "teach points of their own for the frame where another program uses it",
+);
 
 /// A tool or frame that only the running program knows.
 pub(super) const FRAME_CHOSEN: Remark = Remark::error(

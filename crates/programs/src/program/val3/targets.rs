@@ -5,8 +5,8 @@ use super::data::{Datum, Element, Father, Kind};
 use super::project::{Declared, World};
 use super::reader::Reader;
 use super::remarks::{
-    ALTERED, COMPUTED, FRAME_CHOSEN, joints_not_taught, not_in_files, not_taught, other_arm,
-    some_not_taught,
+    ALTERED, COMPUTED, FRAME_CHOSEN, filled, joints_not_taught, not_in_files, not_taught,
+    other_arm, some_not_taught,
 };
 use crate::geometry::Pose;
 use crate::program::contexts::{Varied, nothing};
@@ -325,6 +325,7 @@ impl<'a> Reader<'a> {
                 Some(target) => Expr::Target(target),
                 None if key == ANY => self.builder.script.unknown(unknown_value(of.kind)),
                 None if of.kind == Kind::Joint => self.unknown(joints_not_taught(&name)),
+                None if self.filled_anywhere.contains(&datum) => self.unknown(filled(&name)),
                 None => self.unknown(not_taught(&name, self.assigned.contains_key(&datum))),
             },
         };

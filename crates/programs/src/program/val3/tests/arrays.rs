@@ -178,3 +178,26 @@ fn a_value_that_a_program_further_down_writes_is_gone_to_as_well() {
         assert_eq!(names, ["pA[1]", "pV"], "{name}");
     }
 }
+
+#[test]
+fn an_array_that_a_loop_fills_may_be_gone_to() {
+    let spare = ["key=\"0\"", "key=\"1\"", "key=\"2\""];
+    let points = data("pX", "pointRx", &spare)
+        + &data("nI", "num", &["key=\"0\" value=\"0\""])
+        + &data("pB", "pointRx", &["key=\"0\" x=\"9\" fatherId=\"fA[0]\""]);
+    let said = |code: &str| -> Vec<(Severity, bool)> {
+        let program = project(&points, code);
+        let found = program.findings.iter();
+        let found = found.filter(|found| found.id == "target-uninitialised");
+        let each = found.map(|found| (found.severity, found.message.contains("(p.trsf=…)")));
+        each.collect()
+    };
+    let fill = "for nI=0 to 2\npX[nI]=appro(pB,{0,0,nI,0,0,0})\nendFor";
+    for go in ["movel(pX[1],tA,m)", "movel(pX[nI],tA,m)"] {
+        let found = said(&format!("{fill}\n{go}"));
+        assert_eq!(found, [(Severity::Warning, false)], "{go}");
+    }
+    let parts = said("for nI=0 to 2\npX[nI].trsf=pB.trsf\nendFor\nmovel(pX[1],tA,m)");
+    assert_eq!(parts, [(Severity::Error, true)]);
+    assert_eq!(said("movel(pX[1],tA,m)"), [(Severity::Error, false)]);
+}

@@ -196,3 +196,42 @@ fn an_element_that_the_running_program_chooses_is_what_programs_make_of_it() {
     assert_eq!(reads("reference"), ["pA[1]", "pQ"]);
     assert_eq!(reads("value"), ["pA[1]"]);
 }
+
+#[test]
+fn a_position_that_a_call_works_out_of_a_point_displaces_it() {
+    let own = parameter("x_p", "pointRx", "value");
+    for given in [
+        "appro(pW,{0,0,50,0,0,0})",
+        "compose(pW,world,{0,0,50,0,0,0})",
+    ] {
+        let displaced = |all: &[(&str, &str, &str)]| {
+            let program = programs(all);
+            assert!(errors(&program).is_empty(), "{:?}", program.findings);
+            let moves = program.moves.iter();
+            let moves = moves.map(|m| {
+                (
+                    target(&program, m).map(str::to_owned),
+                    m.displacement.clone(),
+                )
+            });
+            moves.collect::<Vec<_>>()
+        };
+        let here = displaced(&[("start", "", &format!("movel({given},tA,m)"))]);
+        assert!(here.iter().all(|(target, by)| {
+            target.as_deref() == Some("pW") && matches!(by, Displacement::By(_))
+        }));
+        let handed = displaced(&[
+            ("start", "", &format!("call go({given})")),
+            ("go", &own, "movel(x_p,tA,m)"),
+        ]);
+        assert_eq!(handed, here, "{given}");
+    }
+    // joints that are written out are known, too
+    let own = parameter("x_j", "jointRx", "value");
+    let program = programs(&[
+        ("start", "", "call go({0,-20,110,0,90,0})"),
+        ("go", &own, "movej(x_j,tA,m)"),
+    ]);
+    let goes = program.moves.iter().filter(|m| m.target.is_some());
+    assert_eq!(goes.count(), 1, "{:?}", program.findings);
+}

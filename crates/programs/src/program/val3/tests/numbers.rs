@@ -400,3 +400,41 @@ fn frames_of_two_projects_under_one_alias_have_the_name_of_the_project() {
     assert_eq!(names("../B/B.pjx"), ["One/a:f", "Two/a:f"]);
     assert_eq!(names("../A/A.pjx"), ["a:f", "a:f"]);
 }
+
+#[test]
+fn points_that_a_frame_is_made_of_keep_their_numbers() {
+    let points = data("fS", "frame", &[FRAME])
+        + &data(
+            "pA",
+            "pointRx",
+            &[
+                "key=\"0\" x=\"1\" fatherId=\"world[0]\"",
+                "key=\"1\" x=\"2\" fatherId=\"world[0]\"",
+                "key=\"2\" y=\"2\" fatherId=\"world[0]\"",
+            ],
+        )
+        + &data("pS", "pointRx", &["key=\"0\" x=\"3\" fatherId=\"fS[0]\""])
+        + &data("pX", "pointRx", &[]);
+    let go = "movel(pA[0],tA,m)\nmovel(pA[1],tA,m)";
+    let set = "nErr=setFrame(pA[0],pA[1],pA[2],fS)";
+    let severities = |code: &str| -> Vec<Severity> {
+        let program = project(&points, code);
+        let found = program.findings.iter();
+        let found = found.filter(|found| found.id == "target-used-as-frame");
+        found.map(|found| found.severity).collect()
+    };
+    for (uses, count) in [
+        ("movel(pS[0],tA,m)", 2),
+        ("movel(compose(pA[2],fS,{0,0,5,0,0,0}),tA,m)", 3),
+        ("link(pX,fS)", 2),
+        ("pX=here(tA,fS)", 2),
+    ] {
+        let code = format!("{go}\n{set}\n{uses}");
+        assert_eq!(severities(&code), vec![Severity::Error; count], "{uses}");
+    }
+    // through a copy, and in a frame that the files do not tell
+    let copied = format!("{go}\npX=pA[0]\nnErr=setFrame(pX,pA[2],pA[2],fElse)");
+    assert_eq!(severities(&copied), [Severity::Error]);
+    // nothing uses it
+    assert_eq!(severities(&format!("{go}\n{set}")), [Severity::Note]);
+}
