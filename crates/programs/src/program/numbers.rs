@@ -190,6 +190,12 @@ impl<W> Numbers<W> {
         }
     }
 
+    /// What the text writes into a number.
+    pub(super) fn writes(&self, number: u32) -> impl Iterator<Item = &W> {
+        let facts = self.facts.get(&self.one(number)).into_iter();
+        facts.flat_map(|facts| facts.writes.iter().map(|(what, _)| what))
+    }
+
     /// Whether the text writes a number.
     pub(super) fn is_written(&self, number: u32) -> bool {
         self.facts.contains_key(&self.one(number))

@@ -275,6 +275,27 @@ impl<'a> Entries<'a> {
         }
     }
 
+    /// The texts that are written into the transformation of a first number, each with its routine.
+    pub(super) fn transformations(&self, first: u32) -> Vec<(&'a [u8], u32)> {
+        let mut open: Vec<u32> = (first..first + EACH).collect();
+        let (mut seen, mut found) = (HashSet::default(), Vec::new());
+        while let Some(number) = open.pop() {
+            if !seen.insert(number) {
+                continue;
+            }
+            for (written, (routine, _)) in self.numbers.writes(number) {
+                match *written {
+                    Written::Part(text, _) => found.push((text, *routine)),
+                    Written::Number(other) => open.push(other),
+                    _ => {}
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
     /// Whether nothing but calls writes a number.
     pub(super) fn is_only_given(&self, number: u32) -> bool {
         let is_counted = self.counters.iter().any(|counter| counter.number == number);

@@ -1,6 +1,7 @@
 //! Calls: what runs, and what it is handed.
 
 use super::arrays::is_array;
+use super::moves::is_joints;
 use super::reader::Reader;
 use super::remarks::{COMPUTED, taken_apart};
 use super::sections::Statement;
@@ -122,8 +123,14 @@ impl<'a> Reader<'a> {
                 break;
             }
         }
-        let names = self.written.iter().map(|(_, name)| name.clone());
-        self.assigned.extend(names);
+        let names = self.written.iter().map(|(routine, stem)| {
+            let name = Name {
+                stem: stem.clone(),
+                key: None,
+            };
+            (self.owner_in(&name, *routine), name.stem)
+        });
+        self.assigned = names.collect();
     }
 
     /// Elements that programs are handed to write are there before any text asks for one of them.
@@ -305,6 +312,10 @@ impl<'a> Reader<'a> {
             }
         }
         let name = Name::of(given).filter(|(_, words)| *words == given.len());
+        if name.is_none() && (is_joints(given) || self.is_transformation(given, self.here.routine))
+        {
+            return self.position_given(given, number, callees, arguments);
+        }
         let Some((name, _)) = name.filter(|(name, _)| self.is_known(name)) else {
             return;
         };
@@ -336,6 +347,28 @@ impl<'a> Reader<'a> {
                 let value = value.map_or_else(|| self.unknown(COMPUTED), |(_, value)| *value);
                 let parameter = self.parameter(callee, stem.clone(), key);
                 arguments.push(Argument::new(Some(parameter), value, value.variable()));
+            }
+        }
+    }
+
+    /// A position that a call works out: `p+TRANS(0,0,50)`.
+    fn position_given(
+        &mut self,
+        given: Words<'a, '_>,
+        number: usize,
+        callees: &[RoutineId],
+        arguments: &mut Vec<Argument>,
+    ) {
+        let position = self.position(given);
+        let value = self.expr(&position);
+        if callees.is_empty() {
+            arguments.push(Argument::new(None, value, None));
+        }
+        let sign: &[u8] = if is_joints(given) { b"#" } else { b"" };
+        for &callee in callees {
+            if let Some(own) = self.parameters[callee as usize].get(number) {
+                let own = self.parameter(callee, [sign, own].concat(), Vec::new());
+                arguments.push(Argument::new(Some(own), value, None));
             }
         }
     }

@@ -5,13 +5,13 @@ use super::keywords::find;
 use super::moves::is_joints;
 use super::reader::Reader;
 use super::sections::{SPELLING, Statement};
-use super::targets::Name;
+use super::targets::{Name, shifted};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::TargetId;
 use crate::program::contexts::{Varied, varied};
 use crate::program::quantity::Quantity;
-use crate::program::script::{Expr, RoutineId, short};
+use crate::program::script::{Expr, Place, Remark, RoutineId, VariableId, short};
 use crate::program::transformations::{
     EACH, Entries, Numbering, Of, Reads, Steps, Written, exactly,
 };
@@ -270,7 +270,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether words are a transformation, and not a real number.
-    fn is_transformation(&self, part: Words<'a, '_>, routine: RoutineId) -> bool {
+    pub(super) fn is_transformation(&self, part: Words<'a, '_>, routine: RoutineId) -> bool {
         let (_, first) = part.terms().first().copied().unwrap_or((0, part));
         let is_built = [
             &b"TRANS"[..],
@@ -288,7 +288,7 @@ impl<'a> Reader<'a> {
         let name = Name::of(first);
         name.is_some_and(|(name, _)| {
             let written = (routine, name.stem.clone());
-            self.owner_in(&name, routine).is_none() && self.assigned.contains(&name.stem)
+            self.owner_in(&name, routine).is_none() && self.is_assigned(&name, routine)
                 || self.written.contains(&written)
                 || self.elements_in(&name, routine).is_some()
         })
@@ -335,20 +335,90 @@ impl<'a> Reader<'a> {
     /// What is added to a position at the present statement; names whose numbers are taken keep
     /// them.
     pub(super) fn steps(&mut self, part: Words<'a, '_>) -> Varied<Steps> {
-        let found = self.varied(&mut |of| self.sum(part, self.here.routine, of));
-        let taken = self.taken.take();
-        if !taken.is_empty() {
-            self.refuse_taken(taken);
-        }
-        found
+        self.keep_numbers(part);
+        self.varied(&mut |of| self.sum(part, self.here.routine, of))
     }
 
-    fn refuse_taken(&mut self, taken: Vec<TargetId>) {
+    /// Targets that a statement adds up keep their numbers, and so do those that these are copies of.
+    fn keep_numbers(&mut self, part: Words<'a, '_>) {
+        let (mut open, mut targets) = (Vec::new(), Vec::new());
+        added(part, &mut |term| {
+            open.extend(added_name(term).map(|name| (name, self.here.routine)));
+        });
         let source = &self.sources[self.here.file as usize];
         let (line, _) = source.line_column(self.here.at);
-        for target in taken {
-            let remark = super::remarks::added_up(&source.name, line);
-            self.builder.script.refuse(target, remark);
+        let remark = super::remarks::added_up(&source.name, line);
+        while let Some((name, routine)) = open.pop() {
+            let owner = self.owner_in(&name, routine);
+            if !self.added.insert((owner, name.clone())) {
+                continue;
+            }
+            targets.extend(self.targets_of(&name, routine));
+            if owner.is_none() && !self.is_assigned(&name, routine) {
+                continue;
+            }
+            let known = self.known();
+            let Some(number) = known.names.get(&(owner, name.stem)) else {
+                continue;
+            };
+            let mut literals = Vec::new();
+            for (text, routine) in known.entries.transformations(*number) {
+                let mut found = Vec::new();
+                SPELLING.add(text, 0..text.len(), &mut found);
+                let part = Words {
+                    bytes: text,
+                    all: &found,
+                };
+                let file = self.sections.programs[routine as usize].place.file;
+                let bytes = &self.sources[file as usize].bytes;
+                let start = text.as_ptr() as usize - bytes.as_ptr() as usize;
+                added(part, &mut |term| match added_name(term) {
+                    Some(name) => open.push((name, routine)),
+                    // a move may go to it by its name, too
+                    None => literals.push(Place::new(file, short(start + term.span().start))),
+                });
+            }
+            for place in literals {
+                self.added_literals.push((place, remark.clone()));
+            }
+        }
+        for target in targets {
+            self.builder.script.refuse(target, remark.clone());
+        }
+    }
+
+    /// Transformations that are written out keep their numbers where these are added up.
+    pub(super) fn keep_literals(&mut self) {
+        let all = std::mem::take(&mut self.added_literals);
+        let all: HashMap<Place, Remark> = all.into_iter().rev().collect();
+        for target in 0..self.builder.script.targets.len() {
+            let of = &self.builder.script.targets[target];
+            if let Some(remark) = all.get(&Place::new(of.file, of.offset)) {
+                self.builder.script.refuse(target, remark.clone());
+            }
+        }
+    }
+
+    /// The targets that a name may have been declared with: one where nothing writes it and its
+    /// index is known.
+    fn targets_of(&self, name: &Name, routine: RoutineId) -> Vec<TargetId> {
+        let elements = self.elements_in(name, routine);
+        let key = name
+            .key
+            .as_ref()
+            .filter(|_| !self.is_assigned(name, routine));
+        let one = elements.and_then(|of| of.variables.get(key?)).copied();
+        if let Some(target) = one.and_then(|one| self.declared_target(one)) {
+            return vec![target];
+        }
+        let all = elements.into_iter().flat_map(|of| of.variables.values());
+        all.filter_map(|one| self.declared_target(*one)).collect()
+    }
+
+    fn declared_target(&self, variable: VariableId) -> Option<TargetId> {
+        match self.builder.script.variables[variable as usize].declared {
+            Expr::Target(target) => Some(target),
+            _ => None,
         }
     }
 
@@ -383,6 +453,14 @@ impl<'a> Reader<'a> {
         if part.is_word(0, b"NULL") && part.len() == 1 {
             return Steps::default();
         }
+        if let Some((shifted, way)) = shifted(part) {
+            // along the axes that the sum counts in, before those that it turns
+            let mut numbers = exactly([0.0; 6]);
+            for (number, text) in numbers.iter_mut().zip(way.list().into_iter().take(3)) {
+                *number = Reads::quantity(self, text.whole(), routine, of);
+            }
+            return Steps::one(numbers).then(self.sum(shifted, routine, of));
+        }
         if part.is(0, b'(') && part.closing(0) + 1 == part.len() {
             return self.sum(part.inside(0).0, routine, of);
         }
@@ -400,31 +478,14 @@ impl<'a> Reader<'a> {
 
     /// One of the numbers of a transformation with a name.
     fn part_of(&self, name: &Name, at: u32, routine: RoutineId, of: &mut Of) -> Quantity {
-        let elements = self.elements_in(name, routine);
-        let declared = |variable: &u32| {
-            let script = &self.builder.script;
-            match script.variables[*variable as usize].declared {
-                Expr::Target(target) => Some(target),
-                _ => None,
-            }
-        };
-        let mut taken = self.taken.borrow_mut();
-        let mut take = |target: TargetId| {
-            if !taken.contains(&target) {
-                taken.push(target);
-            }
-        };
-        if !self.assigned.contains(&name.stem)
-            && let (Some(elements), Some(key)) = (elements, &name.key)
-            && let Some(target) = elements.variables.get(key).and_then(declared)
+        if !self.is_assigned(name, routine)
+            && let (Some(elements), Some(key)) = (self.elements_in(name, routine), &name.key)
+            && let Some(one) = elements.variables.get(key)
+            && let Some(target) = self.declared_target(*one)
         {
-            take(target);
             let numbers = self.builder.script.numbers_of(target);
             return Quantity::exactly(numbers[at as usize].value);
         }
-        let all = elements.into_iter().flat_map(|all| all.variables.values());
-        all.filter_map(declared).for_each(take);
-        drop(taken);
         let owner = self.owner_in(name, routine);
         match self.known().names.get(&(owner, name.stem.clone())) {
             Some(number) => of(number + at),
@@ -488,6 +549,25 @@ impl<'a> Reads<'a> for Reader<'a> {
             Quantity::exactly(numbers_of(&pose)[at])
         })
     }
+}
+
+/// Visits the transformations that a sum adds up: names, and what is written out.
+fn added(part: Words, visit: &mut dyn FnMut(Words)) {
+    for (_, term) in part.terms() {
+        if term.is(0, b'(') && term.closing(0) + 1 == term.len() {
+            added(term.inside(0).0, visit);
+        } else if let Some((shifted, _)) = shifted(term) {
+            added(shifted, visit);
+        } else {
+            visit(term);
+        }
+    }
+}
+
+/// The name of a transformation that a term is.
+fn added_name(term: Words) -> Option<Name> {
+    let (name, words) = Name::of(term)?;
+    (words == term.len() && !name.is_joints()).then_some(name)
 }
 
 /// The numbers that `POINT/X` and the like write.

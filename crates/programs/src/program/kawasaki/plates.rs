@@ -7,7 +7,7 @@ use super::pose_of;
 use super::reader::Reader;
 use super::remarks::ASSIGNED;
 use super::sections::Statement;
-use super::targets::Name;
+use super::targets::{Name, shifted};
 use crate::geometry::Pose;
 use crate::program::script::{Expr, Held, How, Place, Variable, VariableId, Written};
 use crate::program::words::{Words, six};
@@ -112,12 +112,11 @@ fn sum_of<'a, 'w>(
         if !matches!(verb, Verb::To(..) | Verb::Arc(_) | Verb::Near(_)) {
             return None;
         }
-        if first.is_word(0, b"SHIFT") && first.is(1, b'(') {
-            let (inside, _) = first.inside(1);
-            inside.part(0..inside.find(b"BY")?)
-        } else {
-            first
+        let mut position = first;
+        while let Some((inside, _)) = shifted(position) {
+            position = inside;
         }
+        position
     };
     // parameters of the program are what its callers say
     let is_own = |stem: &[u8]| own.iter().any(|own| own == stem);
@@ -208,7 +207,8 @@ impl<'a> Reader<'a> {
             },
         );
         let is_free = |stem: &[u8]| {
-            let is_assigned = self.assigned.contains(stem) && !taught.contains(stem);
+            let is_assigned = self.assigned.contains(&(None, stem.to_vec()));
+            let is_assigned = is_assigned && !taught.contains(stem);
             !others.contains(stem) && !is_assigned
         };
         let shared = self.names.get(&None);

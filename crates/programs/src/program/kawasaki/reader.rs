@@ -16,13 +16,13 @@ use crate::program::contexts::Calls;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, RoutineId, Script, Start, Test, UNBOUNDED, ValueId, Variable,
-    VariableId, Written, short,
+    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, Test, UNBOUNDED, ValueId,
+    Variable, VariableId, Written, short,
 };
 use crate::program::words::Words;
-use crate::program::{Load, Number, Source, SpeedZone, TargetId};
+use crate::program::{Load, Number, Source, SpeedZone};
 use foldhash::{HashMap, HashSet};
-use std::cell::{OnceCell, RefCell};
+use std::cell::OnceCell;
 
 /// Where the reader is.
 #[derive(Default)]
@@ -50,7 +50,7 @@ pub(super) struct Reader<'a> {
     /// Names of each program, and of all.
     pub names: HashMap<Option<RoutineId>, HashMap<Vec<u8>, Elements>>,
     /// Names that a statement writes.
-    pub assigned: HashSet<Vec<u8>>,
+    pub assigned: HashSet<Owned>,
     /// Likewise, with the program that it stands in.
     pub written: HashSet<(RoutineId, Vec<u8>)>,
     /// Programs by name in small letters.
@@ -61,8 +61,10 @@ pub(super) struct Reader<'a> {
     pub known: OnceCell<Known<'a>>,
     /// Names that programs only show, once a `DECOMPOSE` asks.
     pub shown: OnceCell<Shown>,
-    /// Targets whose numbers are added to those of others.
-    pub taken: RefCell<Vec<TargetId>>,
+    /// Names whose numbers are added to those of others, by the program that they belong to.
+    pub added: HashSet<(Option<RoutineId>, Name)>,
+    /// What is written out and added to others, and what is said of it where moves go there.
+    pub added_literals: Vec<(Place, Remark)>,
     /// Names whose numbers programs read out of them, and where first.
     pub apart: HashMap<Owned, Place>,
     /// Names that `POINT` writes, each with one in what it writes.
@@ -152,7 +154,8 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         shown: OnceCell::new(),
         apart: HashMap::default(),
         copied: Vec::new(),
-        taken: RefCell::default(),
+        added: HashSet::default(),
+        added_literals: Vec::new(),
         plates: Plates::default(),
         by_calls: Calls::default(),
         given: Given::default(),
@@ -171,7 +174,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
     for entry in &sections.entries {
         reader.declare(entry);
     }
-    for (routine, program) in (0..).zip(&sections.programs) {
+    for program in &sections.programs {
         let name = Source::text(program.name);
         let key = program.name.to_ascii_lowercase();
         let start = if is_started(&key) {
@@ -186,6 +189,8 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         }
         ones.push(reader.builder.declare(name, program.place, start));
         reader.parameters.push(program.parameters.clone());
+    }
+    for (routine, program) in (0..).zip(&sections.programs) {
         reader.note_assigned(program, routine, &mut handed);
     }
     reader.note_handed(&handed);
@@ -196,6 +201,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         reader.program(routine, program);
     }
     reader.refuse_apart();
+    reader.keep_literals();
     reader.start_uncalled();
     reader.write_any();
     reader.hand_over_calls();

@@ -73,6 +73,7 @@ impl<'a> Program<'a> {
         let mut found = Vec::new();
         for line in lines(bytes, self.lines.clone()).filter(|line| is_wanted(line.text)) {
             let (label, words) = behind_label(line.words(bytes, &mut found));
+            let words = commanded(words);
             visit(&Statement {
                 start: line.start,
                 label,
@@ -81,6 +82,19 @@ impl<'a> Program<'a> {
             });
         }
     }
+}
+
+/// What a process gives the monitor to do (`MC TOOL t`), where that sets something.
+///
+/// # Source
+/// *Not verified on a controller.*
+fn commanded<'a, 'w>(line: Words<'a, 'w>) -> Words<'a, 'w> {
+    let command = line.behind(usize::from(line.is_word(0, b"MC")));
+    let sets = matches!(
+        keyword(command),
+        "TOOL" | "BAse" | "POint" | "HEre" | "WEight"
+    );
+    if sets { command } else { line }
 }
 
 /// The number or name that a line begins with to be jumped to, and what is behind it.

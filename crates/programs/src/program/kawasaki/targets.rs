@@ -128,6 +128,18 @@ impl Position {
     }
 }
 
+/// What `SHIFT(p BY x,y,z)` shifts, in whichever brackets, and its way; `None` of another term.
+pub(super) fn shifted<'a, 'w>(term: Words<'a, 'w>) -> Option<(Words<'a, 'w>, Words<'a, 'w>)> {
+    let is_shift = term.is_word(0, b"SHIFT") && term.is(1, b'(');
+    if !is_shift || term.closing(1) + 1 != term.len() {
+        return None;
+    }
+    let (inside, _) = term.inside(1);
+    // that of a shift inside stands before it
+    let by = (0..inside.len()).rfind(|at| inside.is_word(*at, b"BY"))?;
+    Some((inside.part(0..by), inside.behind(by + 1)))
+}
+
 /// An angle of a transformation that is written out which turns a tool or base many times.
 fn endless_angle(part: Words) -> Option<f64> {
     let terms = part.terms();
@@ -263,6 +275,12 @@ impl<'a> Reader<'a> {
         (is_parameter || name.plain().starts_with(b".")).then_some(routine)
     }
 
+    /// Whether a statement writes a name that means here what it means there.
+    pub(super) fn is_assigned(&self, name: &Name, routine: RoutineId) -> bool {
+        let owned = (self.owner_in(name, routine), name.stem.clone());
+        self.assigned.contains(&owned)
+    }
+
     fn owner(&self, name: &Name) -> Option<RoutineId> {
         self.owner_in(name, self.here.routine)
     }
@@ -312,7 +330,9 @@ impl<'a> Reader<'a> {
         let is_local = self.is_local(name);
         match self.table(name) {
             None if is_local => self.unknown(COMPUTED),
-            None if self.assigned.contains(&name.stem) => self.unknown(no_element(&name.text())),
+            None if self.is_assigned(name, self.here.routine) => {
+                self.unknown(no_element(&name.text()))
+            }
             None => self.unknown(not_in_files(&name.text())),
             Some(table) => {
                 // others of the program's own may follow in the text
@@ -377,9 +397,12 @@ impl<'a> Reader<'a> {
             return None;
         };
         let behind = part.behind(first.len() + 1);
-        let named = Name::of(second);
-        let named = named.filter(|(name, words)| *words == second.len() && self.is_known(name));
-        if named.is_none() && self.in_front(behind).is_none() {
+        let named = |part: Words<'a, 'w>| {
+            let (name, words) = Name::of(part)?;
+            (words == part.len() && self.is_known(&name)).then_some(())
+        };
+        let is_shift = shifted(second).is_some();
+        if !is_shift && named(second).is_none() && self.in_front(behind).is_none() {
             return None;
         }
         let list = first.rest_list(1).unwrap_or_default();
@@ -401,13 +424,10 @@ impl<'a> Reader<'a> {
         if part.is_word(0, b"TRANS") && part.is(1, b'(') {
             return Position::plain(self.literal(part, 1, Shape::Pose));
         }
-        if part.is_word(0, b"SHIFT") && part.is(1, b'(') {
-            let (inside, _) = part.inside(1);
-            if let Some(by) = inside.find(b"BY") {
-                let way = self.quantities(&inside.behind(by + 1).list());
-                let way = way.map(|[x, y, z, ..]| [x, y, z]);
-                return self.position(inside.part(0..by)).along(way);
-            }
+        if let Some((shifted, way)) = shifted(part) {
+            let way = self.quantities(&way.list());
+            let way = way.map(|[x, y, z, ..]| [x, y, z]);
+            return self.position(shifted).along(way);
         }
         let is_joints = part.is(0, b'#');
         if part.is_word(usize::from(is_joints), b"HERE") {
@@ -467,7 +487,7 @@ impl<'a> Reader<'a> {
                 self.named(&name)
             }
             Some((name, words)) if words == part.len() && name.key.is_some() => {
-                if self.is_known(&name) || self.assigned.contains(&name.stem) {
+                if self.is_known(&name) || self.is_assigned(&name, self.here.routine) {
                     Expr::Variable(self.variable(&name))
                 } else {
                     self.frame_value(&name.text(), None)

@@ -325,3 +325,112 @@ fn an_arc_on_an_arc_is_refused_however_the_program_comes_to_it() {
         "C1MOVE p[1]\nSPEED 10\nC2MOVE p[2]\nC1MOVE p[1]\nC2MOVE p1"
     ));
 }
+
+#[test]
+fn what_a_call_gives_next_to_a_number_is_not_added_up() {
+    let read = |code: &str, others: &str| {
+        let text = format!(
+            ".PROGRAM main()\nTOOL grip\nBASE NULL\nJMOVE #home\n{code}\n.END\n{others}{POINTS}"
+        );
+        read_files(&[&text]).expect("programs")
+    };
+    // the height is looked up among all that the call gives, and then something is added up
+    let pick = ".PROGRAM pick(.p,.h)\nLAPPRO .p,.h\nLMOVE .p+TRANS(0,0,.h)\nLMOVE p[1]+off\n.END\n";
+    let program = read("CALL pick(p1,10)\nCALL pick(p[2],20)", pick);
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
+    // what is added up stays, by whatever way it comes, and however often it is looked up
+    for (code, others) in [
+        ("CALL go(p1)", ".PROGRAM go(.t)\nLMOVE p[1]+.t\n.END\n"),
+        ("POINT .q = p1\nLMOVE p[1]+.q", ""),
+        ("POINT .q = (p1)+TRANS(0,0,5)\nLMOVE p[1]+.q", ""),
+        ("LMOVE p[1]+SHIFT(p1 BY 0,0,1)", ""),
+        (
+            "CALL go(p1,5)",
+            ".PROGRAM go(.t,.h)\nLAPPRO p[1],.h\nLMOVE p[1]+.t\n.END\n",
+        ),
+    ] {
+        let program = read(&format!("{code}\nLMOVE p1"), others);
+        let found = program.findings.iter();
+        let added = found.filter(|found| found.id == "target-used-as-frame");
+        let added: Vec<_> = added.map(|found| &found.message[..3]).collect();
+        assert_eq!(added, ["p1:"], "{code}: {:?}", program.findings);
+    }
+}
+
+#[test]
+fn shifts_of_shifts_add_up() {
+    for code in [
+        "LMOVE SHIFT(SHIFT(p1 BY 10,0,0) BY 0,20,0)",
+        "POINT b = SHIFT(SHIFT(p1 BY 10,0,0) BY 0,20,0)\nLMOVE b",
+        "POINT b = SHIFT(p1 BY 10,0,0)\nLMOVE SHIFT(b BY 0,20,0)",
+        "LMOVE TRANS(10,0,0)+SHIFT(p1 BY 0,20,0)",
+        "LMOVE NULL+TRANS(4,0,0)+SHIFT(SHIFT(p1 BY 6) BY 0,20)",
+        "LMOVE SHIFT(TRANS(10,0,0)+p1 BY 0,20,0)",
+    ] {
+        assert_eq!(by(code, ""), along([0.01, 0.02, 0.0]), "{code}");
+    }
+    // in the axes of the base, before the tool's own
+    let both = by("LMOVE SHIFT(SHIFT(p1 BY 10,0,0)+off BY 0,20,0)", "");
+    let expected = Displacement::By(Box::new(Shift {
+        in_frame: Pose::from_translation(0.01, 0.02, 0.0),
+        in_tool: Pose::from_translation(0.0, 0.0, -0.05),
+    }));
+    assert_eq!(both, expected);
+    // as a step: what it shifts begins there
+    let step = by("LMOVE p1+SHIFT(SHIFT(off BY 10,0,0) BY 0,20,0)", "");
+    assert_eq!(step, in_tool([0.01, 0.02, -0.05]));
+}
+
+#[test]
+fn a_name_is_written_where_it_means_the_same() {
+    let text = |others: &str| {
+        let text = format!(
+            ".PROGRAM main()\nTOOL grip\nBASE NULL\nJMOVE #home\nLMOVE p1\nLMOVE p1+off\n.END\n{others}{POINTS}"
+        );
+        read_files(&[&text]).expect("programs")
+    };
+    let plain = text("");
+    for others in [
+        ".PROGRAM a(p1,off)\nPOINT p1 = FRAME(q,r,s,q)\nPOINT off = p1\nBASE p1\n.END\n",
+        ".PROGRAM a()\nPOINT .p1 = FRAME(q,r,s,q)\nDECOMPOSE .x[0] = .p1\n.END\n",
+        ".PROGRAM a(p1)\nDECOMPOSE .x[0] = p1\nCALL b(.x[0])\n.END\n",
+    ] {
+        let program = text(others);
+        let both = [&plain, &program].map(|of| &of.moves.last().expect("a move").displacement);
+        assert_eq!(both[0], both[1], "{others}");
+        let blocked = program.targets.iter().filter(|of| of.blocked);
+        let blocked: Vec<_> = blocked.filter_map(|of| of.name.as_deref()).collect();
+        assert!(!blocked.contains(&"p1"), "{others}: {:?}", program.findings);
+    }
+}
+
+#[test]
+fn a_position_that_a_call_works_out_displaces_its_target() {
+    let go = ".PROGRAM go(.p)\nLMOVE .p\n.END\n";
+    for (given, expected) in [
+        ("p1+TRANS(0,0,200)", in_tool([0.0, 0.0, 0.2])),
+        ("SHIFT(p1 BY 10,0,0)", along([0.01, 0.0, 0.0])),
+        ("TRANS(10,0,0)+p1", along([0.01, 0.0, 0.0])),
+    ] {
+        assert_eq!(
+            by(&format!("CALL go(p[1])\nCALL go({given})"), go),
+            expected,
+            "{given}"
+        );
+    }
+    // what is written out is a target, but not where its numbers are added up, too
+    let blocked = |others: &str| {
+        let text = format!(
+            ".PROGRAM main()\nTOOL grip\nBASE NULL\nJMOVE #home\nCALL go(TRANS(1,2,3,4,5,6))\n.END\n{others}{POINTS}"
+        );
+        let program = read_files(&[&text]).expect("programs");
+        let moved = program.moves.iter().filter_map(|of| program.target_of(of));
+        let written_out = moved.filter(|target| target.name.is_none());
+        written_out.map(|target| target.blocked).collect::<Vec<_>>()
+    };
+    assert_eq!(blocked(go), [false]);
+    let both = ".PROGRAM go(.p)\nLMOVE p1+.p\nLMOVE .p\n.END\n";
+    assert_eq!(blocked(both), [true]);
+    let behind = ".PROGRAM go(.p)\nLMOVE .p\nLMOVE p1+.p\n.END\n";
+    assert_eq!(blocked(behind), [true]);
+}

@@ -151,3 +151,23 @@ fn an_array_without_a_named_element_is_said_to_be_that() {
     let message = &found.expect("an error").message;
     assert!(message.contains("one of its elements"), "{message}");
 }
+
+#[test]
+fn what_a_process_gives_the_monitor_to_set_is_set() {
+    let frames = |line: &str| -> Vec<String> {
+        let text = format!(
+            ".PROGRAM main()\nTOOL grip\nBASE NULL\nPCEXECUTE 1: other\nJMOVE #home\nLMOVE p1\n.END\n.PROGRAM \
+             other()\n{line}\n.END\n{POINTS}"
+        );
+        let program = read_files(&[&text]).expect("programs");
+        let moves = program
+            .moves
+            .iter()
+            .filter(|of| target(&program, of) == Some("p1"));
+        moves
+            .map(|of| program.frames[of.frame].name.clone())
+            .collect()
+    };
+    assert_eq!(frames("MC BASE off"), frames("BASE off"));
+    assert_ne!(frames("MC BASE off"), frames("MC STATUS"));
+}
