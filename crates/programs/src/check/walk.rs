@@ -19,6 +19,7 @@ use crate::motion::placed::Placed;
 use crate::motion::plausibility;
 use crate::motion::ride::{Ride, through};
 use crate::motion::setting::Setting;
+use crate::motion::sides;
 use crate::motion::unreached;
 use crate::motion::walk::{self, Arrival, WalkOptions};
 use crate::profile::{Mounted, Profile};
@@ -216,6 +217,7 @@ impl Walk {
             turning: options.turning,
         };
         let arrivals = walk::walk(&ground, &walk_options, &mut findings);
+        sides::revisits(&ground, &arrivals, &walk_options, &mut findings);
         let mut order: Vec<usize> = (0..arrivals.all.len()).collect();
         let key = |at: usize| (arrivals.all[at].motion, arrivals.all[at].from);
         order.sort_by_key(|&at| key(at));

@@ -2,12 +2,12 @@
 //! knows: from which side they come to it depends on that.
 
 use super::approach::stays;
-use super::ends::{Ends, Path, other_side_m};
+use super::ends::{Ends, Path};
 use super::{Job, LEAST_SIDE_M};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::motion::follow;
 use crate::motion::walk::{Arrivals, WalkOptions};
+use crate::motion::{follow, sides};
 use crate::program::{Displacement, Motion, TargetId};
 use std::collections::BTreeMap;
 
@@ -63,7 +63,7 @@ pub(super) fn report(
             continue;
         };
         if turning.contains(&true) {
-            let off_m = other_side_m(job, before, ends.directions[at], turning);
+            let off_m = sides::apart_m(&job.ground, before, ends.directions[at], turning);
             let known = worst.entry(target).or_insert((0.0, at, turning));
             if off_m > known.0 {
                 *known = (off_m, at, turning);

@@ -13,7 +13,7 @@ use crate::motion::arms::Equipped;
 use crate::motion::backlash::{self, Stretch, Within};
 use crate::motion::course::Course;
 use crate::motion::walk::{Arrival, Arrivals, NOWHERE, WalkOptions};
-use crate::motion::{follow, middle, ride};
+use crate::motion::{follow, middle, ride, sides};
 use crate::program::script::short;
 use crate::program::{Before, Displacement, Motion, Move, Program, TargetId};
 use std::collections::BTreeMap;
@@ -168,7 +168,10 @@ impl Begin {
         let program = job.ground.program;
         if arrival.from == NOWHERE {
             let before = program.before(&program.moves[arrival.motion as usize]);
-            let begins = arrival.known && before.contains(&Before::Start);
+            // behind any of many moves nobody knows which
+            let is_one_of = |before: &Before| matches!(before, Before::AnyOf { .. });
+            let is_many = before.iter().any(is_one_of);
+            let begins = arrival.known && before.contains(&Before::Start) && !is_many;
             return walk_options
                 .start_joints
                 .filter(|_| begins)
@@ -332,21 +335,10 @@ fn is_led(program: &Program, arrival: &Arrival) -> bool {
         .is_ok()
 }
 
-/// Where joints stand at the end of a move, but for their directions.
-fn conditions(job: &Job, motion: &Move) -> Conditions {
-    let ground = &job.ground;
-    // of joint moves nobody need know the frame
-    let placed = ground.setting.frames[ground.frame_of(motion)].as_ref();
-    Conditions {
-        gravity_m_s2: placed.and_then(|placed| placed.gravity_m_s2),
-        ..ground.arm_with(motion.tool).inverse.conditions
-    }
-}
-
 /// How wide the backlash of each joint is at the end of a move, radians.
 fn widths(job: &Job, motion: &Move, q: &[f64; 6]) -> [f64; 6] {
     let equipped = job.ground.arm_with(motion.tool);
-    equipped.backlash_rad(q, &conditions(job, motion))
+    equipped.backlash_rad(q, &sides::conditions(&job.ground, motion))
 }
 
 impl TakenUp {
@@ -391,7 +383,7 @@ impl TakenUp {
             if !arrival.known || !open.contains(&true) || is_led(program, arrival) {
                 continue;
             }
-            let off_m = other_side_m(job, arrival, ends.directions[at], open);
+            let off_m = sides::apart_m(&job.ground, arrival, ends.directions[at], open);
             let before = worst.entry(target).or_insert((0.0, at));
             if off_m > before.0 {
                 *before = (off_m, at);
@@ -437,25 +429,4 @@ impl TakenUp {
         let (id, severity) = ("direction-uncertain", Severity::Warning);
         ground.at_target(id, severity, target, message, hint)
     }
-}
-
-/// How far off the tool is where some joints come from the other side, metres.
-pub(super) fn other_side_m(
-    job: &Job,
-    arrival: &Arrival,
-    direction: [i8; 6],
-    open: [bool; 6],
-) -> f64 {
-    let ground = &job.ground;
-    let motion = &ground.program.moves[arrival.motion as usize];
-    let equipped = ground.arm_with(motion.tool);
-    let from = |side: f64| {
-        let of = |i: usize| f64::from(direction[i]) * if open[i] { side } else { 1.0 };
-        let conditions = Conditions {
-            direction: std::array::from_fn(of),
-            ..conditions(job, motion)
-        };
-        equipped.inverse.real.forward(&arrival.q, &conditions)
-    };
-    from(1.0).separation(&from(-1.0)).distance_m
 }

@@ -66,6 +66,8 @@ mod singular;
 mod solve;
 mod strange;
 mod strides;
+#[cfg(test)]
+mod tests;
 mod written;
 
 use limit::Limits;
@@ -82,6 +84,7 @@ pub use crate::inverse::Methods;
 use crate::inverse::Unsupported;
 use crate::model::effects::Effect;
 use crate::motion::ground::Ground;
+use crate::motion::sides::{self, LEAST_SIDE_M};
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
 use crate::motion::{external, plausibility, setting, unreached};
@@ -92,9 +95,6 @@ use std::collections::BTreeMap;
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
-/// What a side of a joint with backlash makes is reported beyond this, as one set of numbers serves
-/// approaches that differ by no more, metres.
-const LEAST_SIDE_M: f64 = 2e-6;
 /// Angles of a positioner that differ by less are the same.
 const SAME_ANGLE_RAD: f64 = 1e-9;
 
@@ -440,6 +440,7 @@ fn with(
     } else {
         displaced::arrivals(&job, &arrivals, &|_| [0; 6])
     };
+    sides::revisits(&job.ground, &arrivals, &walk_options, &mut findings);
     drop(arrivals);
     let Rewritten {
         reports: mut targets,

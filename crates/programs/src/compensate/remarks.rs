@@ -184,7 +184,7 @@ pub(super) fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Find
         margins.elbow_rad / DEG,
         mm_from_m(margins.shoulder_m)
     );
-    let (id, message) = match outcome.status {
+    let (id, mut message) = match outcome.status {
         Status::OutOfReach => (
             "out-of-reach",
             format!("the real robot does not reach {name}: {missing}; {near}"),
@@ -213,6 +213,8 @@ pub(super) fn failure(job: &Job, approach: &Approach, outcome: &Outcome) -> Find
             format!("no joints found for {name}: {missing}; {near}"),
         ),
     };
+    let motion = job.ground.program.moves.get(approach.motion as usize);
+    message.extend(motion.and_then(|motion| job.ground.among_uses(motion)));
     let mut hint = "move the target, or --keep-going to leave it as it is".to_owned();
     if let Some(offers) = singular::offers(job, approach) {
         hint = format!("{hint}; or {offers}");

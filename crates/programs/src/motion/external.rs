@@ -252,7 +252,9 @@ fn followed(
                             Some(Some(start)) => (Known::Is(*start), Known::Unknown),
                             _ => (Known::Unknown, Known::Unknown),
                         },
-                        Before::Anywhere | Before::Several(_) => (Known::Unknown, Known::Unknown),
+                        Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => {
+                            (Known::Unknown, Known::Unknown)
+                        }
                     };
                     value = value.and(from);
                     direction = direction.and(match (from, values[here]) {

@@ -235,6 +235,33 @@ impl<'a> Ground<'a> {
             .map_or_else(|| "this target".into(), |name| format!("`{name}`"))
     }
 
+    /// With which tool and work frame a move goes to its target, and with which others do, in words;
+    /// `None` where all go there with the same.
+    pub(crate) fn among_uses(&self, motion: &Move) -> Option<String> {
+        let program = self.program;
+        let with = |of: &Move| {
+            let (tool, frame) = (&program.tools[of.tool].name, &program.frames[of.frame].name);
+            format!(
+                "tool {tool} in work frame {frame} (line {})",
+                self.line_of(of)
+            )
+        };
+        let all = program.moves.iter().filter(|of| of.target == motion.target);
+        let mut seen = vec![(motion.tool, motion.frame)];
+        let mut others = Vec::new();
+        for other in all {
+            if !seen.contains(&(other.tool, other.frame)) {
+                seen.push((other.tool, other.frame));
+                others.push(with(other));
+            }
+        }
+        let others = (!others.is_empty()).then(|| others.join(", "))?;
+        Some(format!(
+            "; that is with {}; other moves go to it with {others}",
+            with(motion)
+        ))
+    }
+
     /// The line of a move.
     pub(crate) fn line_of(&self, motion: &Move) -> usize {
         let source = &self.sources[motion.file as usize];

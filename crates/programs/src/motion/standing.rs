@@ -68,7 +68,14 @@ impl Walker<'_, '_> {
             elsewhere: self.named.get(&target).copied().or(last_known),
             goes_on: last_known.is_some() && !self.named.contains_key(&target),
         };
-        let posture = posture::choose(ground, &asked, self.findings)?;
+        let said = self.findings.len();
+        let Some(posture) = posture::choose(ground, &asked, self.findings) else {
+            let uses = ground.among_uses(motion);
+            for found in &mut self.findings[said..] {
+                found.message.extend(uses.as_deref());
+            }
+            return None;
+        };
         if leaves_reach && !self.walk_options.strict {
             let joints = posture.q.map(|q| format!("{:.1}", q / DEG)).join(", ");
             let message = format!(

@@ -6,6 +6,7 @@
 //! of its rate at the end of the path; one that stands keeps its last.
 
 use super::course::ToolRotation;
+use super::crowds::{Crowds, starts};
 use super::follow::{course, direction_of, turned};
 use super::ground::Ground;
 use super::inherited::Assumptions;
@@ -212,16 +213,22 @@ pub(crate) fn walk(
         no_row_before: 0,
     };
     let behind = Behind::of(ground);
+    let mut crowds = Crowds::of(ground);
     for at in 0..count {
         let motion = &ground.program.moves[at];
-        let starts = |before: &Before| !matches!(before, Before::One(_));
-        if ground.program.before(motion).iter().any(starts) {
+        if ground
+            .program
+            .before(motion)
+            .iter()
+            .any(|before| starts(motion, before))
+        {
             walker
                 .open
                 .push(Reverse((crate::program::script::short(at), NOWHERE)));
         }
     }
     walker.run(&behind);
+    walker.run_crowds(&behind, &mut crowds);
     // moves that only moves without an arrival come before
     for at in 0..count {
         if walker.arrivals.first[at] == NOWHERE {
@@ -229,6 +236,7 @@ pub(crate) fn walk(
                 .open
                 .push(Reverse((crate::program::script::short(at), NOWHERE)));
             walker.run(&behind);
+            walker.run_crowds(&behind, &mut crowds);
         }
     }
     walker.name_inherited();
@@ -292,35 +300,40 @@ pub(super) struct Walker<'a, 'f> {
 }
 
 impl Walker<'_, '_> {
-    fn run(&mut self, behind: &Behind) {
+    pub(super) fn run(&mut self, behind: &Behind) {
         while let Some(Reverse((at, from))) = self.open.pop() {
             if self.walk_row(behind, at, from) {
                 continue;
             }
             let arrival = self.arrive(at, from);
-            let mut others = 0;
-            let mut is_same = false;
-            let mut is_new = true;
-            for other in self.arrivals.at(at as usize) {
-                let other = &self.arrivals.all[other];
-                others += 1;
-                let alike = is_alike(other, &arrival);
-                is_new &= !alike;
-                is_same |= alike && self.motion_of(other.from) == self.motion_of(arrival.from);
-            }
-            if is_same {
-                continue;
-            }
-            if others >= MOST_ARRIVALS {
-                self.too_many(at);
-                continue;
-            }
-            self.arrivals.add(arrival);
-            if is_new {
-                let here = crate::program::script::short(self.arrivals.all.len() - 1);
-                for &next in behind.of_move(at) {
-                    self.open.push(Reverse((next, here)));
-                }
+            self.add(behind, arrival);
+        }
+    }
+
+    /// Adds an arrival where it is another than those at its move, and goes on from there.
+    pub(super) fn add(&mut self, behind: &Behind, arrival: Arrival) {
+        let at = arrival.motion;
+        let mut others = 0;
+        let mut is_same = false;
+        let mut is_new = true;
+        for other in self.arrivals.at(at as usize) {
+            let other = &self.arrivals.all[other];
+            others += 1;
+            let alike = is_alike(other, &arrival);
+            is_new &= !alike;
+            is_same |= alike && self.motion_of(other.from) == self.motion_of(arrival.from);
+        }
+        if is_same {
+            return;
+        }
+        if others >= MOST_ARRIVALS {
+            return self.too_many(at);
+        }
+        self.arrivals.add(arrival);
+        if is_new {
+            let here = crate::program::script::short(self.arrivals.all.len() - 1);
+            for &next in behind.of_move(at) {
+                self.open.push(Reverse((next, here)));
             }
         }
     }

@@ -21,6 +21,7 @@
 //! # Ok::<(), poseshift_programs::program::ReadError>(())
 //! ```
 
+mod before;
 mod contexts;
 pub mod csv;
 mod deciding;
@@ -54,6 +55,7 @@ pub mod val3;
 mod words;
 mod xml;
 
+pub use before::Before;
 pub use deciding::{Decided, Deciding};
 pub(crate) use deciding::{decided, may_decide};
 pub use displacement::{Displacement, Shift, Stride};
@@ -384,20 +386,6 @@ impl Default for Move {
     }
 }
 
-/// The moves that may come before a move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Before {
-    /// None: the program starts with it.
-    #[default]
-    Start,
-    /// Any, or ones that are not known.
-    Anywhere,
-    /// One, by its index in [`Program::moves`].
-    One(u32),
-    /// Several, by index in [`Program::befores`].
-    Several(u32),
-}
-
 /// A routine that may run between any two moves of others (a trap, an interrupt, a thread), and
 /// moves the robot, or may.
 #[derive(Clone, Debug, PartialEq)]
@@ -445,6 +433,9 @@ pub struct Program {
     pub named: Vec<(TargetId, [f64; 6])>,
     /// Moves that come before others where there are several.
     pub befores: Vec<Box<[Before]>>,
+    /// Moves, by index in [`Program::moves`], to where the robot itself was, and the moves that it may
+    /// have come from when that was read: as [`Program::listed`] takes them.
+    pub revisits: Vec<(u32, Before)>,
     /// Calls between a move and the ones before that may have left the robot elsewhere: of routines
     /// that are not in the files, and searches that stop. Indices in [`Program::moves`], which are
     /// in order, and in [`Program::calls`].
@@ -537,12 +528,16 @@ impl Program {
         text.near.as_deref()
     }
 
-    /// The moves that may come before a move: each [`Before::Start`], [`Before::Anywhere`] or
-    /// [`Before::One`].
+    /// The moves that may come before a move, as [`Program::listed`] gives them.
     pub fn before<'a>(&'a self, motion: &'a Move) -> &'a [Before] {
-        match motion.before {
-            Before::Several(at) => &self.befores[at as usize],
-            _ => std::slice::from_ref(&motion.before),
+        self.listed(&motion.before)
+    }
+
+    /// What comes before, one by one: none is [`Before::Several`].
+    pub fn listed<'a>(&'a self, before: &'a Before) -> &'a [Before] {
+        match before {
+            Before::Several(at) => &self.befores[*at as usize],
+            one => std::slice::from_ref(one),
         }
     }
 

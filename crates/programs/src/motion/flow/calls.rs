@@ -76,6 +76,7 @@ impl Flow<'_> {
         let uncertain = self.holdings.one(Atom::Uncertain, site);
         for at in 0..self.changing.len() {
             let slot = self.changing[at] as usize;
+            self.outdate(state, self.tracked[slot]);
             let joined = self.holdings.join(state.holds[slot], uncertain);
             Rc::make_mut(&mut state.holds)[slot] = joined;
         }

@@ -20,8 +20,8 @@ pub(super) use moved::OF_MOVE;
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start, Statement, TableId, ValueId,
-    VariableId, short,
+    Expr, Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start, Statement, TableId,
+    ValueId, VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::{BTreeSet, BinaryHeap};
@@ -150,6 +150,11 @@ pub(super) struct Flow<'a> {
     made_records: HashMap<Content, ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
+    /// Such a position as long as nothing has written the variables that held its tool and its work
+    /// frame since it was read; these, and what it is then.
+    fresh: Vec<(ValueId, [Expr; 2], ValueId)>,
+    /// Which moves may come before a statement that reads such a position.
+    pub stood: HashMap<Site, Before>,
     /// Those positions, and what they are displaced.
     near: Vec<(ValueId, ValueId)>,
     /// The position of the robot itself that a move reads and goes to.
@@ -238,6 +243,8 @@ impl<'a> Flow<'a> {
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
             reads: Vec::new(),
+            fresh: Vec::new(),
+            stood: HashMap::new(),
             near: Vec::new(),
             here: None,
             locals: HashMap::new(),

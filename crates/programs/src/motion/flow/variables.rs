@@ -81,7 +81,7 @@ impl Flow<'_> {
             let once = match (n, whole[variable]) {
                 (0, _) => Some((declared, DECLARED)),
                 (1, Some(value @ (Expr::Target(_) | Expr::Value(_))))
-                    if declared == Expr::Absent =>
+                    if declared == Expr::Absent && !self.reads_modes(value) =>
                 {
                     Some((value, site))
                 }
@@ -101,6 +101,14 @@ impl Flow<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a value depends on tool and work frame where it is read.
+    fn reads_modes(&self, value: Expr) -> bool {
+        let Expr::Value(value) = value else {
+            return false;
+        };
+        matches!(self.value(value), Held::ActualWith { .. })
     }
 
     /// What an expression without variables that are written holds; of one with such variables
@@ -289,6 +297,58 @@ impl Flow<'_> {
         value
     }
 
+    /// Where the robot is, just read with what these hold.
+    fn freshly(&mut self, of: [Expr; 2], read: Holding) -> Holding {
+        let &[(Atom::Value(value), site)] = self.holdings.of(read) else {
+            return read;
+        };
+        let known = (self.fresh.iter()).find(|(_, own, then)| (*own, *then) == (of, value));
+        let fresh = known.map(|(fresh, ..)| *fresh).unwrap_or_else(|| {
+            self.made.push(Held::Actual);
+            let made = short(self.script.values.len() + self.made.len() - 1);
+            self.fresh.push((made, of, value));
+            made
+        });
+        self.holdings.one(Atom::Value(fresh), site)
+    }
+
+    /// A variable is written: positions that were read with what it held before are no more as they
+    /// would be read now.
+    pub(super) fn outdate(&mut self, state: &mut State, variable: VariableId) {
+        let of = Expr::Variable(variable);
+        let read = self.fresh.iter().filter(|(_, own, _)| own.contains(&of));
+        let read: HashMap<ValueId, ValueId> =
+            read.map(|(fresh, _, then)| (*fresh, *then)).collect();
+        if read.is_empty() {
+            return;
+        }
+        let then = |atom: &Atom| match atom {
+            Atom::Value(value) => read.get(value).copied(),
+            _ => None,
+        };
+        for slot in 0..state.holds.len() {
+            let atoms = self.holdings.of(state.holds[slot]);
+            if !atoms.iter().any(|(atom, _)| then(atom).is_some()) {
+                continue;
+            }
+            let atoms = atoms.iter().map(|(atom, site)| match then(atom) {
+                Some(value) => (Atom::Value(value), *site),
+                None => (*atom, *site),
+            });
+            let atoms = atoms.collect();
+            Rc::make_mut(&mut state.holds)[slot] = self.holdings.intern(atoms);
+        }
+    }
+
+    /// Whether a variable is what it was since a position was read with it, as long as that is fresh.
+    fn keeps(&self, of: Expr) -> bool {
+        let Expr::Variable(variable) = of else {
+            return false;
+        };
+        let is_own = self.script.variables[variable as usize].routine.is_some();
+        !is_own && !self.anytime.contains_key(&variable) && !self.has_concurrent
+    }
+
     /// Whether a value is where the robot was, displaced or not.
     pub(super) fn is_of_robot(&self, value: ValueId) -> bool {
         let held = self.value(value);
@@ -324,7 +384,9 @@ impl Flow<'_> {
         self.made.push(Held::NearActual);
         let near = short(self.script.values.len() + self.made.len() - 1);
         self.near.push((value, near));
-        let with = self.reads.iter().find(|(of, _)| *of == value);
+        let fresh = self.fresh.iter().find(|(fresh, ..)| *fresh == value);
+        let read = fresh.map_or(value, |(.., then)| *then);
+        let with = self.reads.iter().find(|(of, _)| *of == read);
         if let Some((_, with)) = with.copied() {
             self.reads.push((near, with));
         }
@@ -333,6 +395,14 @@ impl Flow<'_> {
 
     /// Whether a move to where the robot was has the tool and the work frame of that position.
     pub(in crate::motion) fn is_as_read(&self, value: ValueId, stop: Stop) -> bool {
+        let fresh = self.fresh.iter().find(|(fresh, ..)| *fresh == value);
+        let (read_with, value) = match fresh {
+            Some((_, of, then)) => (*of, *then),
+            None => ([Expr::Absent; 2], value),
+        };
+        let instruction = &self.script.instructions[self.instructions[stop as usize] as usize];
+        let modal = &self.script.modals[instruction.modal as usize];
+        let gone_with = [modal.tool, modal.frame];
         let Some((_, with)) = self.reads.iter().find(|(of, _)| *of == value) else {
             return matches!(self.value(value), Held::Actual | Held::NearActual);
         };
@@ -359,6 +429,7 @@ impl Flow<'_> {
         (0..2).all(|at| match with[at] {
             // positions have frames of their own, wherever they are
             NOTHING if raw[at] == NOTHING => true,
+            _ if read_with[at] == gone_with[at] && self.keeps(read_with[at]) => true,
             _ if own[at].is_none() => false,
             // that of the move before
             NOTHING => self.modes.iter().all(|modes| of(modes)[at] == own[at]),
@@ -379,6 +450,19 @@ impl Flow<'_> {
 
     /// What an expression holds in a state.
     pub(super) fn evaluate(&mut self, state: &State, value: Expr, site: Site) -> Holding {
+        if let Expr::Value(held) = value
+            && self.is_of_robot(held)
+        {
+            let known = self.stood.get(&site).copied().unwrap_or(state.before);
+            let before = self.sets.union(known, state.before);
+            self.stood.insert(site, before);
+            if let Held::ActualWith { tool, frame } = *self.value(held) {
+                let read = self.plain(value, site, &mut |flow, inner| {
+                    flow.evaluate(state, inner, site)
+                });
+                return self.freshly([tool, frame], read);
+            }
+        }
         match value {
             Expr::Variable(variable) => self.variable(state, variable),
             other => self.plain(other, site, &mut |flow, inner| {
@@ -407,6 +491,7 @@ impl Flow<'_> {
         if let Some(slot) = self.slots[variable as usize]
             && state.holds[slot as usize] != holding
         {
+            self.outdate(state, variable);
             Rc::make_mut(&mut state.holds)[slot as usize] = holding;
         }
     }

@@ -68,6 +68,7 @@ pub(super) fn resolve(
         uncertain: Vec::new(),
         choices: Vec::new(),
         stops: Vec::new(),
+        revisits: Vec::new(),
         full: false,
     };
     resolver.used = vec![false; resolver.report.program.targets.len()];
@@ -134,6 +135,8 @@ struct Resolver<'a, 'p> {
     choices: Vec<Option<Rc<Choices>>>,
     /// Moves of each stop.
     stops: Vec<(u32, u32)>,
+    /// Moves to where the robot itself was, and the statement that read it.
+    revisits: Vec<(u32, Option<Site>)>,
     full: bool,
 }
 
@@ -418,7 +421,7 @@ impl Resolver<'_, '_> {
     }
 }
 
-/// Moves of one stop that are distinguished as predecessors.
+/// Moves of one stop that are told apart one by one as predecessors.
 const MOST_ALTERNATIVES: u32 = 16;
 
 /// What a move has, before its targets are listed.

@@ -4,7 +4,9 @@ use super::{Choices, Listed, MOST_USES, Refused, Resolver};
 use crate::finding::Severity;
 use crate::motion::flow::OF_MOVE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
-use crate::program::script::{Expr, Held, Instruction, NOT_DISPLACED, Place, RemarkId, ValueId};
+use crate::program::script::{
+    Expr, Held, Instruction, NOT_DISPLACED, Place, RemarkId, ValueId, short,
+};
 use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
 
 impl Resolver<'_, '_> {
@@ -102,6 +104,10 @@ impl Resolver<'_, '_> {
                     Held::Actual | Held::ActualWith { .. } if displacement == NOT_DISPLACED => {
                         let is_as_read = self.flow.is_as_read(value, listed.stop);
                         self.at_robot(is_as_read, listed.instruction.place);
+                        if is_as_read {
+                            let at = short(self.report.program.moves.len());
+                            self.revisits.push((at, site));
+                        }
                     }
                     Held::Actual | Held::ActualWith { .. } | Held::NearActual
                         if self.flow.is_said(displacement)

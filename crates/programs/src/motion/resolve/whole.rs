@@ -2,8 +2,7 @@
 
 use super::{MOST_ALTERNATIVES, Resolver};
 use crate::finding::Severity;
-use crate::motion::before::{ANYWHERE, START};
-use crate::motion::flow::Reached;
+use crate::motion::before::{ANYWHERE, Before as Stops, START};
 use crate::program::script::{Call, Expr, Held, Place, RoutineId, Start, Statement, short};
 use crate::program::{Before, FrameId, Interrupt, Shape, TargetId, Tool, ToolId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -42,7 +41,7 @@ impl Resolver<'_, '_> {
             let before = if let Some(before) = lists.get(&reached.before.0) {
                 *before
             } else {
-                let before = self.moves_of(&reached);
+                let before = self.moves_of(reached.before);
                 if !matches!(before, Before::One(_)) {
                     lists.insert(reached.before.0, before);
                 }
@@ -60,6 +59,11 @@ impl Resolver<'_, '_> {
                 let called = (first..end).map(|motion| (motion, call));
                 self.report.program.led.extend(called);
             }
+        }
+        for (motion, site) in std::mem::take(&mut self.revisits) {
+            let stood = site.and_then(|site| self.flow.stood.get(&site)).copied();
+            let stood = stood.map_or(Before::Anywhere, |stood| self.moves_of(stood));
+            self.report.program.revisits.push((motion, stood));
         }
         let script = self.script;
         for (call, routine) in std::mem::take(&mut self.flow.at_any_time) {
@@ -137,17 +141,19 @@ impl Resolver<'_, '_> {
         &mut interrupts[at]
     }
 
-    /// The moves of the stops before one.
-    pub(super) fn moves_of(&mut self, reached: &Reached) -> Before {
+    /// The moves of a set of stops.
+    pub(super) fn moves_of(&mut self, stops: Stops) -> Before {
         let mut all = Vec::new();
-        for &stop in self.flow.sets.of(&reached.before) {
+        for &stop in self.flow.sets.of(&stops) {
             match stop {
                 START => all.push(Before::Start),
                 ANYWHERE => all.push(Before::Anywhere),
                 stop => {
                     let (first, end) = self.stops[stop as usize];
-                    if first == end || end - first > MOST_ALTERNATIVES {
+                    if first == end {
                         all.push(Before::Anywhere);
+                    } else if end - first > MOST_ALTERNATIVES {
+                        all.push(Before::AnyOf { first, end });
                     } else {
                         all.extend((first..end).map(Before::One));
                     }

@@ -233,6 +233,21 @@ fn what_the_program_computes_stays_and_is_reported() {
             Severity::Warning,
         ),
         (
+            "set_tcp(p[0,0,.1,0,0,0])\nx=get_actual_tcp_pose()\nmovel(x)\nset_tcp(p[0,0,.2,0,0,0])",
+            "run-time-position",
+            Severity::Note,
+        ),
+        (
+            "while True:\nx=get_actual_tcp_pose()\nmovel(x)\nset_tcp(p[0,0,.2,0,0,0])\nend",
+            "run-time-position",
+            Severity::Note,
+        ),
+        (
+            "while True:\nx=get_actual_tcp_pose()\nset_tcp(p[0,0,.2,0,0,0])\nmovel(x)\nend",
+            "computed-target",
+            Severity::Warning,
+        ),
+        (
             "movel(pose_trans(p[1,0,0,0,0,0],get_actual_tcp_pose()))",
             "computed-target",
             Severity::Warning,

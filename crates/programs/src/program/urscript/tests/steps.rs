@@ -172,3 +172,24 @@ fn features_stay_features() {
         (vec!["-".to_owned()], vec![])
     );
 }
+
+#[test]
+fn taught_joints_of_waypoints_stay_known_where_a_thread_leads_the_robot() {
+    let named = |thread: &str| {
+        let program = read(&format!(
+            "def P():\n  global W_p=p[.4,.1,.5,0,2.2,2.2]\n  global W_q=[0,-1.5,1.5,0,1,0]\n  thread \
+             T():\n    {thread}\n  end\n  h=run T()\n  movel(W_p)\nend\n"
+        ));
+        let of =
+            |(target, joints): &(usize, [f64; 6])| (program.targets[*target].name.clone(), *joints);
+        program.named.iter().map(of).collect::<Vec<_>>()
+    };
+    let joints = [0.0, -1.5, 1.5, 0.0, 1.0, 0.0];
+    let expected = [(Some("W_p".into()), joints)];
+    for thread in [
+        "sync()",
+        "freedrive_mode()\n    sleep(1)\n    end_freedrive_mode()",
+    ] {
+        assert_eq!(named(thread), expected, "{thread}");
+    }
+}
