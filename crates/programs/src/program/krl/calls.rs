@@ -121,6 +121,29 @@ pub(super) fn only_reads(name: &[u8]) -> bool {
     matches!(known(capitals(name, &mut [0; 24])), Some(Known::Reads))
 }
 
+/// Whether it is a function of inline forms, which reads data such as LDAT.
+pub(super) fn is_of_form(name: &[u8]) -> bool {
+    matches!(
+        capitals(name, &mut [0; 24]),
+        b"STOOL"
+            | b"STOOL2"
+            | b"SBASE"
+            | b"SLOAD"
+            | b"SIPO_MODE"
+            | b"SORI_TYP"
+            | b"SCIRC_TYP"
+            | b"SCIRC_M"
+            | b"SVEL_CP"
+            | b"SVEL_JOINT"
+            | b"SACC_CP"
+            | b"SACC_JOINT"
+            | b"SGEAR_JERK"
+            | b"SJERK"
+            | b"SAPO"
+            | b"SAPO_PTP"
+    )
+}
+
 /// Whether an index leaves out which element is meant: `[]`, `[,]`, `[2,]`.
 fn is_whole(index: &[u8]) -> bool {
     let mut parts = index.split(|&b| b == b',');

@@ -6,7 +6,7 @@ use super::frames::{Choice, State, Table};
 use super::names::{DataKind, Fdat, Index, Stored};
 use super::reader::Reader;
 use super::remarks::fdat_missing;
-use super::tokens::{Cursor, Read};
+use super::tokens::{Cursor, Kind, Read};
 use crate::program::names::Symbol;
 use crate::program::script::{Expr, Place, Variable, VariableId};
 
@@ -98,6 +98,15 @@ impl Reader {
         let made = script.variable(Variable::new(spelled, Place::NOWHERE, unknown));
         self.fdats_missing.insert(name, made);
         Some(made)
+    }
+
+    /// Likewise of one that stands alone, as in `STOOL2(FP1)`.
+    pub(super) fn missing_in(&mut self, mut cursor: Cursor) -> Option<Choice> {
+        let token = cursor.next();
+        let is_alone = token.kind == Kind::Name && cursor.peek().kind == Kind::End;
+        let name = self.symbol(&cursor, token);
+        let missing = is_alone.then(|| self.fdat_missing(name))?;
+        missing.map(Choice::By)
     }
 
     /// What a part of an FDAT is.

@@ -32,12 +32,16 @@ impl Reader {
             Expr::Value(value) if !matches!(script.values[value as usize], Held::Remark(_)) => {
                 return (own, None);
             }
-            Expr::Value(value) => {
-                *(self.guards.values.entry(value)).or_insert_with(|| constant(script, own))
-            }
-            Expr::Unknown(remark) => {
-                *(self.guards.remarks.entry(remark)).or_insert_with(|| constant(script, own))
-            }
+            Expr::Value(value) => *self
+                .guards
+                .values
+                .entry(value)
+                .or_insert_with(|| constant(script, own)),
+            Expr::Unknown(remark) => *self
+                .guards
+                .remarks
+                .entry(remark)
+                .or_insert_with(|| constant(script, own)),
             _ => {
                 let known = &mut self.guards.own;
                 let variable = *known.get_or_insert_with(|| constant(script, Expr::Absent));

@@ -1,7 +1,7 @@
 //! Statements of a routine, one a line.
 
 use super::aggregate::{self, EXTERNAL};
-use super::calls::only_reads;
+use super::calls::{is_of_form, only_reads};
 use super::frames::Table;
 use super::interrupts::Action;
 use super::moves::{With, motion};
@@ -249,12 +249,15 @@ impl Reader {
     /// brackets behind a table choose its entry.
     fn note_arguments(&mut self, mut cursor: Cursor) {
         let mut fresh = false;
+        // brackets that are open, and whether all in them is only read
+        let mut open: Vec<bool> = Vec::new();
         loop {
             let token = cursor.next();
             match token.kind {
                 Kind::End => return,
                 Kind::Name if only_reads(cursor.text(token)) && cursor.peek().is(b'(') => {
                     cursor.take(b'(');
+                    open.push(is_of_form(cursor.text(token)));
                     fresh = false;
                 }
                 Kind::Name if fresh => {
@@ -282,7 +285,15 @@ impl Reader {
                     fresh = false;
                 }
                 Kind::Name => self.note_index(token, &mut cursor),
-                Kind::Sign(b'(' | b',') => fresh = true,
+                Kind::Sign(b'(') => {
+                    open.push(false);
+                    fresh = true;
+                }
+                Kind::Sign(b')') => {
+                    open.pop();
+                    fresh = false;
+                }
+                Kind::Sign(b',') => fresh = open.last() != Some(&true),
                 _ => fresh = false,
             }
         }

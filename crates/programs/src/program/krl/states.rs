@@ -214,6 +214,7 @@ impl Reader {
             return Ok(match (word, inner) {
                 (b"STOOL" | b"STOOL2", Some(inner)) => {
                     let choice = self.choice(inner, Table::Tool);
+                    let choice = choice.or_else(|| self.missing_in(inner));
                     self.element(Table::Tool, choice)
                 }
                 (b"SBASE", Some(inner)) => {

@@ -12,7 +12,8 @@ const FUNCTIONS: &str = "END\nDEFFCT INT three(n:IN)\nINT n\n$BASE=BASE_DATA[3]\
     DEFFCT INT four(n:IN)\nINT n\n$BASE=BASE_DATA[4]\nRETURN 1\nENDFCT\n\
     DEFFCT INT raises(p:OUT)\nE6POS p\np.Z=p.Z+50\nRETURN 1\nENDFCT\n\
     DEFFCT INT counts(n:IN)\nINT n,m\nm=n+1\nRETURN abs(m)\nENDFCT\n\
-    DEFFCT E6POS up(p:IN)\nE6POS p\np.Z=p.Z+10\nRETURN p\nENDFCT\nDEF sub(n:IN)\nINT n\nHALT";
+    DEFFCT E6POS up(p:IN)\nE6POS p\np.Z=p.Z+10\nRETURN p\nENDFCT\n\
+    DEFFCT E6POS over(p:IN)\nE6POS p\np.Z=p.Z+20\nRETURN p\nENDFCT\nDEF sub(n:IN)\nINT n\nHALT";
 
 fn with_functions(statements: &str) -> Program {
     path(&format!("{statements}\n{FUNCTIONS}"))
@@ -62,9 +63,9 @@ fn what_functions_return_is_given_on_to_others() {
     for (text, count, height) in [
         ("LIN up(XP1)", 1, 0.01),
         ("LIN up(XP1) C_DIS", 1, 0.01),
-        ("LIN up(up(XP1)) C_DIS", 1, 0.02),
-        ("XP3=up(up(up(XP1)))\nLIN XP3", 1, 0.03),
-        ("CIRC up(XP1),up(up(XP1))", 2, 0.02),
+        ("LIN over(up(XP1)) C_DIS", 1, 0.03),
+        ("XP3=over(up(XP1))\nLIN XP3", 1, 0.03),
+        ("CIRC over(XP2),up(XP1)", 2, 0.01),
     ] {
         let program = with_functions(text);
         assert_eq!(program.moves.len(), count, "{text}");

@@ -103,11 +103,12 @@ fn functions_return_positions() {
     // what the one inside returns is given to the other
     let program = with_types("LIN up(up(s.P))", pick);
     assert_eq!(to(&program), ["s.P"]);
-    let Displacement::By(shift) = &program.moves[0].displacement else {
-        panic!("{:?}", program.moves[0]);
-    };
-    assert_eq!(shift.in_tool.translation, [0.0, 0.0, 0.02]);
-    assert_eq!(reported(&program), [""; 0]);
+    // which of its calls that was is not followed: it may add any times
+    let displacement = &program.moves[0].displacement;
+    assert!(
+        matches!(displacement, Displacement::Within(_)),
+        "{displacement:?}"
+    );
 }
 
 #[test]
