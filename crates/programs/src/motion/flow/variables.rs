@@ -303,7 +303,8 @@ impl Flow<'_> {
             return read;
         };
         let known = (self.fresh.iter()).find(|(_, own, then)| (*own, *then) == (of, value));
-        let fresh = known.map(|(fresh, ..)| *fresh).unwrap_or_else(|| {
+        let known = known.map(|(fresh, ..)| *fresh);
+        let fresh = known.unwrap_or_else(|| {
             self.made.push(Held::Actual);
             let made = short(self.script.values.len() + self.made.len() - 1);
             self.fresh.push((made, of, value));

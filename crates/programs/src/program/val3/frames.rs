@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
     /// Whether programs name a frame, or points that hang on it.
     fn is_used(&self, frame: u32) -> bool {
         let fathers = self.variables.named().into_iter();
-        let fathers = fathers.map(|target| self.variables.father_of[target] as usize);
+        let mut fathers = fathers.map(|target| self.variables.father_of[target] as usize);
         let on_it = |father: usize| {
             let mut next: Option<(u32, Father)> = Some(self.variables.fathers[father]);
             for _ in 0..LONGEST_CHAIN {
@@ -194,7 +194,7 @@ impl<'a> Reader<'a> {
             }
             true
         };
-        self.named_frames.contains(&frame) || fathers.into_iter().any(on_it)
+        self.named_frames.contains(&frame) || fathers.any(on_it)
     }
 
     /// The tool that an argument is.
