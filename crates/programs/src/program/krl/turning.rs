@@ -71,13 +71,11 @@ impl Reader {
             let turning = Turning::named(capitals(cursor.text(name), &mut [0; 24]));
             return self.orientation_value(turning);
         }
-        match self.of_ldat(cursor, b"SORI_TYP") {
-            Some((turning, _)) => turning,
-            None => {
-                skip_value(cursor);
-                self.orientation_value(Turning::Kept)
-            }
+        if let Some((turning, _)) = self.of_ldat(cursor, b"SORI_TYP") {
+            return turning;
         }
+        skip_value(cursor);
+        self.orientation_value(Turning::Kept)
     }
 
     /// What the LDAT of `SORI_TYP(LCPDAT1)` or `LDAT_ACT.ORI_TYP` says.
