@@ -4,6 +4,7 @@ use super::frames::{State, Table};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, FRAME_ASSIGNED, carried, conveyor};
+use super::sensors::leads;
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
@@ -239,6 +240,9 @@ impl Reader {
                     }
                 }
                 let word = capitals(cursor.text(name), &mut buffer);
+                if callee.is_none() {
+                    self.switch_sensor(place, word);
+                }
                 if callee.is_none() && CONVEYORS.iter().any(|begins| word.starts_with(begins)) {
                     let spelled = self.names.symbols.spelling(symbol).to_owned();
                     let base = self.unknown(conveyor(&spelled));
@@ -380,7 +384,9 @@ impl Reader {
             arguments.push(Argument::new(parameter, value, back));
         }
         // a function that is not in the files matters where it is given something only
-        if callee.is_none() && !is_statement && !gives {
+        let leads = callee.is_none()
+            && (is_statement || leads(self.names.symbols.spelling(name).as_bytes()));
+        if callee.is_none() && !leads && !gives {
             return;
         }
         let arguments = self.builder.script.give(arguments);
@@ -388,7 +394,7 @@ impl Reader {
         let name = self.names.symbols.spelling(name);
         self.builder.call(Call {
             // functions do not move the robot
-            leads: callee.is_none() && is_statement,
+            leads,
             ..Call::of(place, callees, name, arguments)
         });
         let caller = self.context().routine;

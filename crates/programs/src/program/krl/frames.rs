@@ -235,6 +235,8 @@ pub(super) struct States {
     /// Guards of moves: an angle (CA), and what `$ORI_TYPE` ignores.
     pub angle: VariableId,
     pub ignoring: VariableId,
+    /// A sensor corrects moves (KUKA.RobotSensorInterface).
+    pub sensor: VariableId,
     /// External axes that move independently of the program, and those that it does not move.
     pub apart: [VariableId; 2],
 }
@@ -321,6 +323,7 @@ impl States {
         Self {
             angle: variable("the move", angle),
             ignoring: variable("$ORI_TYPE", off),
+            sensor: variable("the sensor", off),
             apart: ["$ASYNC_AXIS", "$ACT_EX_AX"].map(|name| variable(name, on)),
             states,
             tables,

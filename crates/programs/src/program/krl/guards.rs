@@ -97,6 +97,9 @@ impl Reader {
 
     fn guards_with_axes(&mut self, mut all: Vec<VariableId>, with: &With) -> u32 {
         all.extend(self.states.apart);
+        if self.senses {
+            all.push(self.states.sensor);
+        }
         all.extend(with.axes_off);
         if let Some(known) = self.guards.sets.get(&*all) {
             return *known;

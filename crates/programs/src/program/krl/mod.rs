@@ -17,7 +17,7 @@
 //!
 //! # Limits
 //!
-//! Sensor corrections are not followed. A routine outside the files is
+//! What a sensor adds to moves is reported and not followed (`sensors`). A routine outside the files is
 //! taken to change tool or base only where moves use more than one. An arc to an angle (CA) is
 //! refused.
 
@@ -41,6 +41,7 @@ mod points;
 mod quiet;
 mod reader;
 mod remarks;
+mod sensors;
 mod sniff;
 mod statements;
 mod states;

@@ -24,6 +24,8 @@ pub(super) struct Reader {
     pub(super) guards: Guards,
     /// Some file says `#IGNORE`.
     pub(super) ignores: bool,
+    /// Some file switches a sensor on.
+    pub(super) senses: bool,
     /// Tools, bases and loads of data lists.
     pub(super) declared: Declared,
     pub(super) file: u32,
@@ -112,6 +114,7 @@ impl Reader {
             circles: Circles::new(&mut builder.script),
             guards: Guards::default(),
             ignores: false,
+            senses: false,
             builder,
             external: settings.external.clone(),
             root: settings.world_from_base,
@@ -169,6 +172,7 @@ impl Reader {
         };
         self.declared.has_fixed_tools |= says(b"TCP");
         self.ignores |= says(b"IGNORE");
+        self.senses |= super::sensors::are_in(bytes);
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;
         for (start, end) in lines(&source.bytes, content_start(&source.bytes)) {

@@ -141,6 +141,14 @@ pub(super) const LINKED: Remark = Remark::error(
     "moves on another robot's part are not compensated",
 );
 
+/// Of moves that a sensor corrects.
+pub(super) const SENSED: Remark = Remark::warning(
+    "corrected-by-sensor",
+    "from here on a sensor corrects moves (RSI_ON): each goes to its target, compensated, and what \
+         the sensor adds",
+    "look at the first part: what the sensor still has to correct is less",
+);
+
 /// Against moves behind a routine of a conveyor that is not in the files.
 pub(super) fn conveyor(name: &str) -> Remark {
     Remark::error_about(

@@ -9,6 +9,7 @@ mod posts;
 mod products;
 mod robust;
 mod samples;
+mod sensors;
 mod structures;
 mod turning;
 mod writing;
