@@ -33,7 +33,7 @@ pub(super) struct Handeye {
     /// Robot profile (YAML) for joints
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
-    /// Tool whose load the arm carried (with --profile)
+    /// Tool whose load the arm carried (with --profile; default: its only one)
     #[arg(long, value_name = "NAME", requires = "profile")]
     tool: Option<String>,
     /// Corners seen by the camera and touched by the robot: refine the camera's pose if left-out

@@ -12,6 +12,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose as Motion, Vector};
 use crate::model::Conditions;
+use crate::model::effects::{Effect, Need};
 use crate::model::profile::Mounted;
 use crate::program::Source;
 use crate::register::frame_file::{Frame, Sigma as Six};
@@ -396,7 +397,9 @@ pub(super) fn robot_poses(inputs: &Inputs) -> Result<Vec<Motion>, Failure> {
     };
     table.require(&JOINTS)?;
     let mut mounted = Mounted::flange();
-    if inputs.tool.is_some() {
+    let feels = |effect: &Effect| effect.definition().needs.contains(&Need::Masses);
+    // where nothing bends several tools are as good as none
+    if inputs.tool.is_some() || file.profile.effects.iter().any(feels) {
         mounted.load = file.tool(inputs.tool)?.load;
     }
     let model = file.profile.real_model(&mounted, &Conditions::default());

@@ -71,7 +71,14 @@ pub fn add_tool(
     }
     let path = format!("tools.{name}");
     let text = with(&file.name, &file.text, &path, &flow_tool(tool))?;
-    changed(file, text, output)
+    let mut made = changed(file, text, output)?;
+    if let Some((mass_kg, [0.0, 0.0, 0.0])) = tool.load.filter(|(mass_kg, _)| *mass_kg > 0.0) {
+        made.notes.push(format!(
+            "the {mass_kg} kg of `{name}` are taken to be at the flange, as no centre of gravity is \
+             given: `{name}=…,{mass_kg},CX,CY,CZ` in mm on the flange"
+        ));
+    }
+    Ok(made)
 }
 
 /// Words where words are meant, whatever they look like.

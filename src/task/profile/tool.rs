@@ -21,7 +21,7 @@ pub fn tool(text: &str) -> Result<(String, ToolOfProfile), Failure> {
         Failure::with_hint(
             format!("tool `{text}`: {why}"),
             "NAME=X,Y,Z,RX,RY,RZ[,KG[,CX,CY,CZ]] in mm, degrees and kg, such as \
-             gripper=0,0,150,0,0,90,2.5",
+             gripper=0,0,150,0,0,90,2.5,0,0,60",
         )
     };
     let (name, values) = text

@@ -532,6 +532,12 @@ fn values_are_set_and_tools_added_without_touching_anything_else() {
     assert_eq!(status, Some(0), "{error}");
     let now = profile(&file);
     assert_eq!(now.tools["weld gun"].load, Some((1.5, [0.0, 0.0, 0.06])));
+    let bare = "bare=0,0,150,0,45,0,1.5";
+    let add = ["profile", "add-tool", "mine.yaml", bare, "-o", "bare.yaml"];
+    let (status, out, error) = reported(folder.path(), &add);
+    assert_eq!(status, Some(0), "{error}");
+    let said = out + &error;
+    assert!(said.contains("are taken to be at the flange"), "{said}");
     assert_eq!(
         now.effects,
         profile(&repository("robots/abb_irb120_thesis.yaml")).effects

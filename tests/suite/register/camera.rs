@@ -60,7 +60,10 @@ fn poses(all: &[Pose]) -> String {
 /// Joint angles of an arm and where its flange stands then.
 fn postures(random: &mut StdRng, profile: &str, count: usize) -> (String, Vec<Pose>) {
     let profile = Profile::from_yaml(profile).expect("a profile");
-    let arm = profile.real_model(&Mounted::flange(), &Conditions::default());
+    // the arm carries the profile's only tool
+    let mut flange = Mounted::flange();
+    flange.load = profile.tools.values().next().and_then(|tool| tool.load);
+    let arm = profile.real_model(&flange, &Conditions::default());
     let mut table = String::from("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n");
     let mut flanges = Vec::new();
     for _ in 0..count {

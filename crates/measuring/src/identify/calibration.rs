@@ -12,6 +12,7 @@ use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::off::Off;
 use super::parameters::{Level, Parameter, Selection, Subject};
+use super::pick::Pick;
 use super::problem::{Estimate, Problem};
 use super::robust::{Shape, limit};
 use super::solver::{Solution, Stop, solve, solve_telling};
@@ -166,7 +167,8 @@ fn is_fixed(selection: &Selection, frame: Kind) -> bool {
     fixed.any(|pick| pick.kind == Some(frame) && pick.key.is_none())
 }
 
-/// Fits base, tool and points of a model to measurements and leaves its arm as it is.
+/// Fits base, tools, unless they are held, and unknown points of a model to measurements and leaves
+/// its arm as it is.
 ///
 /// # Errors
 /// As [`calibrate`].
@@ -174,28 +176,42 @@ pub fn fit_frames(
     profile: &Profile,
     measurements: &Measurements,
     shape: Shape,
-    points_too: bool,
+    tools_held: bool,
 ) -> Result<(Problem, Solution), IdentifyError> {
-    let (problem, begun) = begin_frames(profile, measurements, points_too)?;
+    let mut selection = Selection::level(Level::Frames);
+    if tools_held {
+        selection.fix = picks("tool_frame");
+    }
+    let (problem, begun) = begin_frames(profile, measurements, &selection)?;
     let solution = solve(&problem, begun, shape, true)?;
     Ok((problem, solution))
 }
 
-/// The problem that [`fit_frames`] solves, and where it starts.
+/// What a list of words picks.
+fn picks(words: &str) -> Vec<Pick> {
+    Pick::parse_list(words).expect("words of the list")
+}
+
+/// The frames of a model that are fitted to measurements, and its points as well.
+pub(super) fn frames_of(measurements: &Measurements, points_too: bool) -> Selection {
+    let mut selection = Selection::level(Level::Frames);
+    if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
+        selection.identify = picks("points");
+    }
+    selection
+}
+
+/// The problem of fitting frames, and where it starts.
 pub(super) fn begin_frames(
     profile: &Profile,
     measurements: &Measurements,
-    points_too: bool,
+    selection: &Selection,
 ) -> Result<(Problem, Estimate), IdentifyError> {
-    let mut selection = Selection::level(Level::Frames);
-    if points_too && measurements.rows.iter().any(|row| row.point.is_some()) {
-        selection.identify = super::pick::Pick::parse_list("points").expect("a word of the list");
-    }
     let guess = start::find(profile, measurements);
     let base = guess
         .as_ref()
         .map_or(profile.world_from_base, |s| s.world_from_base);
-    let (mut problem, mut estimate) = Problem::new(profile, measurements, &selection, base)?;
+    let (mut problem, mut estimate) = Problem::new(profile, measurements, selection, base)?;
     problem.gravity_by_base = true;
     if let Some(guess) = &guess {
         estimate

@@ -2,7 +2,7 @@
 
 pub use super::repeated::{Repeated, RepeatedDistance};
 
-use super::calibration::{begin, begin_frames};
+use super::calibration::{begin, begin_frames, frames_of};
 use super::contact;
 use super::error::IdentifyError;
 use super::external::{in_files, plate_of};
@@ -205,7 +205,8 @@ pub fn validate_telling(
     let is_judged = |row: usize| refit != Refit::Others || is_for(row);
     let is_fitted = |row: usize| refit != Refit::Others || !is_for(row);
     let fitted = |profile: &Profile, points_too: bool| {
-        let (problem, begun) = begin_frames(profile, measurements, points_too)?;
+        let selection = frames_of(measurements, points_too);
+        let (problem, begun) = begin_frames(profile, measurements, &selection)?;
         let training = problem.with_rows(is_fitted);
         let solution = solve(&training, begun, Shape::Squares, true)?;
         Ok::<_, IdentifyError>((problem, solution.estimate))

@@ -50,15 +50,19 @@ impl Equation for PayloadError {
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
         let (mass, moved) = (effect.parameters[0], length(&effect.parameters[1..4]));
+        let load = match &effect.site.tool {
+            Some(tool) => format!("load of tool `{tool}`"),
+            None => "load on the flange".into(),
+        };
         let heavier = format!(
-            "The load on the flange is {} kg {} than the profile says",
+            "The {load} is {} kg {} than the profile says",
             digits(mass.abs()),
             if mass < 0.0 { "lighter" } else { "heavier" },
         );
         match (mass == 0.0, moved == 0.0) {
             (false, true) => heavier,
             (true, false) => format!(
-                "The centre of gravity of the load on the flange is {} mm from where the profile has it",
+                "The centre of gravity of the {load} is {} mm from where the profile has it",
                 mm(moved)
             ),
             _ => format!("{heavier}, its centre of gravity {} mm elsewhere", mm(moved)),

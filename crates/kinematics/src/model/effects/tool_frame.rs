@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, SiteKey, frame_parameters};
 use super::search::{FRAME, Search, Shown};
-use super::words::{length, mm};
+use super::words::{deg, length, mm};
 use super::{Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::{Pose, Scalar};
 use crate::model::{Conditions, Geometry};
@@ -37,6 +37,11 @@ impl Equation for ToolFrame {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("The tool's tip is {} mm from where the profile has it", mm(length(&effect.parameters[..3])))
+        let (place, turned) = (length(&effect.parameters[..3]), length(&effect.parameters[3..]));
+        let off = format!("The tool's tip is {} mm from where the profile has it", mm(place));
+        if turned == 0.0 {
+            return off;
+        }
+        format!("{off}, the tool rotated by {}°", deg(turned))
     }
 }

@@ -238,7 +238,9 @@ pub fn session(
     let unknown_points = problem.points.iter().any(|p| !p.known);
     let mut present_estimate = own.clone();
     if elsewhere || unknown_points || is_nominal(profile) || trust == Trust::Nothing {
-        let (other, solution) = fit_frames(profile, &fit, Shape::Huber, false)?;
+        // where a calibration has the tool is a finding if it is elsewhere
+        let tools_held = !is_nominal(profile) && trust != Trust::Nothing;
+        let (other, solution) = fit_frames(profile, &fit, Shape::Huber, tools_held)?;
         take_over(&mut present_estimate, &solution.estimate, &problem, &other);
     }
     let estimate = match trust {

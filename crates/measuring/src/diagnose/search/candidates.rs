@@ -12,7 +12,7 @@ use crate::model::effects::{
     BASE, Effect, Kind, List, MOST_PARAMETERS, Need, Sets, Site, SiteKey, shown_by_tool,
 };
 use crate::model::{JOINTS, Slot};
-use crate::profile::Mounted;
+use crate::profile::{Mounted, Profile};
 use rayon::prelude::*;
 
 /// Harmonics are sought up to this many periods a revolution.
@@ -106,7 +106,17 @@ pub struct Candidates {
     pub(super) length: (f64, f64),
 }
 
-/// `stood`: at how many places each axis of the track stood.
+/// Whether an effect at a tool is one of the tool that is measured: the profile has others, and no
+/// such effect of all.
+fn is_of_one_tool(kind: Kind, profile: &Profile, measured: usize) -> bool {
+    let mut own = profile.effects.iter().filter(|own| own.kind == kind);
+    let is_of_all = own.any(|own| own.site.tool.is_none());
+    // where a frame is, is written into the tool itself
+    measured > 1 || kind != Kind::ToolFrame && profile.tools.len() > 1 && !is_of_all
+}
+
+/// `tools`: names of the tools measured, where an effect is of each. `stood`: at how many places each
+/// axis of the track stood.
 fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
     let mut all = vec![Site {
         order: 1,
@@ -128,7 +138,7 @@ fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
                 SiteKey::Order => (1..=MOST_ORDERS)
                     .map(|n| with(&|s| s.order = n * place.one()))
                     .collect(),
-                SiteKey::Tool if tools.len() > 1 => tools
+                SiteKey::Tool if !tools.is_empty() => tools
                     .iter()
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
                     .collect(),
@@ -457,7 +467,9 @@ impl Candidates {
             }
             let by_side = kind.definition().needs.contains(&Need::Directions);
             let mut places = 0;
-            for site in sites(kind, &tools, &stood) {
+            let each = is_of_one_tool(kind, &problem.profile, tools.len());
+            let of_tools = if each { &tools[..] } else { &[] };
+            for site in sites(kind, of_tools, &stood) {
                 let mut any = false;
                 let variants = variants(kind, &site, tried);
                 let mut sets: Vec<&[usize]> = variants.iter().map(|(s, _)| s.as_slice()).collect();
