@@ -28,6 +28,14 @@ fn profile(external: &str, effects: &[&str]) -> Profile {
     Profile::from_yaml(&text).unwrap_or_else(|error| panic!("{error}\n{external}"))
 }
 
+/// The same with its base where controllers count from that know of no other.
+fn profile_at_home(effects: &[&str]) -> Profile {
+    Profile {
+        world_from_base: Pose::identity(),
+        ..profile("", effects)
+    }
+}
+
 /// The same as a file.
 fn profile_text(external: &str, effects: &[&str]) -> String {
     let text = crate::support::text("robots/abb_irb120.yaml");

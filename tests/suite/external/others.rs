@@ -2,7 +2,7 @@
 //! groups without geometry, a seventh joint.
 
 use super::programs::{Said, numbers_of};
-use super::{profile, rapid, run, tool};
+use super::{profile, profile_at_home, rapid, run, tool};
 use crate::physics::external::{Rail, carried};
 use crate::physics::matrix::{shift, times, turn_z};
 use crate::physics::{Moment, Robot, tool_pose};
@@ -29,7 +29,15 @@ fn refused(profile: &Profile, files: &[(&str, &str)]) -> (Vec<&'static str>, Str
 
 /// That exactly this is found, and says this.
 fn says(files: &[(&str, &str)], id: &[&str], words: &str) {
-    let (ids, reported) = refused(&profile("", &[ARM]), files);
+    let of_base = [".JBI", ".script"]
+        .iter()
+        .any(|end| files[0].0.ends_with(end));
+    let robot = if of_base {
+        profile_at_home(&[ARM])
+    } else {
+        profile("", &[ARM])
+    };
+    let (ids, reported) = refused(&robot, files);
     assert_eq!(ids, id, "{reported}\n{}", files[0].1);
     assert!(reported.contains(words), "{words}: {reported}");
 }

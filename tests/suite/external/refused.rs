@@ -1,6 +1,6 @@
 //! What is refused, and how; what must stay as it is.
 
-use super::{errors, profile, rapid, run, written};
+use super::{errors, profile, profile_at_home, rapid, run, written};
 use poseshift::compensate::compensate;
 use poseshift::geometry::Pose;
 use poseshift::model::profile::Profile;
@@ -390,7 +390,7 @@ fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
         format!(
             "/JOB\n//NAME T\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 1\n///POSTYPE \
              ANGLE\n///ANGLE\nC00000=0,0,10,0,60,0\n///USER 3\n///POSTYPE \
-             USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=640,200,700,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR {attributes}\n///FRAME USER 3\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\nMOVL C00001 V=30.0\nEND\n"
+             USER\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\nC00001=350,100,350,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n///ATTR {attributes}\n///FRAME USER 3\n///GROUP1 RB1\n{groups}NOP\nMOVJ C00000 VJ=5.00\nMOVL C00001 V=30.0\nEND\n"
         )
     };
     for (attributes, groups, expected) in [
@@ -398,7 +398,10 @@ fn what_another_robot_or_a_station_carries_is_refused_with_its_reason() {
         ("SC,RW,RJ", "", &[]),
         ("SC,RW,RJ", "///GROUP2 ST1\n", &["moving-frame"]),
     ] {
-        let done = run(&profile("", &[ARM]), &[("T.JBI", &job(attributes, groups))]);
+        let done = run(
+            &profile_at_home(&[ARM]),
+            &[("T.JBI", &job(attributes, groups))],
+        );
         let done = done.expect("read");
         assert_eq!(errors(&done), expected, "{:?}", done.findings);
     }

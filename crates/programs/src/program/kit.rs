@@ -1,7 +1,9 @@
 //! What readers of all languages share.
 
-use super::script::{Remark, short};
-use super::{About, MOST_ANGLE_DEG, Marker, ReadError, Source};
+use super::script::{Place, Remark, Script, short};
+use super::{About, MOST_ANGLE_DEG, Marker, ReadError, Settings, Source};
+use crate::geometry::Pose;
+use crate::geometry::units::{DEG, MM, mm_from_m};
 use std::ops::Range;
 
 /// No text has a zero byte, and places are kept in 32 bits.
@@ -212,6 +214,40 @@ pub(super) const fn load_chosen(id: &'static str, hint: &'static str) -> Remark 
          the tool",
         hint,
     )
+}
+
+/// Where a profile may have the base of an arm whose controller counts positions from there.
+const MOST_BASE_GAP_M: f64 = 0.1 * MM;
+const MOST_BASE_TURN_RAD: f64 = 0.01 * DEG;
+
+/// Refuses a profile that has the base elsewhere than at the origin, where the controller counts
+/// positions from the robot's own base, with this finding. `at_any_height`: not from its foot.
+pub(super) fn judge_base(
+    script: &mut Script,
+    sources: &[Source],
+    settings: &Settings,
+    (id, at_any_height): (&'static str, bool),
+) {
+    let Some(mut base) = settings.world_from_base.filter(|_| !sources.is_empty()) else {
+        return;
+    };
+    if at_any_height {
+        base.translation[2] = 0.0;
+    }
+    let gap = Pose::identity().separation(&base);
+    if gap.distance_m <= MOST_BASE_GAP_M && gap.angle_rad <= MOST_BASE_TURN_RAD {
+        return;
+    }
+    let message = format!(
+        "the controller counts positions from the robot's own base, and `kinematics.base` of the \
+         profile is {:.1} mm and {:.2} deg from it",
+        mm_from_m(gap.distance_m),
+        gap.angle_rad / DEG
+    );
+    let hint = "make `kinematics.base` zero; how the robot is mounted `gravity_m_s2` says, along the \
+        axes of its base";
+    let remark = Remark::error_about(id, message, hint);
+    script.say(sources, Place::new(0, 0), remark);
 }
 
 /// The name of a label as a number: FNV-1a. Two names of one routine with the same would be one

@@ -47,7 +47,7 @@ mod remarks;
 mod shifts;
 mod variables;
 
-use super::kit::{line_behind, not_this_language};
+use super::kit::{judge_base, line_behind, not_this_language};
 use super::notation;
 use super::script::{Script, short};
 use super::{
@@ -209,12 +209,17 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
             return Err(not_this_language(&ABOUT, source));
         }
     }
-    Ok(reader::script(
-        sources,
-        positions,
-        &conditions,
-        &settings.external,
-    ))
+    let mut script = reader::script(sources, positions, &conditions, &settings.external);
+    // BASE counts from the height of axis 2; what a station carries is in the world
+    if settings.external.listed.is_empty() {
+        judge_base(
+            &mut script,
+            sources,
+            settings,
+            ("base-not-of-controller", true),
+        );
+    }
+    Ok(script)
 }
 
 /// Behind the NOP of the first job, where none has one before the last END, else at the end.

@@ -52,7 +52,7 @@ mod variables;
 mod verbs;
 
 use super::insert::Manner;
-use super::kit::not_this_language;
+use super::kit::{judge_base, not_this_language};
 use super::notation;
 use super::script::{Builder, Script};
 use super::{
@@ -114,8 +114,15 @@ impl Language for UrScript {
         sniff::recognises(&source.bytes)
     }
 
-    fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {
-        script(sources)
+    fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
+        let mut script = script(sources)?;
+        judge_base(
+            &mut script,
+            sources,
+            settings,
+            ("base-not-of-controller", false),
+        );
+        Ok(script)
     }
 
     fn pose_roles(&self, _: Layout) -> &'static [Role] {

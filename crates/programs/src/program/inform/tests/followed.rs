@@ -507,11 +507,11 @@ fn moves_that_the_arc_corrects_are_reported_once_a_place() {
     assert_eq!((found.line, found.severity), (19, severity));
     assert!(program.targets.iter().all(|target| !target.blocked));
     // it lasts through calls, and the end of it does
-    let ended = read_body("COMARCON #(1)\nCOMARCOF\nMOVL C00000");
+    let ended = read_body("COMARCON #(1)\nCOMARCOF\nMOVL C00000\nMOVL C00001\nMOVL C00002");
     assert_eq!(ids(&ended), [""; 0]);
     let (main, weld) = (
         job("", "COMARCON #(1)\nCALL JOB:B\nCOMARCOF"),
-        job(&positions, "MOVL C00000").replace("//NAME A", "//NAME B"),
+        job(&positions, "MOVL C00000\nMOVL C00001\nMOVL C00002").replace("//NAME A", "//NAME B"),
     );
     let program = read_files(&[&main, &weld], &Settings::default()).expect("jobs");
     assert_eq!(ids(&program), ["corrected-by-sensor"]);
