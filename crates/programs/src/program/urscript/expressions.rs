@@ -109,6 +109,7 @@ impl<'a> Reader<'a> {
                     self.may_pass |= verbs::may_pass(text);
                     if next.is(b'(') && !verbs::is_operator(text) {
                         match verbs::verb(text) {
+                            _ if looks => value = self.call_of(token)?,
                             Verb::Known => {}
                             Verb::Other if self.depth >= MOST_LOOKED_INTO => {
                                 self.called(token, Vec::new());
@@ -204,15 +205,7 @@ impl<'a> Reader<'a> {
                     return self.literal(open, token.start, true);
                 }
                 if next.is(b'(') && !verbs::is_operator(text) {
-                    return match verbs::value_of(text) {
-                        Some(_) if self.depth >= MOST_LOOKED_INTO => {
-                            let open = self.next()?;
-                            self.brackets(open)?;
-                            Ok(OTHER)
-                        }
-                        Some(value) => self.pose_call(value),
-                        None => self.call(token),
-                    };
+                    return self.call_of(token);
                 }
                 if next.is(b'[') {
                     // an element of a list
@@ -235,6 +228,19 @@ impl<'a> Reader<'a> {
                 Ok(self.name(text, token.start))
             }
             _ => Ok(OTHER),
+        }
+    }
+
+    /// A function that is called, behind its name.
+    fn call_of(&mut self, name: Token) -> Read<ExprId> {
+        match verbs::value_of(self.text(name)) {
+            Some(_) if self.depth >= MOST_LOOKED_INTO => {
+                let open = self.next()?;
+                self.brackets(open)?;
+                Ok(OTHER)
+            }
+            Some(value) => self.pose_call(value),
+            None => self.call(name),
         }
     }
 

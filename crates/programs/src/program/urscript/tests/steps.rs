@@ -141,6 +141,17 @@ fn a_function_that_steps_from_what_it_is_given() {
 }
 
 #[test]
+fn a_list_has_positions_that_are_worked_out() {
+    let above = "def above(at):\nreturn pose_trans(at,p[0,0,-.1,0,0,0])\nend\n";
+    for list in ["ls=[a,pose_trans(a,p[0,0,-.1,0,0,0])]", "ls=[a,above(a),b]"] {
+        let program = path(&format!("{TWO}{above}{list}\nmovel(a)\nmovel(ls[1])"));
+        assert_eq!(program.findings, [], "{list}");
+        let expected = [Displacement::None, by(2, -0.1)].map(|by| ("a".to_owned(), by));
+        assert_eq!(steps(&program), expected, "{list}");
+    }
+}
+
+#[test]
 fn features_stay_features() {
     let tool_down = "p[.1,.2,0,0,3.1,0]";
     // of a target, and of one pallet or the other
