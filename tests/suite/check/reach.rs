@@ -4,6 +4,7 @@ use super::command::name;
 use crate::support::{poseshift, repository, run, scratch};
 use serde_json::Value;
 
+const THESIS: &str = "robots/abb_irb120_thesis.yaml";
 const KR210: &str = "robots/kuka_kr210_r2700.yaml";
 
 /// The status of `check`, and its report.
@@ -98,4 +99,22 @@ fn an_arc_is_compared_with_that_from_the_same_beginning() {
         let compared = checked(&[&written, "--profile", &profile, "--nominal", &given]);
         assert!(worst(&compared) < most, "{folder}: {}", worst(&compared));
     }
+}
+
+#[test]
+fn through_the_wrists_singularity_the_joints_next_to_it_stand_all_along() {
+    let folder = scratch();
+    let file = folder.path().join("t.mod");
+    let program = "MODULE M\nPERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1.4,[5,-3,60],[1,0,0,0],0,0,0]];\n\
+        PROC main()\nConfJ\\Off;\nConfL\\Off;\n\
+        MoveAbsJ [[0,-3.58647,-16.7361,0,20.32257,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        MoveL [[414,0,530],[0.70710678,0,0.70710678,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        ENDPROC\nENDMODULE\n";
+    std::fs::write(&file, program).expect("scratch");
+    let (status, report) = checked(&[name(&file), "--profile", THESIS]);
+    assert_eq!(status, 0, "{:?}", ids(&report));
+    // joint 4 stands at zero, far from its limits
+    let last = report["moves"].as_array().and_then(|moves| moves.last());
+    let margin = last.expect("a move")["joint_margin_deg"].as_f64();
+    assert!(margin > Some(20.0), "{margin:?}");
 }

@@ -7,10 +7,11 @@ use super::checked::{
 use super::landing::joints;
 use super::measured::put;
 use super::programs::{Said, numbers_of};
-use super::{rapid, tool};
+use super::{rapid, run, tool};
 use crate::physics::matrix::M4;
 use crate::physics::{Moment, tool_pose};
-use crate::support::{poseshift, scratch};
+use crate::support::{poseshift, scratch, text};
+use poseshift::model::profile::Profile;
 
 /// Where the rail stands at the ends, metres.
 const ENDS: [f64; 2] = [0.4, 0.6];
@@ -132,5 +133,40 @@ fn the_point_of_an_arc_is_corrected_for_where_the_rail_is_then() {
     assert!(!is_reported);
     for e in [ENDS[0], ENDS[1]] {
         assert_eq!(compensated(e), (right.clone(), true));
+    }
+}
+
+/// The fake target of the point of an arc that begins with the rail at a metre and goes on to there,
+/// with a base that turns back on it.
+fn point_with_backlash(goes_to_mm: f64) -> [f64; 3] {
+    let nominal = text("robots/abb_irb2600_12_165.yaml");
+    let effects = "effects: [{effect: backlash, joint: 1, width_deg: 0.05}]";
+    let track = "external_axes: {track: [{axis: eax_a, direction: [0, 1, 0], up: [0, 0, 1], \
+                 zero_mm: 0, min_mm: 0, max_mm: 3000}]}\n";
+    let profile = nominal.replace("effects: []", effects) + track;
+    let profile = Profile::from_yaml(&profile).expect("a profile");
+    let target = |x: f64, y: f64, e: f64| {
+        format!("[[{x},{y},571.458],[0,0,-1,0],[0,0,0,0],[{e},9E9,9E9,9E9,9E9,9E9]]")
+    };
+    let tool = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[4.5,[0,0,90],[1,0,0,0],0,0,0]];";
+    let body = format!(
+        "MoveAbsJ [[-20,10,20,0,60,0],[1000,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+         MoveJ {},v100,fine,t;\nMoveC {},{},v100,fine,t;\n",
+        target(1017.544, 1000.0, 1000.0),
+        target(1177.544, 1098.0, goes_to_mm),
+        target(1217.544, 1000.0, goes_to_mm)
+    );
+    let done = run(&profile, &[("t.mod", &rapid(tool, &body))]).expect("compensated");
+    let point = done.targets.get(2).expect("the point");
+    point.fake.expect("a fake target").translation
+}
+
+#[test]
+fn joints_come_to_the_point_of_an_arc_as_they_go_on_it_while_the_rail_moves() {
+    let stands = point_with_backlash(1000.0);
+    for goes_to_mm in [1000.01, 1000.1] {
+        let moves = point_with_backlash(goes_to_mm);
+        let off_mm: f64 = (0..3).map(|k| 1e3 * (moves[k] - stands[k]).abs()).sum();
+        assert!(off_mm < 0.01, "{goes_to_mm}: {off_mm}");
     }
 }

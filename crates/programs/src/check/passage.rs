@@ -45,6 +45,7 @@ impl Passage {
             branch: self.equipped.arm.posture(from).0,
             conditions: Conditions::default(),
             ride: None,
+            crossing: None,
         };
         let mover = self.arms.mover(Which::Real);
         let found = least_room(scene, &mover, &leg, &leg.pieces(), HORIZON_M);

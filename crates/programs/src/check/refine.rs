@@ -374,7 +374,9 @@ impl Job<'_> {
             conditions: leg.conditions,
             // moves on which something rides along are not divided
             ride: leg.ride.clone(),
+            crossing: None,
         }
+        .with_crossing()
     }
 
     /// The bound of the error of a part, metres.

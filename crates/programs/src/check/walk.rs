@@ -364,6 +364,7 @@ impl Walk {
             },
             start: stop.q,
             conditions: self.conditions(stop),
+            crossing: None,
         }
     }
 
@@ -424,7 +425,7 @@ impl Walk {
                 ))
             }
         };
-        Some(Leg {
+        let leg = Leg {
             ride,
             // the branch of the path's end is that of the whole path; at its beginning it may be
             // open
@@ -436,7 +437,9 @@ impl Walk {
             course,
             start: start.q,
             conditions: self.conditions(&stop),
-        })
+            crossing: None,
+        };
+        Some(leg.with_crossing())
     }
 }
 

@@ -129,7 +129,10 @@ impl<'a> Path<'a> {
         });
         let wanted = equipped.controller.forward(end, &Conditions::default());
         let (turning, at) = (walk_options.turning, arrival.motion as usize);
-        let via = via.or_else(|| middle::halfway(ground, turning, at, (&start, &wanted)));
+        let via = via.or_else(|| {
+            let ends = (&start, &wanted);
+            middle::halfway(ground, turning, at, ends, ride.as_deref())
+        });
         let course = follow::course(
             motion,
             equipped,
@@ -371,8 +374,7 @@ impl TakenUp {
         let mut worst: BTreeMap<TargetId, (f64, usize)> = BTreeMap::new();
         for (at, arrival) in arrivals.all.iter().enumerate() {
             let motion = &program.moves[arrival.motion as usize];
-            let is_plain =
-                motion.displacement == Displacement::None && motion.motion != Motion::ArcVia;
+            let is_plain = motion.displacement == Displacement::None;
             let Some(target) = motion
                 .target
                 .filter(|target| is_plain && !stays(job, *target))

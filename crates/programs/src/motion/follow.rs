@@ -196,6 +196,33 @@ pub(crate) fn follow(
     Some(Followed { branch, q, passing })
 }
 
+/// Where joint 5 goes through the wrist's singularity on a path that ends on a branch, and the branch
+/// before; `None` where it does not, or begins there.
+pub(super) fn crossing(
+    equipped: &Equipped,
+    path: &ToolCourse,
+    start: &[f64; 6],
+    end: Branch,
+) -> Option<(f64, Branch)> {
+    let arm = &equipped.arm;
+    let (branch, margins) = arm.posture(start);
+    let is_other = branch.joint_5_negative != end.joint_5_negative
+        && branch
+            == Branch {
+                joint_5_negative: branch.joint_5_negative,
+                ..end
+            };
+    if !is_other || margins.wrist_rad < SINGULAR_RAD || arm.has_offset_wrist() {
+        return None;
+    }
+    let margin = |s: f64| {
+        let solution = arm.solve_along(&path.pose(s), end, start);
+        (solution.beyond == 0.0).then(|| arm.posture(&solution.q).1.wrist_rad)
+    };
+    let (at, _) = passage(margin, 0.0, 1.0)?;
+    Some((at, branch))
+}
+
 fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }
@@ -377,5 +404,7 @@ pub(crate) fn leg<'a>(
         branch,
         conditions: Conditions::default(),
         ride: None,
+        crossing: None,
     }
+    .with_crossing()
 }

@@ -2,6 +2,7 @@
 
 use super::arms::Equipped;
 use super::course::Course;
+use super::follow;
 use super::ride::Ride;
 use crate::geometry::{Jet, Pose, Scalar};
 use crate::inverse::Branch;
@@ -28,6 +29,8 @@ pub(crate) struct Leg<'a> {
     pub conditions: Conditions,
     /// What external axes do meanwhile.
     pub ride: Option<Arc<Ride>>,
+    /// Where joint 5 goes through the wrist's singularity, and the branch before.
+    pub crossing: Option<(f64, Branch)>,
 }
 
 /// A part of a move over which the joints' rates are bounded.
@@ -66,6 +69,22 @@ impl Piece {
 }
 
 impl Leg<'_> {
+    /// The same with where it changes the branch, if it begins with joint 5 on the other side of the
+    /// wrist's singularity than it ends.
+    pub(crate) fn with_crossing(mut self) -> Self {
+        if let Course::Tool(course) = &self.course {
+            self.crossing = follow::crossing(self.equipped, course, &self.start, self.branch);
+        }
+        self
+    }
+
+    fn branch_at(&self, s: f64) -> Branch {
+        match self.crossing {
+            Some((at, before)) if s < at => before,
+            _ => self.branch,
+        }
+    }
+
     /// The controller's joints at `s`, by whole revolutions nearest to `near`.
     pub(crate) fn joints(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
         match &self.course {
@@ -73,8 +92,13 @@ impl Leg<'_> {
             Course::Tool(course) => {
                 let pose = course.pose(s);
                 match &self.equipped.calibrated_controller {
-                    None => self.equipped.arm.solve_along(&pose, self.branch, near).q,
-                    Some(controller) => controller.solve(&pose, self.branch, near).q,
+                    None => {
+                        self.equipped
+                            .arm
+                            .solve_along(&pose, self.branch_at(s), near)
+                            .q
+                    }
+                    Some(controller) => controller.solve(&pose, self.branch_at(s), near).q,
                 }
             }
         }
@@ -88,7 +112,7 @@ impl Leg<'_> {
                 let pose = course.pose(s);
                 self.equipped
                     .arm
-                    .solve_along(&pose, self.branch, &self.start)
+                    .solve_along(&pose, self.branch_at(s), &self.start)
                     .beyond
             }
         }
@@ -128,17 +152,19 @@ impl Leg<'_> {
             Course::Tool(course) => {
                 let half_width = 0.5 * (to - from);
                 let arm = &self.equipped.arm;
-                let enclosed =
-                    arm.enclose(&course.pose(s), half_width, self.branch.signs(), middle);
+                let half = 0.5 * (from + to);
+                let branch = self.branch_at(half);
+                let enclosed = arm.enclose(&course.pose(s), half_width, branch.signs(), middle);
                 let exact = self.equipped.calibrated_controller.is_none();
+                let is_crossed = (self.crossing).is_some_and(|(at, _)| from < at && at < to);
                 let joints = if exact {
                     enclosed
                 } else {
-                    let middle_pose = course.pose(0.5 * (from + to));
-                    let nominal = arm.solve_along(&middle_pose, self.branch, middle).q;
+                    let middle_pose = course.pose(half);
+                    let nominal = arm.solve_along(&middle_pose, branch, middle).q;
                     std::array::from_fn(|i| shifted(enclosed[i], middle[i] - nominal[i]))
                 };
-                (joints, exact)
+                (joints, exact && !is_crossed)
             }
         };
         let mut piece = Piece {

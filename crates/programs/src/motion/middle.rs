@@ -7,6 +7,7 @@
 use super::arms::Equipped;
 use super::course::{ToolCourse, ToolRotation};
 use super::ground::Ground;
+use super::ride::Ride;
 use super::walk::{Arrival, WalkOptions};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::DEG;
@@ -41,7 +42,7 @@ pub(super) fn middle(
     if motion.motion != Motion::ArcVia {
         return None;
     }
-    let end = end_pose(ground, at)?;
+    let (end, _) = end_of(ground, at).filter(|(_, moves_axes)| !moves_axes)?;
     let equipped = ground.equipped(motion.tool)?;
     let from = start_pose(ground, equipped, start, walk_options);
     let course = ToolCourse::arc(&from, wanted.translation, &end, walk_options.turning);
@@ -61,22 +62,36 @@ pub(super) fn middle(
 }
 
 /// The point halfway to the middle of the arc that a move begins, from joints where it begins and the
-/// pose of its middle; `None` where nobody knows the arc, or it begins none.
+/// pose of its middle; `None` where nobody knows the arc, or it begins none. `ride`: what external
+/// axes do on the way to its middle.
 pub(crate) fn halfway(
     ground: &Ground,
     turning: ToolRotation,
     at: usize,
     (start, via): (&[f64; 6], &Pose),
+    ride: Option<&Ride>,
 ) -> Option<Pose> {
     let motion = &ground.program.moves[at];
     if motion.motion != Motion::ArcVia {
         return None;
     }
-    let end = end_pose(ground, at)?;
+    let (end, moves_axes) = end_of(ground, at)?;
     let controller = &ground.equipped(motion.tool)?.controller;
     let from = controller.forward(start, &Conditions::default());
-    let course = ToolCourse::arc(&from, via.translation, &end, turning);
-    Some(course.pose(0.5 * course.part_at(via.translation)))
+    let half = |from: &Pose, via: &Pose, end: &Pose| {
+        let course = ToolCourse::arc(from, via.translation, end, turning);
+        course.pose(0.5 * course.part_at(via.translation))
+    };
+    if !moves_axes {
+        return Some(half(&from, via, &end));
+    }
+    // it is an arc on the part
+    let ride = ride.filter(|ride| ride.is_known())?;
+    let last = ground.ride(None, &ground.program.moves[at + 1])?;
+    let on_part = |ride: &Ride, s: f64, pose: &Pose| ride.home_from_part(s).inverse() * *pose;
+    let (from, via) = (on_part(ride, 0.0, &from), on_part(ride, 1.0, via));
+    let there = half(&from, &via, &on_part(&last, 1.0, &end));
+    Some(ride.home_from_part(0.5) * there)
 }
 
 /// By how much the tool may be rotated, on the way of an arc, away from where the shorter way from its
@@ -128,9 +143,9 @@ fn start_pose(
     }
 }
 
-/// Where the arc through the point of a move ends; `None` where nobody knows, or external axes move
-/// on it.
-fn end_pose(ground: &Ground, at: usize) -> Option<Pose> {
+/// Where the arc through the point of a move ends, and whether external axes move on it; `None` where
+/// nobody knows.
+fn end_of(ground: &Ground, at: usize) -> Option<(Pose, bool)> {
     let program = ground.program;
     let via = crate::program::script::short(at);
     let end: &Move = program.moves.get(at + 1)?;
@@ -149,7 +164,7 @@ fn end_pose(ground: &Ground, at: usize) -> Option<Pose> {
         })
         .any(|ride| ride.moves());
     let goal = ground.goal(end).filter(|goal| !goal.is_near)?;
-    (!moves_axes).then(|| ground.meant(&goal.value, end.tool, frame))
+    Some((ground.meant(&goal.value, end.tool, frame), moves_axes))
 }
 
 /// That the tool may turn otherwise on an arc than it is taken to.

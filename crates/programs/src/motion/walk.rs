@@ -478,7 +478,10 @@ impl Walker<'_, '_> {
             ride::through(&pose, point.as_deref(), ride.as_deref())
         });
         let turning = self.walk_options.turning;
-        let via = via.or_else(|| middle::halfway(ground, turning, at as usize, (&start?, &wanted)));
+        let via = via.or_else(|| {
+            let ends = (&start?, &wanted);
+            middle::halfway(ground, turning, at as usize, ends, ride.as_deref())
+        });
         let said = self.findings.len();
         let Some(posture) = self.posture(
             motion,

@@ -421,7 +421,7 @@ impl Resolver<'_, '_> {
     }
 }
 
-/// Moves of one stop that are told apart one by one as predecessors.
+/// Moves of one stop that are kept apart one by one as predecessors.
 const MOST_ALTERNATIVES: u32 = 16;
 
 /// What a move has, before its targets are listed.
