@@ -73,8 +73,8 @@ fn the_page_of_compensate_has_the_numbers_of_its_json() {
 
 #[test]
 fn the_page_lists_no_targets_of_files_that_are_read_for_their_declarations() {
-    let page = compensated("programs/rapid/cam/in/cam.mod", &["--with", PROGRAM]);
-    assert_eq!(page["title"], "Compensation of cam.mod");
+    let page = compensated(PROGRAM, &["--with", "programs/rapid/cam/in/cam.mod"]);
+    assert_eq!(page["title"], "Compensation of Deburr.mod");
 }
 
 /// Compensates with a page, whose numbers are those of the JSON, and gives the page's data.

@@ -12,7 +12,7 @@ pub enum Before {
     One(u32),
     /// Several, by index in [`super::Program::befores`].
     Several(u32),
-    /// Any of a row of [`super::Program::moves`], which are too many to be told apart one by one.
+    /// Any of a row of [`super::Program::moves`], which are too many to be kept apart one by one.
     AnyOf {
         /// The first.
         first: u32,
