@@ -118,3 +118,20 @@ fn through_the_wrists_singularity_the_joints_next_to_it_stand_all_along() {
     let margin = last.expect("a move")["joint_margin_deg"].as_f64();
     assert!(margin > Some(20.0), "{margin:?}");
 }
+
+#[test]
+fn from_an_aligned_wrist_the_error_is_that_of_samples() {
+    let folder = scratch();
+    let file = folder.path().join("t.mod");
+    let program = "MODULE M\nPERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1.4,[5,-3,60],[1,0,0,0],0,0,0]];\n\
+        PROC main()\nConfJ\\Off;\nConfL\\Off;\n\
+        MoveAbsJ [[30,10,-10,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        MoveL [[391.09965,200.4425,665.89809],[-0.6830127,0.1830127,-0.6830127,-0.1830127],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        MoveL [[451.09965,260.4425,625.89809],[-0.6830127,0.1830127,-0.6830127,-0.1830127],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        ENDPROC\nENDMODULE\n";
+    std::fs::write(&file, program).expect("scratch");
+    let (status, report) = checked(&[name(&file), "--profile", THESIS]);
+    assert_eq!(status, 0, "{:?}", ids(&report));
+    let bound = report["summary"]["max_path_error_mm"].as_f64();
+    assert!(bound < Some(3.0), "{bound:?}");
+}

@@ -18,8 +18,11 @@ const CLOSE_M: f64 = 1e-6;
 const CLOSE_RAD: f64 = 2e-6;
 /// … or within this part of it.
 const CLOSE_PART: f64 = 0.01;
-/// Intervals are halved at most so often; what remains open is reported with its bound.
+/// Intervals are halved at most so often; what remains open is reported with its bound, if that says
+/// something: if it is within this of the samples, metres and radians.
 const DEEPEST: u32 = 12;
+const SAYS_M: f64 = 1e-3;
+const SAYS_RAD: f64 = 0.02;
 /// … and so often where the joints' rates have no bound, so that there are only samples.
 const SAMPLED: u32 = 5;
 
@@ -223,7 +226,7 @@ pub(crate) fn path_error(
                     depth: depth - 1,
                 });
             }
-        } else if is_whole && bound.0.is_finite() && bound.1.is_finite() {
+        } else if is_whole && bound.0 < low.0 + SAYS_M && bound.1 < low.1 + SAYS_RAD {
             high = (high.0.max(bound.0), high.1.max(bound.1));
         } else {
             // it leaps from one posture to another, or at a singularity nothing bounds the joints'

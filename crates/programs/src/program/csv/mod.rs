@@ -302,9 +302,9 @@ impl Reader {
                 Some(is_linear) if *is_linear != axis.is_linear => {
                     let found = shown(&source.bytes[cell.start..cell.end]);
                     let expected = if *is_linear {
-                        "a value in mm (column `e1_mm`; the axis is linear)"
+                        "a value in mm (the column with `_mm`; the axis is linear)"
                     } else {
-                        "a value in degrees (column `e1_deg`; the axis is rotary)"
+                        "a value in degrees (the column with `_deg`; the axis is rotary)"
                     };
                     return Err(unexpected(source, cell.start, found, expected));
                 }
