@@ -265,7 +265,7 @@ fn a_large_step_of_the_device_is_solved_until_it_rests() {
             let before = before.map_or([0.0; 6], |e| e.parameters);
             let off = (effect.parameters.iter().zip(before)).map(|(a, b)| (a - b).abs());
             let most = off.fold(0.0, f64::max);
-            assert!(most < 5e-5, "{}: {most:e}, {step:?}", effect.label());
+            assert!(most < 2e-5, "{}: {most:e}, {step:?}", effect.label());
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::physics::matrix::{shift, times, turn_z};
 use crate::physics::{Moment, Robot, tool_pose};
 use crate::trial::truth::robot_of;
 use poseshift::finding::Severity;
+use poseshift::geometry::Pose;
 use poseshift::model::profile::Profile;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -261,4 +262,34 @@ fn a_rail_that_contradicts_the_configuration_data_is_reported() {
         said.contains("none of the 12 targets") && said.contains("eax_a in the opposite direction"),
         "{said}"
     );
+}
+
+#[test]
+fn a_base_elsewhere_is_refused_where_the_controller_counts_from_its_own() {
+    let script = "def t():\nset_tcp(p[0,0,0.1,0,0,0])\nmovej([0,0,0.1,0,1,0])\n\
+        movel(p[0.4,0.1,0.3,0,3.1,0])\nend\n";
+    let job = "/JOB\n//NAME T\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 1\n///POSTYPE BASE\n///RECTAN\n\
+        ///RCONF 0,0,0,0,0,0,0,0\nC00000=400,100,300,170,5,10\n//INST\n///DATE 2024/01/01 10:00\n\
+        ///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=5.00\nEND\n";
+    let is_refused = |base: Pose, name: &str, text: &str| {
+        let robot = Profile {
+            world_from_base: base,
+            ..profile("", &[ARM])
+        };
+        let done = run(&robot, &[(name, text)]).expect("read");
+        done.findings
+            .iter()
+            .any(|f| f.id == "base-not-of-controller")
+    };
+    let at = |x, y, z, rz_deg: f64| Pose::from_xyz_rxryrz([x, y, z, 0.0, 0.0, rz_deg.to_radians()]);
+    for (base, of_script, of_job) in [
+        (at(0.0, 0.0, 0.0, 0.0), false, false),
+        // INFORM counts from the height of axis 2
+        (at(0.0, 0.0, -0.29, 0.0), true, false),
+        (at(0.001, 0.0, 0.0, 0.0), true, true),
+        (at(0.0, 0.0, 0.0, 0.5), true, true),
+    ] {
+        assert_eq!(is_refused(base, "t.script", script), of_script, "{base:?}");
+        assert_eq!(is_refused(base, "T.JBI", job), of_job, "{base:?}");
+    }
 }

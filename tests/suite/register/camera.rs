@@ -135,6 +135,18 @@ fn joints_and_the_calibrated_model_keep_the_arms_error_out_of_the_camera() {
         status == Some(2) && reported.contains("--profile"),
         "{reported}"
     );
+    // of several tools springs must know which they carry
+    let two = text(THESIS).replacen("tools:\n", "tools:\n  other: {mass_kg: 1, frame: {x_mm: 0, y_mm: 0, z_mm: 90, rx_deg: 0, ry_deg: 0, rz_deg: 0}}\n", 1);
+    std::fs::write(at.join("two.yaml"), two).expect("scratch");
+    let files = ["joints.csv", "board.csv", "--setup", "eye-in-hand"];
+    let (status, _, reported) = run(at, &[&files[..], &["--profile", "two.yaml"]].concat());
+    assert!(
+        status == Some(2) && reported.contains("choose one with --tool"),
+        "{reported}"
+    );
+    let of_one = [&files[..], &["--profile", "two.yaml", "--tool", "artifact"]].concat();
+    let found = report(at, &of_one);
+    assert!(miss_mm(&found["camera"], &camera, [0.0; 3]) < 1e-6);
 }
 
 #[test]

@@ -18,13 +18,14 @@ const CLOSE_M: f64 = 1e-6;
 const CLOSE_RAD: f64 = 2e-6;
 /// … or within this part of it.
 const CLOSE_PART: f64 = 0.01;
-/// Intervals are halved at most so often; what remains open is reported with its bound, if that says
-/// something: if it is within this of the samples, metres and radians.
+/// Intervals are halved at most so often; what remains open is reported with its bound.
 const DEEPEST: u32 = 12;
-const SAYS_M: f64 = 1e-3;
-const SAYS_RAD: f64 = 0.02;
 /// … and so often where the joints' rates have no bound, so that there are only samples.
 const SAMPLED: u32 = 5;
+/// Where not all of a move is certain a bound says nothing that is farther than this from the samples,
+/// metres and radians.
+const SAYS_M: f64 = 1e-3;
+const SAYS_RAD: f64 = 0.02;
 
 /// The error of a tool's path.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -180,7 +181,7 @@ pub(crate) fn path_error(
         // halving ends nowhere
         open.clear();
     }
-    let mut high = (0.0_f64, 0.0_f64);
+    let (mut high, mut far) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     while let Some(Open {
         a,
         b,
@@ -214,6 +215,7 @@ pub(crate) fn path_error(
         let close = |bound: f64, low: f64, slack: f64| bound <= low + slack.max(CLOSE_PART * low);
         let is_whole =
             !enclosed.certified || (enclosed.holds(&a.joints) && enclosed.holds(&b.joints));
+        let is_near = bound.0 < low.0 + SAYS_M && bound.1 < low.1 + SAYS_RAD;
         let is_close = close(bound.0, low.0, CLOSE_M) && close(bound.1, low.1, CLOSE_RAD);
         if is_close && is_whole {
             high = (high.0.max(bound.0), high.1.max(bound.1));
@@ -226,8 +228,10 @@ pub(crate) fn path_error(
                     depth: depth - 1,
                 });
             }
-        } else if is_whole && bound.0 < low.0 + SAYS_M && bound.1 < low.1 + SAYS_RAD {
+        } else if is_whole && is_near {
             high = (high.0.max(bound.0), high.1.max(bound.1));
+        } else if is_whole && enclosed.certified && bound.0.is_finite() && bound.1.is_finite() {
+            far = (far.0.max(bound.0), far.1.max(bound.1));
         } else {
             // it leaps from one posture to another, or at a singularity nothing bounds the joints'
             // rates: what is between the samples is unknown
@@ -235,6 +239,9 @@ pub(crate) fn path_error(
         }
     }
     found.certified &= all_certain;
+    if found.certified {
+        high = (high.0.max(far.0), high.1.max(far.1));
+    }
     found.sampled = Separation {
         distance_m: low.0,
         angle_rad: angle(low.1),

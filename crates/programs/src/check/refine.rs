@@ -370,7 +370,8 @@ impl Job<'_> {
             equipped: leg.equipped,
             course,
             start: a.q,
-            branch: leg.equipped.arm.posture(&a.q).0,
+            // at its beginning it may be open
+            branch: leg.equipped.arm.posture(&b.q).0,
             conditions: leg.conditions,
             // moves on which something rides along are not divided
             ride: leg.ride.clone(),

@@ -190,8 +190,9 @@ fn written(
         let kept = kept.filter(|(_, f)| is_kept(f)).map(|(c, _)| c.clone());
         attempt.refitted(profile, &kept.collect::<Vec<_>>())
     };
-    // where nothing is missing nothing is moved
-    let moved = moved.filter(|_| verdict != Verdict::NothingMissing);
+    // where nothing of the arm is missing nothing of it is moved
+    let is_of_arm = |f: &Found| !f.effect.definition().of_data;
+    let moved = moved.filter(|_| verdict != Verdict::NothingMissing && found.iter().any(is_of_arm));
     (moved.unwrap_or(own.estimate), unsure)
 }
 

@@ -34,6 +34,7 @@ enum Known {
 /// "Functions".
 fn known(word: &[u8]) -> Option<Known> {
     Some(match word {
+        _ if is_of_form(word) => Known::Reads,
         b"ABS"
         | b"SQRT"
         | b"SIN"
@@ -49,23 +50,7 @@ fn known(word: &[u8]) -> Option<Known> {
         | b"K_ROOT"
         | b"K_TYPE"
         | b"K_OFFS"
-        | b"STOOL"
-        | b"STOOL2"
-        | b"SBASE"
-        | b"SLOAD"
-        | b"SIPO_MODE"
-        | b"SORI_TYP"
-        | b"SCIRC_TYP"
-        | b"SCIRC_M"
-        | b"SVEL_CP"
-        | b"SVEL_JOINT"
-        | b"SACC_CP"
-        | b"SACC_JOINT"
-        | b"SGEAR_JERK"
-        | b"SJERK"
         | b"USE_CM_PRO_VALUES"
-        | b"SAPO"
-        | b"SAPO_PTP"
         | b"VARSTATE"
         | b"SWRITE"
         | b"CWRITE"
