@@ -272,3 +272,64 @@ fn where_external_axes_stand_at_the_start_tells_from_which_side_they_come() {
         "{said}"
     );
 }
+
+#[test]
+fn a_rail_that_comes_from_both_sides_or_from_behind_a_call_is_reported_as_joints_are() {
+    let rail = profile(
+        &rail("eax_a"),
+        &["{effect: track_backlash, axis: 1, width_mm: 0.4}"],
+    );
+    let at = |e: u32| {
+        format!(
+            "MoveJ [[{},200,700],[0,0.1,0.9949874371,0],[0,0,0,0],[{e},9E9,9E9,9E9,9E9,9E9]],v100,\
+             fine,t;\n",
+            540 + e
+        )
+    };
+    let home = HOME.lines().next().expect("joints first");
+    let run_all = |body: String| run(&rail, &[("t.mod", &rapid(POINT, &body))]).expect("read");
+    let said = |body: String| {
+        let done = run_all(body);
+        let all: Vec<String> = done
+            .findings
+            .iter()
+            .map(|of| of.message.clone())
+            .filter(|message| {
+                let known = ["nothing says from which side", "no move uses"];
+                !known.iter().any(|known| message.contains(known))
+            })
+            .collect();
+        (errors(&done), all.join("\n"))
+    };
+    // forth and back, for ever: to the second from one side only but at the first
+    let (found, messages) = said(format!(
+        "{home}\nWHILE TRUE DO\n{}{}ENDWHILE\n",
+        at(500),
+        at(900)
+    ));
+    assert_eq!(found, ["target-shared"], "{messages}");
+    assert!(messages.contains("+eax_a: 0.200 mm") && messages.contains("-eax_a: 0.200 mm"));
+    // one target, two moves
+    let (found, messages) = said(format!(
+        "{home}\n{}MoveJ p1,v100,fine,t;\n{}MoveJ p1,v100,fine,t;\n",
+        at(0),
+        at(500)
+    ));
+    assert_eq!(found, ["target-shared"], "{messages}");
+    assert!(
+        messages.contains("side from which an external axis comes"),
+        "{messages}"
+    );
+    // a routine that is not in the files, between two moves to one place
+    let (found, messages) = said(format!("{home}\n{}Elsewhere;\n{}", at(500), at(500)));
+    assert_eq!(found, [""; 0], "{messages}");
+    assert!(
+        messages.contains("`Elsewhere`")
+            && messages.contains("external axis eax_a with backlash may come from the other side")
+            && messages.contains("0.400 mm off"),
+        "{messages}"
+    );
+    // a longer way behind it: from one side whatever it does
+    let (found, messages) = said(format!("{home}\n{}{}{}", at(500), at(900), at(1200)));
+    assert_eq!((found, messages.as_str()), (vec![], ""));
+}

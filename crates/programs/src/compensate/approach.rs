@@ -184,6 +184,9 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     let all = arrivals.all.par_iter().enumerate().map(of);
     let all: Vec<Option<Approach>> = all.collect();
     let mut approaches: Vec<Approach> = all.into_iter().flatten().collect();
+    let others = approaches.iter().filter_map(|of| from_other_side(job, of));
+    let others: Vec<Approach> = others.collect();
+    approaches.extend(others);
     for approach in &approaches {
         led.look(job, approach);
     }
@@ -201,6 +204,16 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
         drop_served(job, arrivals, &mut approaches, findings);
     }
     approaches
+}
+
+/// The same where external axes come from the other side, where they come from both.
+fn from_other_side(job: &Job, approach: &Approach) -> Option<Approach> {
+    let frame = &job.ground.program.frames[approach.frame as usize];
+    let other = frame.stand.as_ref()?.from_other_side?;
+    Some(Approach {
+        frame: short(other),
+        ..approach.clone()
+    })
 }
 
 /// By target; where the robot stands goes before what it passes in the middle of arcs.

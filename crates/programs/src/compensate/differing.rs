@@ -5,8 +5,8 @@ use super::approach::{Approach, SAME_RAD, Solved};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::motion::walk::NOWHERE;
-use crate::program::Move;
 use crate::program::script::Place;
+use crate::program::{Move, Stand};
 use foldhash::HashSet;
 
 /// What sets the tool or the work frame of a move, and the name of that.
@@ -22,6 +22,7 @@ struct Differing {
     load: bool,
     frame: bool,
     external: bool,
+    external_side: bool,
     posture: bool,
     arc: bool,
     side: bool,
@@ -45,7 +46,11 @@ impl Differing {
                 .any(|other| !same_tool(other) && (!load || is_elsewhere(job, first, other))),
             load,
             frame: others().any(|other| !same_frame(other) && !is_moved(job, first, other)),
-            external: others().any(|other| !same_frame(other) && is_moved(job, first, other)),
+            external: others().any(|other| {
+                let other_side = is_from_other_side(job, first, other);
+                !same_frame(other) && is_moved(job, first, other) && !other_side
+            }),
+            external_side: others().any(|other| is_from_other_side(job, first, other)),
             posture: others().any(|other| {
                 let moved = |i: usize| (other.nominal_q[i] - first.nominal_q[i]).abs() > SAME_RAD;
                 let alike = same_tool(other) && same_frame(other);
@@ -65,6 +70,7 @@ impl Differing {
             (self.load, "load"),
             (self.frame, "work frame"),
             (self.external, "where external axes stand"),
+            (self.external_side, "side from which an external axis comes"),
             (self.posture, "posture"),
             (self.arc, "rotation on an arc"),
             (self.side, "side from which a joint comes"),
@@ -88,6 +94,18 @@ fn mass_kg(job: &Job, approach: &Approach) -> Option<f64> {
 fn is_moved(job: &Job, a: &Approach, b: &Approach) -> bool {
     let [a, b] = [a, b].map(|of| &job.ground.program.frames[of.frame as usize]);
     a.name == b.name && a.stand.is_some() && a.stand != b.stand
+}
+
+/// Whether external axes stand at the same values, and come there from other sides.
+fn is_from_other_side(job: &Job, a: &Approach, b: &Approach) -> bool {
+    let stand = |of: &Approach| job.ground.program.frames[of.frame as usize].stand.as_ref();
+    match (stand(a), stand(b)) {
+        (Some(a), Some(b)) => {
+            let bits = |of: &Stand| of.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            a.directions != b.directions && bits(a) == bits(b)
+        }
+        _ => false,
+    }
 }
 
 /// Whether two approaches have the tool elsewhere on the flange.
@@ -185,6 +203,16 @@ fn one(
             Some(mass_kg) => format!(" with a load of {mass_kg} kg"),
             None => " without a load".into(),
         };
+    }
+    let stand = &ground.program.frames[approach.frame as usize].stand;
+    if let Some(stand) = stand.as_ref().filter(|_| differing.external_side) {
+        let listed = ground.profile.external.listed();
+        let sides = listed.zip(&stand.directions).filter_map(|(axis, side)| {
+            let sign = if *side > 0.0 { '+' } else { '-' };
+            (*side != 0.0).then(|| format!("{sign}{}", axis.name()))
+        });
+        let sides: Vec<String> = sides.collect();
+        text += &format!(" with external axes moving {}", sides.join(" "));
     }
     if differing.posture {
         let joints = approach.nominal_q.map(|q| format!("{:.1}", q / DEG));

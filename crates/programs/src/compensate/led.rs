@@ -7,12 +7,13 @@ use super::approach::Approach;
 use super::solve::is_directed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{norm, sub};
+use crate::geometry::{Pose, norm, sub};
 use crate::inverse::Branch;
 use crate::model::Conditions;
+use crate::motion::placed::Placed;
 use crate::motion::posture;
 use crate::motion::walk::Arrivals;
-use crate::program::{Called, Configuration, Interrupt, Motion, Value};
+use crate::program::{Called, Configuration, Frame, Interrupt, Motion, Value};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -79,7 +80,7 @@ impl Led {
         Self {
             behind: behind_calls(job, arrivals),
             is_led: !program.led.is_empty() || !program.interrupts.is_empty(),
-            is_directed: is_directed(job),
+            is_directed: is_directed(job) || program.frames.iter().any(has_external_sides),
             left_in: program.interrupts.iter().map(left_in).collect(),
             worst: BTreeMap::new(),
         }
@@ -204,8 +205,16 @@ impl Led {
                         .filter(|&i| equipped.has_backlash[i] && approach.direction[i] != 0)
                         .map(|i| (i + 1).to_string())
                         .collect();
-                    let joints = joints.join(", ");
-                    format!("joint {joints} with backlash may come from the other side to {to}")
+                    let of = |what: &str, names: &[String]| {
+                        (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")))
+                    };
+                    let axes = external_sides(job, &approach);
+                    let both = [of("joint", &joints), of("external axis", &axes)];
+                    let both: Vec<String> = both.into_iter().flatten().collect();
+                    format!(
+                        "{} with backlash may come from the other side to {to}",
+                        both.join(" and ")
+                    )
                 }
                 What::Posture => format!("the robot may come in another posture to {to}"),
             };
@@ -331,9 +340,11 @@ fn open_branches(job: &Job, motion: usize, honoured: bool) -> Vec<Branch> {
     all
 }
 
-/// How far the tool is off where joints with backlash come from the other side.
+/// How far the tool is off the part where joints and external axes with backlash come from the other
+/// side.
 fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
     let equipped = job.ground.arm_with(approach.tool as usize);
+    let frame = &job.ground.program.frames[approach.frame as usize];
     let side = |side: f64| {
         let mut conditions = approach.conditions(job);
         for (direction, has_backlash) in conditions.direction.iter_mut().zip(equipped.has_backlash)
@@ -342,10 +353,37 @@ fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
                 *direction *= side;
             }
         }
-        let real = &equipped.inverse.real;
-        real.forward(&approach.nominal_q, &conditions)
+        let tool = equipped
+            .inverse
+            .real
+            .forward(&approach.nominal_q, &conditions);
+        if !has_external_sides(frame) {
+            return tool;
+        }
+        let mut frame = frame.clone();
+        if let Some(stand) = &mut frame.stand {
+            stand.directions.iter_mut().for_each(|of| *of *= side);
+        }
+        let part = Placed::of(job.ground.profile, &frame, Pose::identity());
+        part.real.inverse() * tool
     };
     side(1.0).separation(&side(-1.0)).distance_m
+}
+
+/// External axes for which it matters from which side they come, by their names.
+fn external_sides(job: &Job, approach: &Approach) -> Vec<String> {
+    let ground = &job.ground;
+    let stand = &ground.program.frames[approach.frame as usize].stand;
+    let directions = stand.iter().flat_map(|stand| &stand.directions);
+    let axes = ground.profile.external.listed().zip(directions);
+    let axes = axes.filter(|(_, direction)| **direction != 0.0);
+    axes.map(|(axis, _)| axis.name().to_owned()).collect()
+}
+
+/// Whether it matters from which side external axes come.
+fn has_external_sides(frame: &Frame) -> bool {
+    let stand = frame.stand.as_ref();
+    stand.is_some_and(|stand| stand.directions.iter().any(|of| *of != 0.0))
 }
 
 /// How far the tool is off where the robot comes to the target on another one of these branches.

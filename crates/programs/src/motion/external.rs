@@ -8,16 +8,16 @@
 //! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows
 //! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
+use super::external_values::{Coming, Known, followed, has_backlash, width};
 use super::passed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
-use crate::model::effects::Effect;
 use crate::model::external::{ExternalAxes, Follows, Listed};
 use crate::profile::Profile;
 use crate::program::{
-    Before, ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape,
-    Source, Stand,
+    ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape, Source,
+    Stand,
 };
 use std::collections::HashMap;
 
@@ -25,9 +25,6 @@ use std::collections::HashMap;
 const BORDER: f64 = 1e-6;
 /// A rail's polynomial is believed beyond where it was measured by this part of that span.
 const EXTRAPOLATED: f64 = 0.02;
-/// A value that differs by less from the one before has not moved.
-const STILL: f64 = 1e-9;
-
 /// What languages must know of a profile to read programs.
 pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Settings {
     let external = &profile.external;
@@ -65,26 +62,6 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
                 })
                 .collect(),
         },
-    }
-}
-
-/// What is known of a value of an axis at a move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Known {
-    /// Not looked at yet.
-    Open,
-    Is(f64),
-    /// Only the running program knows, or nobody does.
-    Unknown,
-}
-
-impl Known {
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Open, known) | (known, Self::Open) => known,
-            (Self::Is(a), Self::Is(b)) if (a - b).abs() <= STILL => self,
-            _ => Self::Unknown,
-        }
     }
 }
 
@@ -126,6 +103,9 @@ pub(crate) fn settle(
         looked_at: positioners.iter().flat_map(|at| own_of(*at)).collect(),
         backlash: (0..axes.len())
             .map(|k| has_backlash(&profile.effects, Some(k)))
+            .collect(),
+        widths: (0..axes.len())
+            .map(|axis| width(&profile.effects, axis))
             .collect(),
         made: HashMap::new(),
         measured: measured(profile),
@@ -200,112 +180,8 @@ fn part_of<K: Ord + Copy, T>(list: &[(K, T)], key: K) -> &[(K, T)] {
     &list[first..first + count]
 }
 
-/// The value of each axis at each move, kept from the moves before where it says nothing itself,
-/// and the direction in which it moves there.
-fn followed(
-    program: &Program,
-    profile: &Profile,
-    own: &[Option<f64>],
-    count: usize,
-) -> (Vec<Known>, Vec<Known>) {
-    let mut values: Vec<Known> = own
-        .iter()
-        .map(|value| match value {
-            None => Known::Open,
-            Some(value) if value.is_finite() => Known::Is(*value),
-            Some(_) => Known::Unknown,
-        })
-        .collect();
-    // a call that may lead the robot elsewhere may lead its external axes there
-    for (motion, _) in &program.led {
-        let at = *motion as usize * count;
-        for (value, own) in values[at..at + count].iter_mut().zip(&own[at..]) {
-            if own.is_none() {
-                *value = Known::Unknown;
-            }
-        }
-    }
-    let mut directions = vec![Known::Open; values.len()];
-    let directed = has_backlash(&profile.effects, None);
-    let widths: Vec<f64> = (0..count)
-        .map(|axis| width(&profile.effects, axis))
-        .collect();
-    let all_own = own.iter().all(Option::is_some);
-    if all_own && !directed {
-        return (values, directions);
-    }
-    // what is open becomes known, and what is known unknown: this ends
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for (at, motion) in program.moves.iter().enumerate() {
-            for k in 0..count {
-                let here = at * count + k;
-                let (mut value, mut direction) = (Known::Open, Known::Open);
-                for before in program.before(motion) {
-                    let (from, moved) = match before {
-                        Before::One(before) => {
-                            let from = *before as usize * count + k;
-                            (values[from], directions[from])
-                        }
-                        Before::Start => match program.stands_at_start.get(k) {
-                            Some(Some(start)) => (Known::Is(*start), Known::Unknown),
-                            _ => (Known::Unknown, Known::Unknown),
-                        },
-                        Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => {
-                            (Known::Unknown, Known::Unknown)
-                        }
-                    };
-                    value = value.and(from);
-                    direction = direction.and(match (from, values[here]) {
-                        (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
-                            let there = Known::Is((to - from).signum());
-                            match moved {
-                                // on the way on its backlash stays taken up; where it turns back it
-                                // may not be yet
-                                _ if moved == there || (to - from).abs() >= widths[k] => there,
-                                Known::Open => Known::Open,
-                                _ => Known::Unknown,
-                            }
-                        }
-                        (Known::Is(_), Known::Is(_)) => moved,
-                        (Known::Open, _) | (_, Known::Open) => Known::Open,
-                        _ => Known::Unknown,
-                    });
-                }
-                if own[here].is_none() && values[here] != values[here].and(value) {
-                    values[here] = values[here].and(value);
-                    changed = true;
-                }
-                if directed && directions[here] != directions[here].and(direction) {
-                    directions[here] = directions[here].and(direction);
-                    changed = true;
-                }
-            }
-        }
-    }
-    (values, directions)
-}
-
-/// By how much an axis stands elsewhere when it comes from the other side, metres or radians.
-fn width(effects: &[Effect], axis: usize) -> f64 {
-    let of_axis = effects.iter().filter(|effect| {
-        effect.definition().needs_external_directions() && effect.site.index == axis
-    });
-    of_axis.map(|effect| effect.parameters[0].abs()).sum()
-}
-
-/// Whether an axis, or any, stands elsewhere when it comes from the other side.
-fn has_backlash(effects: &[Effect], axis: Option<usize>) -> bool {
-    effects.iter().any(|effect| {
-        effect.definition().needs_external_directions()
-            && !effect.is_zero()
-            && axis.is_none_or(|axis| axis == effect.site.index)
-    })
-}
-
 /// Stands are the same where all their bits are.
-type Key = (FrameId, Vec<u64>, Vec<u64>, Option<usize>, bool);
+type Key = (FrameId, Vec<u64>, [Vec<u64>; 2], Option<usize>, bool);
 
 struct Settler<'a> {
     program: &'a mut Program,
@@ -317,6 +193,8 @@ struct Settler<'a> {
     looked_at: Vec<usize>,
     /// Axes that stand elsewhere when they come from the other side.
     backlash: Vec<bool>,
+    /// By how much.
+    widths: Vec<f64>,
     made: HashMap<Key, FrameId>,
     /// Between which places each axis of the track stood when it was measured, where the profile
     /// says so and it was not said yet that a move goes beyond.
@@ -339,7 +217,7 @@ fn measured(profile: &Profile) -> Vec<Option<[f64; 2]>> {
 }
 
 impl Settler<'_> {
-    fn motion(&mut self, at: usize, values: &[Known], directions: &[Known]) {
+    fn motion(&mut self, at: usize, values: &[Known], directions: &[Coming]) {
         let motion = &self.program.moves[at];
         let Some(target) = motion.target else {
             return;
@@ -407,38 +285,52 @@ impl Settler<'_> {
             self.tell_extrapolated(at, k, *value);
         }
         for (k, direction) in directions.iter().enumerate() {
-            if self.backlash[k] && !matches!(direction, Known::Is(_)) {
+            if self.backlash[k] && *direction == Coming::Unknown {
                 self.tell_direction(at, k);
             }
         }
         if stand.iter().all(|value| value.is_nan()) && !of_joints && positioner.is_none() {
             return;
         }
-        let directions: Vec<f64> = directions
-            .iter()
-            .map(|direction| match direction {
-                Known::Is(direction) => *direction,
+        let from_both = |both: f64| -> Vec<f64> {
+            let of = |(direction, has_backlash): (&Coming, &bool)| match direction {
+                Coming::Going(direction) if *has_backlash => *direction,
+                Coming::FromBoth if *has_backlash => both,
                 _ => 0.0,
-            })
-            .collect();
-        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+            };
+            directions.iter().zip(&self.backlash).map(of).collect()
+        };
         // joints do not depend on the frame but for what carries the work piece
         let of = if of_joints { FrameId::MAX } else { from };
-        let key = (of, bits(&stand), bits(&directions), positioner, of_joints);
+        let sides = [from_both(1.0), from_both(-1.0)];
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+        let key = (
+            of,
+            bits(&stand),
+            sides.each_ref().map(|of| bits(of)),
+            positioner,
+            of_joints,
+        );
         let frames = &mut self.program.frames;
         let made = *self.made.entry(key).or_insert_with(|| {
             let mut own = frames[from].clone();
             if of_joints {
                 own.world_from_frame = Some(Pose::identity());
             }
-            own.stand = Some(Stand {
-                values: stand.into(),
-                directions: directions.into(),
-                positioner,
-                on_base: !own.on.is_empty() && !own.is_carried(),
-                of_joints,
-            });
-            frames.push(own);
+            let mut other = None;
+            let is_one = sides[0] == sides[1];
+            for directions in sides.into_iter().rev().skip(usize::from(is_one)) {
+                own.stand = Some(Stand {
+                    values: stand.as_slice().into(),
+                    directions: directions.into(),
+                    positioner,
+                    on_base: !own.on.is_empty() && !own.is_carried(),
+                    of_joints,
+                    from_other_side: other,
+                });
+                frames.push(own.clone());
+                other = Some(frames.len() - 1);
+            }
             frames.len() - 1
         });
         self.program.moves[at].frame = made;
@@ -502,8 +394,10 @@ impl Settler<'_> {
         let motion = &self.program.moves[at];
         let message = format!(
             "nothing says from which side external axis {} with backlash comes here, or it turns \
-             back by less than that: it is taken to stand in the middle",
-            self.axes[axis].name()
+             back by less than that: it is taken to stand in the middle, and the tool may be {:.3} \
+             mm off",
+            self.axes[axis].name(),
+            mm_from_m(0.5 * self.widths[axis])
         );
         let hint = "come to the target on a move that is certainly before it, from another value, \
             farther away than its backlash";

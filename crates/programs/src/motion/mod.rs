@@ -29,6 +29,7 @@ mod before;
 pub(crate) mod course;
 mod crowds;
 pub mod external;
+mod external_values;
 mod flow;
 pub(crate) mod follow;
 pub(crate) mod ground;

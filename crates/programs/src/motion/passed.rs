@@ -8,7 +8,7 @@
 //! point are not used. KUKA, `CIRC`: only the position of the auxiliary point counts.
 
 use super::course::{ToolCourse, ToolRotation};
-use super::external::Known;
+use super::external_values::Known;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector};

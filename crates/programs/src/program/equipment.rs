@@ -62,4 +62,7 @@ pub struct Stand {
     pub on_base: bool,
     /// It is the frame of moves to joints: the world, seen from what carries the work piece.
     pub of_joints: bool,
+    /// The same where axes come from the other side, where the robot comes to the end of the move
+    /// now from one and now from the other.
+    pub from_other_side: Option<super::FrameId>,
 }
