@@ -2,7 +2,7 @@
 
 use super::{errors, profile, profile_at_home, rapid, run, written};
 use poseshift::compensate::compensate;
-use poseshift::geometry::Pose;
+use poseshift::geometry::{Pose, Rotation};
 use poseshift::model::profile::Profile;
 use poseshift::program;
 
@@ -257,6 +257,42 @@ fn an_offset_in_the_world_needs_one_angle_of_the_positioner() {
             && refused.contains("in line 6"),
         "{refused}"
     );
+}
+
+#[test]
+fn what_a_positioner_does_wrong_is_in_the_offset_of_the_part_that_was_measured_on_it() {
+    let zero = "{effect: positioner_zero, axis: 1, deg: 0.05}";
+    let cell = profile(TABLE, &[ARM, zero]);
+    let text = rapid(
+        "PERS wobjdata w:=[FALSE,FALSE,\"STN1\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];",
+        "MoveAbsJ [[0,0,10,0,60,0],[9E9,10,9E9,9E9,9E9,9E9]],v100,fine,t;\nMoveL \
+         [[40,20,400],[0,0.1,0.9949874371,0],[0,0,0,0],[9E9,10,9E9,9E9,9E9,9E9]],v100,fine,\
+         t\\WObj:=w;\n",
+    );
+    let with = |work_offset: Option<Pose>| {
+        let sources = super::sources(&[("t.mod", &text)]);
+        let language = program::language_of(&sources[0]).expect("a language");
+        let mut options = super::options();
+        options.work_offset = work_offset;
+        options.correct_joint_targets = true;
+        let done = compensate(language, &sources, &cell, &options).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+        let written = done
+            .written(language, &sources, "", false)
+            .expect("written");
+        let text = String::from_utf8(written.sources[0].bytes.clone()).expect("ASCII");
+        let of_move = text.lines().find(|line| line.contains("MoveL"));
+        of_move.expect("the move").to_owned()
+    };
+    // the table's axis is at x 600 mm, parallel to z
+    let axis = Pose::from_translation(0.6, 0.0, 0.0);
+    let turned = Pose {
+        rotation: Rotation::from_vector([0.0, 0.0, 0.05_f64.to_radians()]),
+        ..Pose::identity()
+    };
+    let touched = axis * turned * axis.inverse();
+    assert_eq!(with(Some(touched)), with(None));
+    assert_ne!(with(Some(Pose::identity())), with(None));
 }
 
 #[test]

@@ -208,8 +208,8 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
 
 /// The same where external axes come from the other side, where they come from both.
 fn from_other_side(job: &Job, approach: &Approach) -> Option<Approach> {
-    let frame = &job.ground.program.frames[approach.frame as usize];
-    let other = frame.stand.as_ref()?.from_other_side?;
+    let stand = job.ground.stand_in(approach.frame as usize)?;
+    let other = stand.from_other_side?;
     Some(Approach {
         frame: short(other),
         ..approach.clone()

@@ -98,7 +98,7 @@ fn is_moved(job: &Job, a: &Approach, b: &Approach) -> bool {
 
 /// Whether external axes stand at the same values, and come there from other sides.
 fn is_from_other_side(job: &Job, a: &Approach, b: &Approach) -> bool {
-    let stand = |of: &Approach| job.ground.program.frames[of.frame as usize].stand.as_ref();
+    let stand = |of: &Approach| job.ground.stand_in(of.frame as usize);
     match (stand(a), stand(b)) {
         (Some(a), Some(b)) => {
             let bits = |of: &Stand| of.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
@@ -204,8 +204,8 @@ fn one(
             None => " without a load".into(),
         };
     }
-    let stand = &ground.program.frames[approach.frame as usize].stand;
-    if let Some(stand) = stand.as_ref().filter(|_| differing.external_side) {
+    let stand = ground.stand_in(approach.frame as usize);
+    if let Some(stand) = stand.filter(|_| differing.external_side) {
         let listed = ground.profile.external.listed();
         let sides = listed.zip(&stand.directions).filter_map(|(axis, side)| {
             let sign = if *side > 0.0 { '+' } else { '-' };

@@ -13,7 +13,7 @@ use crate::model::Conditions;
 use crate::motion::placed::Placed;
 use crate::motion::posture;
 use crate::motion::walk::Arrivals;
-use crate::program::{Called, Configuration, Frame, Interrupt, Motion, Value};
+use crate::program::{Called, Configuration, Interrupt, Motion, Stand, Value};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -80,7 +80,8 @@ impl Led {
         Self {
             behind: behind_calls(job, arrivals),
             is_led: !program.led.is_empty() || !program.interrupts.is_empty(),
-            is_directed: is_directed(job) || program.frames.iter().any(has_external_sides),
+            is_directed: is_directed(job)
+                || (program.frames.iter()).any(|of| of.stand.as_ref().is_some_and(has_sides)),
             left_in: program.interrupts.iter().map(left_in).collect(),
             worst: BTreeMap::new(),
         }
@@ -344,7 +345,8 @@ fn open_branches(job: &Job, motion: usize, honoured: bool) -> Vec<Branch> {
 /// side.
 fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
     let equipped = job.ground.arm_with(approach.tool as usize);
-    let frame = &job.ground.program.frames[approach.frame as usize];
+    let stand = job.ground.stand_in(approach.frame as usize);
+    let stand = stand.filter(|stand| has_sides(stand));
     let side = |side: f64| {
         let mut conditions = approach.conditions(job);
         for (direction, has_backlash) in conditions.direction.iter_mut().zip(equipped.has_backlash)
@@ -357,14 +359,12 @@ fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
             .inverse
             .real
             .forward(&approach.nominal_q, &conditions);
-        if !has_external_sides(frame) {
+        let Some(stand) = stand else {
             return tool;
-        }
-        let mut frame = frame.clone();
-        if let Some(stand) = &mut frame.stand {
-            stand.directions.iter_mut().for_each(|of| *of *= side);
-        }
-        let part = Placed::of(job.ground.profile, &frame, Pose::identity());
+        };
+        let mut stand = stand.clone();
+        stand.directions.iter_mut().for_each(|of| *of *= side);
+        let part = Placed::at(job.ground.profile, &stand, Pose::identity());
         part.real.inverse() * tool
     };
     side(1.0).separation(&side(-1.0)).distance_m
@@ -373,7 +373,7 @@ fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
 /// External axes for which it matters from which side they come, by their names.
 fn external_sides(job: &Job, approach: &Approach) -> Vec<String> {
     let ground = &job.ground;
-    let stand = &ground.program.frames[approach.frame as usize].stand;
+    let stand = ground.stand_in(approach.frame as usize);
     let directions = stand.iter().flat_map(|stand| &stand.directions);
     let axes = ground.profile.external.listed().zip(directions);
     let axes = axes.filter(|(_, direction)| **direction != 0.0);
@@ -381,9 +381,8 @@ fn external_sides(job: &Job, approach: &Approach) -> Vec<String> {
 }
 
 /// Whether it matters from which side external axes come.
-fn has_external_sides(frame: &Frame) -> bool {
-    let stand = frame.stand.as_ref();
-    stand.is_some_and(|stand| stand.directions.iter().any(|of| *of != 0.0))
+fn has_sides(stand: &Stand) -> bool {
+    stand.directions.iter().any(|of| *of != 0.0)
 }
 
 /// How far the tool is off where the robot comes to the target on another one of these branches.

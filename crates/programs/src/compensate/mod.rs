@@ -263,7 +263,7 @@ fn check_offset(ground: &Ground, needs: impl Fn(&Move) -> bool) -> Result<(), Co
     let external = &ground.profile.external;
     let mut first: Option<(&Move, usize, &[f64])> = None;
     for motion in ground.program.moves.iter().filter(|motion| needs(motion)) {
-        let stand = ground.program.frames[motion.frame].stand.as_ref();
+        let stand = ground.stand_in(motion.frame);
         let Some((stand, at)) = stand.and_then(|stand| Some((stand, stand.positioner?))) else {
             continue;
         };

@@ -12,7 +12,7 @@ use crate::model::Conditions;
 use crate::profile::Profile;
 use crate::program::{
     Before, Configuration, Displacement, FrameId, Language, Move, Program, Settings, Shape, Source,
-    TargetId, ToolId, Value,
+    Stand, TargetId, ToolId, Value,
 };
 use std::sync::Arc;
 
@@ -110,12 +110,17 @@ impl<'a> Ground<'a> {
 
     /// The work frame of a move; joints stand in the world, which external axes move.
     pub(crate) fn frame_of(&self, motion: &Move) -> FrameId {
-        let stand = self.program.frames[motion.frame].stand.as_ref();
+        let stand = self.stand_in(motion.frame);
         if self.program.goes_to_pose(motion) || stand.is_some_and(|stand| stand.of_joints) {
             motion.frame
         } else {
             self.setting.world()
         }
+    }
+
+    /// Where external axes stand in a work frame; `None` too of frames that are not the program's.
+    pub(crate) fn stand_in(&self, frame: FrameId) -> Option<&Stand> {
+        self.program.frames.get(frame)?.stand.as_ref()
     }
 
     /// Whether nobody knows where external axes carry the arm or the work piece at a move to a
@@ -135,7 +140,7 @@ impl<'a> Ground<'a> {
             None if starts() => &self.program.stands_at_start,
             None => &[],
         };
-        let stand = self.program.frames[to.frame].stand.as_ref();
+        let stand = self.stand_in(to.frame);
         stand.map(|to| Ride::of(self.profile, from, to))
     }
 

@@ -5,7 +5,7 @@ use crate::geometry::{Pose, Vector};
 use crate::model::effects::Effect;
 use crate::model::external::At;
 use crate::profile::Profile;
-use crate::program::Frame;
+use crate::program::{Frame, Stand};
 
 /// Where the real base and the nominal one are in the world, from where they are at home, on a work
 /// piece that is carried where the controller has it: with each external axis at a part of its
@@ -81,9 +81,14 @@ impl Placed {
 
     /// A frame of a program; `world_from_frame` is what its numbers say.
     pub(crate) fn of(profile: &Profile, frame: &Frame, world_from_frame: Pose) -> Self {
-        let Some(stand) = &frame.stand else {
-            return Self::still(world_from_frame);
-        };
+        match &frame.stand {
+            None => Self::still(world_from_frame),
+            Some(stand) => Self::at(profile, stand, world_from_frame),
+        }
+    }
+
+    /// A frame where external axes stand.
+    pub(crate) fn at(profile: &Profile, stand: &Stand, world_from_frame: Pose) -> Self {
         let external = &profile.external;
         let at = At {
             values: &stand.values,
@@ -125,12 +130,14 @@ impl Placed {
         }
     }
 
-    /// With the part moved in the world.
+    /// With the part moved in the world from where the controller has it: what the positioner that
+    /// carries it does wrong is in what was measured.
     pub(crate) fn moved(self, offset: &Pose) -> Self {
-        let by = |home_from_world: Pose| home_from_world * *offset * home_from_world.inverse();
+        let [nominal_home, real_home] = self.home_from_world;
+        let world_from_frame = *offset * nominal_home.inverse() * self.nominal;
         Self {
-            meant: by(self.home_from_world[0]) * self.meant,
-            real: by(self.home_from_world[1]) * self.real,
+            meant: nominal_home * world_from_frame,
+            real: real_home * world_from_frame,
             ..self
         }
     }

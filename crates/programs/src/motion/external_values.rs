@@ -1,0 +1,160 @@
+//! What is known of where external axes stand at each move, and from where they come.
+
+use crate::model::effects::Effect;
+use crate::profile::Profile;
+use crate::program::{Before, Program};
+
+/// A value that differs by less from the one before has not moved.
+const STILL: f64 = 1e-9;
+
+/// What is known of a value of an axis at a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Known {
+    /// Not looked at yet.
+    Open,
+    Is(f64),
+    /// Only the running program knows, or nobody does.
+    Unknown,
+}
+
+impl Known {
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Open, known) | (known, Self::Open) => known,
+            (Self::Is(a), Self::Is(b)) if (a - b).abs() <= STILL => self,
+            _ => Self::Unknown,
+        }
+    }
+}
+
+/// From where an axis comes to the end of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Coming {
+    /// Not looked at yet.
+    Open,
+    /// By the sign of its way.
+    Going(f64),
+    /// Now from one side, now from the other.
+    FromBoth,
+    /// Nobody knows.
+    Unknown,
+}
+
+impl Coming {
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Open, known) | (known, Self::Open) => known,
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            (a, b) if a == b => a,
+            _ => Self::FromBoth,
+        }
+    }
+
+    /// Behind a way to another place.
+    fn behind(self, way: f64, width: f64) -> Self {
+        let there = Self::Going(way.signum());
+        match self {
+            // on the way on its backlash stays taken up; where it turns back it may not be yet
+            _ if self == there || way.abs() >= width => there,
+            Self::Open => Self::Open,
+            _ => Self::Unknown,
+        }
+    }
+}
+
+/// The value of each axis at each move, kept from the moves before where it says nothing itself,
+/// and the direction in which it moves there.
+pub(super) fn followed(
+    program: &Program,
+    profile: &Profile,
+    own: &[Option<f64>],
+    count: usize,
+) -> (Vec<Known>, Vec<Coming>) {
+    let mut values: Vec<Known> = own
+        .iter()
+        .map(|value| match value {
+            None => Known::Open,
+            Some(value) if value.is_finite() => Known::Is(*value),
+            Some(_) => Known::Unknown,
+        })
+        .collect();
+    // a call that may lead the robot elsewhere may lead its external axes there
+    for (motion, _) in &program.led {
+        let at = *motion as usize * count;
+        for (value, own) in values[at..at + count].iter_mut().zip(&own[at..]) {
+            if own.is_none() {
+                *value = Known::Unknown;
+            }
+        }
+    }
+    let mut directions = vec![Coming::Open; values.len()];
+    let directed = has_backlash(&profile.effects, None);
+    let widths: Vec<f64> = (0..count)
+        .map(|axis| width(&profile.effects, axis))
+        .collect();
+    let all_own = own.iter().all(Option::is_some);
+    if all_own && !directed {
+        return (values, directions);
+    }
+    // what is open becomes known, and what is known unknown: this ends
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for (at, motion) in program.moves.iter().enumerate() {
+            for k in 0..count {
+                let here = at * count + k;
+                let (mut value, mut direction) = (Known::Open, Coming::Open);
+                for before in program.before(motion) {
+                    let (from, moved) = match before {
+                        Before::One(before) => {
+                            let from = *before as usize * count + k;
+                            (values[from], directions[from])
+                        }
+                        Before::Start => match program.stands_at_start.get(k) {
+                            Some(Some(start)) => (Known::Is(*start), Coming::Unknown),
+                            _ => (Known::Unknown, Coming::Unknown),
+                        },
+                        Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => {
+                            (Known::Unknown, Coming::Unknown)
+                        }
+                    };
+                    value = value.and(from);
+                    direction = direction.and(match (from, values[here]) {
+                        (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
+                            moved.behind(to - from, widths[k])
+                        }
+                        (Known::Is(_), Known::Is(_)) => moved,
+                        (Known::Open, _) | (_, Known::Open) => Coming::Open,
+                        _ => Coming::Unknown,
+                    });
+                }
+                if own[here].is_none() && values[here] != values[here].and(value) {
+                    values[here] = values[here].and(value);
+                    changed = true;
+                }
+                if directed && directions[here] != directions[here].and(direction) {
+                    directions[here] = directions[here].and(direction);
+                    changed = true;
+                }
+            }
+        }
+    }
+    (values, directions)
+}
+
+/// By how much an axis stands elsewhere when it comes from the other side, metres or radians.
+pub(super) fn width(effects: &[Effect], axis: usize) -> f64 {
+    let of_axis = effects.iter().filter(|effect| {
+        effect.definition().needs_external_directions() && effect.site.index == axis
+    });
+    of_axis.map(|effect| effect.parameters[0].abs()).sum()
+}
+
+/// Whether an axis, or any, stands elsewhere when it comes from the other side.
+pub(super) fn has_backlash(effects: &[Effect], axis: Option<usize>) -> bool {
+    effects.iter().any(|effect| {
+        effect.definition().needs_external_directions()
+            && !effect.is_zero()
+            && axis.is_none_or(|axis| axis == effect.site.index)
+    })
+}
