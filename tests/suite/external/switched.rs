@@ -114,3 +114,29 @@ fn asynchronous_axes_of_krl_are_not_where_targets_say() {
         assert_eq!(errors(&done), expected, "{between}{:?}", done.findings);
     }
 }
+
+#[test]
+fn an_interrupt_that_moves_an_axis_leaves_it_where_no_target_says() {
+    let rail = profile(KRL_TRACK, &[ARM]);
+    let found = |interrupt: &str, second: &str| {
+        let text = format!(
+            "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nINTERRUPT DECL 3 WHEN $IN[1]==TRUE DO \
+             ir()\nINTERRUPT ON 3\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}}\nPTP {{X 640,Y \
+             200,Z 700,A 10,B 5,C 170{second}}}\nEND\nDEF ir()\n{interrupt}END\n"
+        );
+        let done = run(&rail, &[("t.src", &text)]).expect("read");
+        let messages: Vec<&str> = done.findings.iter().map(|f| f.message.as_str()).collect();
+        (errors(&done), messages.join("\n"))
+    };
+    let away = "PTP {A1 5,A2 0,A3 10,A4 0,A5 60,A6 0,E1 650}\n";
+    let (ids, messages) = found(away, "");
+    assert_eq!(ids, ["external-value-unknown"], "{messages}");
+    assert!(
+        messages.contains("`ir`") && messages.contains("E1"),
+        "{messages}"
+    );
+    let stays = "PTP {A1 5,A2 0,A3 10,A4 0,A5 60,A6 0,E1 100}\n";
+    for (interrupt, second) in [(away, ",E1 100"), (stays, ""), ("$OUT[1]=TRUE\n", "")] {
+        assert_eq!(found(interrupt, second).0, [""; 0], "{interrupt} {second}");
+    }
+}

@@ -370,6 +370,8 @@ impl Settler<'_> {
             let mut why = format!("nothing says where external axis {name} stands at this move");
             if let Some(call) = self.program.call_before(at) {
                 why += &format!(": `{call}` before it may move it");
+            } else if let Some(of) = self.program.interrupts.first() {
+                why += &format!(": `{}`, which may run before it, may move it", of.name);
             }
             let hint = "write its value into the target, or into one that is certainly before it; \
                 --with gives files of routines";

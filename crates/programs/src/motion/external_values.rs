@@ -2,6 +2,7 @@
 
 use crate::model::effects::Effect;
 use crate::profile::Profile;
+use crate::program::script::short;
 use crate::program::{Before, Program};
 
 /// A value that differs by less from the one before has not moved.
@@ -50,12 +51,18 @@ impl Coming {
         }
     }
 
-    /// Behind a way to another place.
-    fn behind(self, way: f64, width: f64) -> Self {
-        let there = Self::Going(way.signum());
+    /// Behind a move of an axis with a backlash of that width.
+    fn then(self, from: Known, to: Known, width: f64) -> Self {
+        let by = match (from, to) {
+            (Known::Is(from), Known::Is(to)) => to - from,
+            (Known::Open, _) | (_, Known::Open) => return Self::Open,
+            _ => return Self::Unknown,
+        };
+        let there = Self::Going(by.signum());
         match self {
+            _ if by.abs() <= STILL => self,
             // on the way on its backlash stays taken up; where it turns back it may not be yet
-            _ if self == there || way.abs() >= width => there,
+            _ if self == there || by.abs() >= width => there,
             Self::Open => Self::Open,
             _ => Self::Unknown,
         }
@@ -87,6 +94,10 @@ pub(super) fn followed(
             }
         }
     }
+    // and an interrupt's own moves lead them there before any other move
+    let led_by: Vec<(&[u32], Vec<Known>)> = (program.interrupts.iter())
+        .map(|of| (&*of.moves, led_to(own, &of.moves, count)))
+        .collect();
     let mut directions = vec![Coming::Open; values.len()];
     let directed = has_backlash(&profile.effects, None);
     let widths: Vec<f64> = (0..count)
@@ -101,9 +112,13 @@ pub(super) fn followed(
     while changed {
         changed = false;
         for (at, motion) in program.moves.iter().enumerate() {
+            let is_own = |of: &[u32]| of.binary_search(&short(at)).is_ok();
             for k in 0..count {
                 let here = at * count + k;
                 let (mut value, mut direction) = (Known::Open, Coming::Open);
+                for (_, to) in led_by.iter().filter(|(of, _)| !is_own(of)) {
+                    value = value.and(to[k]);
+                }
                 for before in program.before(motion) {
                     let (from, moved) = match before {
                         Before::One(before) => {
@@ -119,14 +134,7 @@ pub(super) fn followed(
                         }
                     };
                     value = value.and(from);
-                    direction = direction.and(match (from, values[here]) {
-                        (Known::Is(from), Known::Is(to)) if (to - from).abs() > STILL => {
-                            moved.behind(to - from, widths[k])
-                        }
-                        (Known::Is(_), Known::Is(_)) => moved,
-                        (Known::Open, _) | (_, Known::Open) => Coming::Open,
-                        _ => Coming::Unknown,
-                    });
+                    direction = direction.and(moved.then(from, values[here], widths[k]));
                 }
                 if own[here].is_none() && values[here] != values[here].and(value) {
                     values[here] = values[here].and(value);
@@ -140,6 +148,22 @@ pub(super) fn followed(
         }
     }
     (values, directions)
+}
+
+/// Where moves lead each axis; open where none of them does.
+fn led_to(own: &[Option<f64>], moves: &[u32], count: usize) -> Vec<Known> {
+    let mut all = vec![Known::Open; count];
+    for motion in moves {
+        let at = *motion as usize * count;
+        for (known, own) in all.iter_mut().zip(&own[at..at + count]) {
+            *known = match own {
+                None => *known,
+                Some(value) if value.is_finite() => known.and(Known::Is(*value)),
+                Some(_) => Known::Unknown,
+            };
+        }
+    }
+    all
 }
 
 /// By how much an axis stands elsewhere when it comes from the other side, metres or radians.
