@@ -5,7 +5,7 @@ use super::files::Files;
 use super::layout;
 use super::programs::{Ignored, gather, read_context};
 use super::progress::Progress;
-use super::{Answer, Output, values};
+use super::{Answer, Output, screen, values};
 use crate::check::{Options, ToolRotation, baseline};
 use crate::finding::Acceptance;
 use crate::geometry::units::{DEG, MM};
@@ -120,7 +120,7 @@ impl Check {
         let progress = Progress::new(output, "reading");
         let gathered = gather(&files, &self.programs, asked, &self.ignored)?;
         let left_out = gathered.left_out.clone();
-        let paths = gathered.paths();
+        let (paths, below) = (gathered.paths(), gathered.below());
         let mut sources = gathered.only(&self.only)?;
         let with = |asked, programs: &[PathBuf]| {
             read_context(&files, &self.with, asked, &self.ignored, programs)
@@ -132,7 +132,13 @@ impl Check {
         } else {
             let gathered = gather(&files, &self.nominal, Some(language), &self.ignored)?;
             let paths = gathered.paths();
-            let mut nominal = gathered.only(&self.only)?;
+            let mut nominal = if self.are_folders() {
+                let shared = gathered.shared_with(&below, &self.only)?;
+                Self::say_left_out(&shared.left_out);
+                shared.sources
+            } else {
+                gathered.only(&self.only)?
+            };
             nominal.extend(with(Some(language), &paths)?);
             Some(nominal)
         };
@@ -183,6 +189,22 @@ impl Check {
         };
         drop(progress);
         deliver(&files, &outputs, said, answer)
+    }
+
+    /// Whether folders are compared with folders.
+    fn are_folders(&self) -> bool {
+        let mut both = self.programs.iter().chain(&self.nominal);
+        both.all(|path| path.is_dir())
+    }
+
+    /// Says which originals have no program.
+    fn say_left_out(names: &[String]) {
+        if !names.is_empty() {
+            screen::warn(&format!(
+                "not compared, for no program is called so: {} of --nominal",
+                names.join(", ")
+            ));
+        }
     }
 
     fn refuse_nonsense(&self) -> Result<(), Failure> {

@@ -83,11 +83,61 @@ pub(super) struct Gathered {
     pub left_out: LeftOut,
 }
 
+/// Originals that have programs.
+#[derive(Default)]
+pub(super) struct Shared {
+    /// These, and behind them the others as context.
+    pub sources: Vec<Source>,
+    /// The names of those that have none.
+    pub left_out: Vec<String>,
+}
+
 impl Gathered {
+    /// As the programs are called in a folder of outputs.
+    pub(super) fn below(&self) -> Vec<PathBuf> {
+        let below = self.programs.iter().map(|program| program.below.clone());
+        below.collect()
+    }
+
     /// Where the programs are.
     pub(super) fn paths(&self) -> Vec<PathBuf> {
         let paths = self.programs.iter().map(|program| program.path.clone());
         paths.collect()
+    }
+
+    /// Leaves those out that have no file of their name among some others, where any has: their
+    /// names, and what is left, the ones left out for what they declare.
+    pub(super) fn shared_with(
+        self,
+        others: &[PathBuf],
+        names: &[String],
+    ) -> Result<Shared, Failure> {
+        // files of one name are one module: a.src means a.dat, too
+        let module = |path: &Path| path.with_extension("");
+        let is_shared = |program: &ProgramFile| {
+            let own = module(&program.below);
+            let mut others = others.iter().map(|other| module(other));
+            others.any(|other| other.as_os_str().eq_ignore_ascii_case(&own))
+        };
+        let shared: Vec<bool> = self.programs.iter().map(is_shared).collect();
+        let any = shared.contains(&true);
+        let meant = meant(&self.programs, names)?;
+        let mut found = Shared::default();
+        let mut context = Vec::new();
+        for ((program, is_shared), is_meant) in self.programs.into_iter().zip(shared).zip(meant) {
+            let source = program.source;
+            let is_alone = any && !is_shared;
+            if is_alone && is_meant {
+                found.left_out.push(source.name.clone());
+            }
+            if is_meant && !is_alone {
+                found.sources.push(source);
+            } else {
+                context.push(Source::context(source.name, source.bytes));
+            }
+        }
+        found.sources.extend(context);
+        Ok(found)
     }
 
     /// The programs that `--only` means, and behind them the others, which are read for what they

@@ -585,3 +585,36 @@ fn a_spline_is_known_at_its_points_alone() {
         assert_eq!(findings.iter().any(is_warned), !certified, "{report}");
     }
 }
+
+#[test]
+fn originals_of_a_folder_that_have_no_program_are_left_out() {
+    let folder = scratch();
+    let [originals, out] = ["in", "out"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&originals).expect("scratch");
+    for module in ["A", "D"] {
+        let text = PROGRAM
+            .replace("MODULE t", &format!("MODULE {module}"))
+            .replace("PROC main", &format!("PROC main_{module}"));
+        std::fs::write(originals.join(format!("{module}.mod")), text).expect("scratch");
+    }
+    let compensate = ["compensate", name(&originals), "--profile", PROFILE, "-o"];
+    let (status, said, error) = run(&[&compensate[..], &[name(&out)]].concat());
+    assert_eq!(status, 0, "{said}{error}");
+    // as --write-good leaves it
+    std::fs::remove_file(out.join("D.mod")).expect("scratch");
+    let check = ["check", name(&out), "--profile", PROFILE, "--nominal"];
+    let all = [&check[..], &[name(&originals)]].concat();
+    let (status, said, error) = run(&all);
+    assert_eq!(status, 0, "{said}{error}");
+    assert!(error.contains("D.mod of --nominal"), "{error}");
+    let (_, report) = json(&all);
+    assert_eq!(report["moves"].as_array().map(Vec::len), Some(4));
+    // --only means originals, too
+    let (status, said, error) = run(&[&all[..], &["--only", "A"]].concat());
+    assert_eq!(status, 0, "{said}{error}");
+    assert!(!error.contains("not compared"), "{error}");
+    // no name in common: it is another program
+    std::fs::rename(out.join("A.mod"), out.join("E.mod")).expect("scratch");
+    let (status, _, error) = run(&all);
+    assert!(status == 2 && error.contains("no counterpart"), "{error}");
+}

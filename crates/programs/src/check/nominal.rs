@@ -9,7 +9,7 @@ use super::{CheckError, Options, Subject};
 use crate::geometry::units::MM;
 use crate::geometry::{Pose, norm, sub};
 use crate::motion::course::Course;
-use crate::program::Motion;
+use crate::program::{Motion, Move, Source};
 
 /// A landing this near to a wanted pose is the landing at it, metres.
 const LANDED_M: f64 = 0.5 * MM;
@@ -132,12 +132,12 @@ fn align_moves(
         let mut stops = walk.stops_of(motion);
         stops.find(|stop| walk.stops.all[*stop].is_some())
     };
+    let whole = |stop: usize| Part {
+        stop,
+        from: 0.0,
+        to: 1.0,
+    };
     if ours.len() == theirs.len() {
-        let whole = |stop: usize| Part {
-            stop,
-            from: 0.0,
-            to: 1.0,
-        };
         let alike = (0..ours.len()).find(|&i| ours[i].motion != theirs[i].motion);
         if let Some(at) = alike {
             return Err(counterpart(at));
@@ -146,9 +146,28 @@ fn align_moves(
             .map(|motion| known_stop(original, motion).map(whole))
             .collect());
     }
+    // of files that are read for their declarations only nothing is compared
+    let is_own = |sources: &[Source], motion: &Move| !sources[motion.file as usize].is_context;
+    let is_theirs = |at: &usize| is_own(subject.nominal.unwrap_or(&[]), &theirs[*at]);
+    let own = |at: &usize| is_own(subject.sources, &ours[*at]);
+    let own: Vec<usize> = (0..ours.len()).filter(own).collect();
+    let of_theirs: Vec<usize> = (0..theirs.len()).filter(is_theirs).collect();
     let mut parts = vec![None; ours.len()];
+    if own.len() == of_theirs.len() {
+        for (at, its) in own.into_iter().zip(of_theirs) {
+            if ours[at].motion != theirs[its].motion {
+                return Err(counterpart(its));
+            }
+            parts[at] = known_stop(original, its).map(whole);
+        }
+        return Ok(parts);
+    }
     let (mut mine, mut next) = (0, 0);
     while next < theirs.len() {
+        if !is_theirs(&next) {
+            next += 1;
+            continue;
+        }
         // the points of arcs go with their ends
         if theirs[next].motion == Motion::ArcVia {
             next += 1;
