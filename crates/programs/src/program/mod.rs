@@ -74,7 +74,7 @@ pub use script::{Instruction, Place, Script};
 pub use source::Source;
 
 use crate::finding::Finding;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vector};
 use std::ops::Range;
 use std::path::Path;
 
@@ -154,6 +154,8 @@ pub struct Settings {
     pub external: ExternalNames,
     /// Where the profile has the base of an arm that stands still.
     pub world_from_base: Option<Pose>,
+    /// Gravity along the axes of the base as the profile has it, where its effects depend on loads.
+    pub gravity_m_s2: Option<Vector>,
     /// Encoder pulses of one degree of each joint, where programs count in pulses.
     pub pulses_per_deg: Option<[f64; 6]>,
     /// Rewrite targets that are marked as taught on a robot whose controller corrects them itself.
@@ -190,6 +192,10 @@ pub struct Decoded {
     /// What the configuration data say about the joints.
     pub configuration: Configuration,
 }
+
+/// How far beyond its quadrant or turn a joint may stand, radians: files round, and borders belong to
+/// both sides.
+pub(crate) const BORDER_RAD: f64 = 0.05 * crate::geometry::units::DEG;
 
 /// Which inverse solutions a target's configuration data allow. `None` is: they do not say.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

@@ -1,7 +1,7 @@
 //! How targets are written as numbers, where several languages write them so: poses, and
 //! configuration data.
 
-use super::{Displacement, Posture, Role, Shift, Stride};
+use super::{BORDER_RAD, Displacement, Posture, Role, Shift, Stride};
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::geometry::{Pose, Quaternion, Rotation};
 
@@ -153,7 +153,8 @@ pub(super) fn write_turning_angles(pose: &Pose, n: &mut [f64]) {
     n[3..6].copy_from_slice(&angles.map(|angle| -angle));
 }
 
-/// Whether what configuration data say was `right` of the posture before, and is not of that after.
+/// Whether what configuration data say was `right` of the posture before, as near to a border as they
+/// are read, and is not of that after.
 /// It hangs on one joint. Near a border of that both sides are right; but not where the data would
 /// then mean another rotation of the joint, and the robot would go the other way round: that is
 /// left to chance only where the file's rounding has done so before.
@@ -169,17 +170,17 @@ pub(super) fn truly_changes(
         right(&near)
     };
     let within = |posture: &Posture, deg: f64| [-deg, 0.0, deg].map(|by| turned(posture, by));
-    let is_near = |posture: &Posture| within(posture, BORDER_DEG).contains(&true);
+    let is_near = |posture: &Posture, deg: f64| within(posture, deg).contains(&true);
     let is_on_border = |posture: &Posture| {
         let all = within(posture, ROUNDED_DEG);
         all.contains(&true) && all.contains(&false)
     };
-    if right(after) || !is_near(before) {
+    if right(after) || !is_near(before, BORDER_RAD / DEG) {
         return false;
     }
     let means_other = [-360.0, 360.0].into_iter().any(|by| turned(after, by));
     let stays = is_on_border(before) && is_on_border(after);
-    !is_near(after) || means_other && !stays
+    !is_near(after, BORDER_DEG) || means_other && !stays
 }
 
 /// Changes each of the present configuration data that truly changes to that of the posture after;

@@ -153,6 +153,9 @@ mod tests {
             0.0
         );
         assert_eq!(change(at(-0.1, 0.0), at(0.1, 0.0), plain)[0], 1.0);
+        // read as right, for files round, and then too far beyond
+        let turned = [0.0, 0.0, 0.0, 0.0, 0.0, -1.0];
+        assert_eq!(change(at(-5.0, -179.96), at(-5.0, -179.9), turned)[5], 0.0);
         // what was wrong before stays
         assert_eq!(change(at(5.0, 0.0), at(5.1, 0.0), plain), plain);
     }

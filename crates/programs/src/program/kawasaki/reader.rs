@@ -112,7 +112,7 @@ pub(super) fn script<'a>(sources: &'a [Source], sections: &'a Sections<'a>) -> S
         let made = Variable::new(name, Place::NOWHERE, declared);
         builder.script.variable(made)
     };
-    let load = state(&mut builder, "load", Expr::Absent);
+    let load = state(&mut builder, "load", off);
     let switched = state(&mut builder, "configuration", off);
     let chained = state(&mut builder, "arc", off);
     let starts = [b"TOOL", b"BASE"].map(|name| start(sections, name));

@@ -392,3 +392,17 @@ fn the_marker_stands_in_a_program() {
         assert_eq!(after.entries.len(), before);
     }
 }
+
+#[test]
+fn a_weight_is_that_of_the_moves_behind_it() {
+    let program = read(
+        "TOOL grip\nLMOVE p1\nWEIGHT 6,0,0,80\nLMOVE p[1]\n.END\n.PROGRAM other()\nWEIGHT 9,0,0,80",
+    );
+    let loads: Vec<_> = program
+        .moves
+        .iter()
+        .map(|of| program.tools[of.tool].load)
+        .collect();
+    assert_eq!(loads[0], None);
+    assert_eq!(loads[1].map(|load| load.mass_kg), Some(6.0));
+}

@@ -189,8 +189,9 @@ impl Translator<'_> {
     fn other_load(&mut self, load: Option<Symbol>) {
         let name = load.map_or("something", |load| self.resolved.spelling(load));
         let message = format!(
-            "the robot carries {name} from here on (GripLoad); where the text does not say what that \
-             or the tool weighs, the correction is that of the tool's load alone"
+            "the robot carries {name} from here on (GripLoad); where that or the tool of a move is \
+             chosen by a variable, a parameter or an element, or has no mass in the text, the \
+             correction is that of the tool's load alone"
         );
         let hint = "where joints bend under load, name the load in data that nothing writes, or at the \
             moves with \\TLoad, or give the profile a tool with this load";

@@ -183,6 +183,11 @@ impl<'a> Reader<'a> {
                 let payload = self.payload(&arguments, parts);
                 self.event(Event::Load(payload, offset));
             }
+            Verb::Gravity => {
+                let arguments = self.arguments()?;
+                let value = argument(&arguments, 0, &[b"d"]).unwrap_or(OTHER);
+                self.parsed.gravities.push((value, self.function, offset));
+            }
             Verb::Move(motion, places) => {
                 let arguments = self.arguments()?;
                 let target = argument(&arguments, 0, &[b"pose", b"q", b"path"]);

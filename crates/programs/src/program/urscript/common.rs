@@ -1,6 +1,6 @@
 //! Values and remarks that several places of a file name.
 
-use crate::geometry::{Pose, Quaternion};
+use crate::geometry::{Pose, Quaternion, Vector};
 use crate::program::script::{self, Held, Remark, RemarkId, Script, ValueId};
 use foldhash::{HashMap, HashMapExt};
 
@@ -18,12 +18,14 @@ pub(super) struct Common {
     pub frame_computed: RemarkId,
     pub frame_changes: RemarkId,
     pub somewhere: RemarkId,
+    /// Gravity as the profile has it, where it matters.
+    pub gravity_m_s2: Option<Vector>,
     own_load: ValueId,
     frames: HashMap<(String, [u64; 7]), ValueId>,
 }
 
 impl Common {
-    pub(super) fn new(script: &mut Script) -> Self {
+    pub(super) fn new(script: &mut Script, gravity_m_s2: Option<Vector>) -> Self {
         let base = script.frame(BASE, Some(Pose::identity()));
         let computed = script.remark(Remark::warning(
             "computed-target",
@@ -65,6 +67,7 @@ impl Common {
             frame_computed,
             frame_changes,
             somewhere,
+            gravity_m_s2,
             own_load: script.value(Held::Flag(false)),
             frames: HashMap::new(),
         }

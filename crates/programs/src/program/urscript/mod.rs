@@ -24,9 +24,9 @@
 //!
 //! A file stands for itself, or with those that have the functions that it calls. The pendant opens .urp, not .script: a compensated script is sent
 //! or run as a script. A literal that is given to a function outside the file alone is no target:
-//! nothing tells whether it moves there. A variable that moves go to is, and is refused
-//! (`target-passed-to-routine`), unless the function is one of the language or of a server
-//! (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a
+//! nothing tells whether it moves there, and it stays with a warning (`pose-passed-to-routine`). One
+//! that moves go to, in a list or structure too, is refused (`target-passed-to-routine`), unless the
+//! function is one of the language or of a server (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a
 //! variable that is assigned once.
 
 mod calls;
@@ -115,7 +115,7 @@ impl Language for UrScript {
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
-        let mut script = script(sources)?;
+        let mut script = script(sources, settings)?;
         judge_base(
             &mut script,
             sources,
@@ -182,13 +182,15 @@ fn in_degrees(layout: Layout) -> u8 {
 }
 
 /// Each file, or several together where their functions call each other.
-fn script(sources: &[Source]) -> Result<Script, ReadError> {
+fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
-    let mut common = Common::new(&mut builder.script);
+    let mut common = Common::new(&mut builder.script, settings.gravity_m_s2);
     let mut alone = Vec::with_capacity(sources.len());
     for source in sources {
         let reader = Reader::new(source).read()?;
-        if !reader.recognised {
+        // a library of poses and of what makes them moves nothing itself
+        let has_poses = reader.parsed.has_poses();
+        if !reader.recognised && !has_poses {
             return Err(not_this_language(&ABOUT, source));
         }
         alone.push(reader.parsed);

@@ -63,6 +63,19 @@ fn calls(line: &[u8]) -> bool {
     })
 }
 
+/// Whether a pose of six numbers is written out in a line: `home = p[…]`, `return p[…]`.
+fn has_pose(line: &[u8]) -> bool {
+    let is_in_number = |b: &u8| b.is_ascii_digit() || b" .,+-eE".contains(b);
+    memchr::memmem::find(line, b"p[").is_some_and(|at| {
+        let is_word = at == 0 || line[at - 1] == b' ' || line[at - 1] == b'=';
+        let inside = &line[at + 2..];
+        let end = memchr::memchr(b']', inside).unwrap_or(0);
+        let inside = &inside[..end];
+        let numbers = inside.split(|b| *b == b',').count();
+        is_word && numbers == 6 && inside.iter().all(is_in_number)
+    })
+}
+
 /// Whether the bytes look like `URScript`.
 pub(super) fn recognises(bytes: &[u8]) -> bool {
     let (bytes, behind) = bytes.split_at(bytes.len().min(LOOKED_AT));
@@ -80,8 +93,8 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
         }
         opened |= opens(line);
         ended |= ends(line);
-        called |= !called && calls(line);
-        poses |= !poses && CALLS[..4].iter().any(|call| line.starts_with(call));
+        called |= !called && (calls(line) || has_pose(line));
+        poses |= !poses && (CALLS[..4].iter().any(|call| line.starts_with(call)) || has_pose(line));
     }
     if opened {
         called && (ended || lines(last).any(|(_, line)| ends(line)))

@@ -297,6 +297,8 @@ pub(super) struct Parsed<'a> {
     pub arguments: Vec<(Option<Symbol>, ExprId)>,
     /// Where the robot gives way to forces.
     pub forces: Vec<u32>,
+    /// What `set_gravity` is given, in which function, and where.
+    pub gravities: Vec<(ExprId, FunctionId, u32)>,
     /// Names in expressions that are assigned to another variable, with the place of that.
     pub mentions: Vec<(Symbol, FunctionId, u32)>,
     /// Names in poses with expressions.
@@ -336,6 +338,11 @@ impl<'a> Parsed<'a> {
 
     pub(super) fn expression(&self, id: ExprId) -> Expr {
         self.expressions[id as usize]
+    }
+
+    /// Whether a pose is written out anywhere.
+    pub(super) fn has_poses(&self) -> bool {
+        self.literals.iter().any(|of| of.pose)
     }
 
     pub(super) fn literal(&self, id: LiteralId) -> &Literal {

@@ -1,6 +1,7 @@
 //! The statements of one text.
 
 mod dead;
+mod handed;
 mod loads;
 mod parts;
 mod postures;
@@ -462,15 +463,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
         self.present = Present::default();
         let callees = self.goals.variables.callees(call).to_vec();
-        let mut arguments = Vec::new();
-        if callees.is_empty() {
-            for &(_, value) in parsed.arguments_of(call) {
-                if self.goals.has_target(value, call.function, MOST_STEPS) {
-                    let value = self.goals.goal(value, call.function).target;
-                    arguments.push(Argument::new(None, value, None));
-                }
-            }
-        }
+        let mut arguments = if callees.is_empty() {
+            self.handed(call)
+        } else {
+            Vec::new()
+        };
         for &callee in &callees {
             for position in 0..parsed.functions[callee as usize].parameters.len() {
                 let (parameter, given) = self.goals.variables.given(call, callee, position);
@@ -552,6 +549,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 at,
             );
         }
+        self.judge_gravity();
         for &offset in &self.goals.parsed.forces {
             let remarks = &self.goals.builder.script.remarks;
             let remark = remarks[self.goals.common.somewhere as usize].clone();

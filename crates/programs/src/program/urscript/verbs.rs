@@ -25,6 +25,8 @@ pub(super) enum Verb {
     Tool,
     /// `set_payload`
     Load(LoadParts),
+    /// `set_gravity`
+    Gravity,
     /// Of the language, and of no matter here.
     Known,
     /// A function of the file, or one that is not known.
@@ -101,6 +103,7 @@ pub(super) fn verb(name: &[u8]) -> Verb {
         b"set_payload" | b"set_target_payload" => Verb::Load(LoadParts::Both),
         b"set_payload_mass" => Verb::Load(LoadParts::Mass),
         b"set_payload_cog" => Verb::Load(LoadParts::Cog),
+        b"set_gravity" => Verb::Gravity,
         b"force_mode" => Verb::Force,
         // what force has moved stands elsewhere
         b"end_force_mode"
@@ -126,7 +129,6 @@ pub(super) fn verb(name: &[u8]) -> Verb {
         | b"popup"
         | b"set_digital_out"
         | b"set_standard_digital_out"
-        | b"set_gravity"
         | b"stopj"
         | b"stopl"
         | b"pose_trans" => Verb::Known,

@@ -516,6 +516,7 @@ impl<'a> Reader<'a> {
             // of what is no name, such as `appro(p,{…})`, the parameter says it
             let kind = match (target, parameter) {
                 (Some(target), _) => self.kind_of(&target),
+                (None, None) if matches!(value.text(0), b"appro" | b"compose") => Kind::Point,
                 (None, parameter) => parameter.map_or(Kind::Other, |(_, one)| one.kind),
             };
             let is_given = kind.is_place() || kind == Kind::Tool;

@@ -414,7 +414,19 @@ fn what_is_given_to_functions_that_are_not_in_the_file() {
         ("socket_send_string(x)", vec![]),
         ("server.look(x)", vec![]),
         // nothing that moves go to
-        ("foo(p[1,2,3,0,0,0], [1,2,3,4,5,6], z)", vec![]),
+        (
+            "foo(p[1,2,3,0,0,0], [1,2,3,4,5,6], z)",
+            vec!["pose-passed-to-routine"],
+        ),
+        ("foo([1,2,3,4,5,6], z)", vec![]),
+        // in lists and structures
+        ("l=[x,x]\nfoo(l)", vec!["target-passed-to-routine"]),
+        ("foo([x])", vec!["target-passed-to-routine"]),
+        (
+            "s=struct(a=1,p=x)\nfoo(s)",
+            vec!["target-passed-to-routine"],
+        ),
+        ("l=[p[1,2,4,0,0,0]]\nfoo(l)", vec!["pose-passed-to-routine"]),
     ] {
         let program = path(&format!("x=p[1,2,3,0,0,0]\n{lines}\nmovel(x)"));
         assert_eq!(ids(&program), found, "{lines}");
@@ -574,4 +586,27 @@ fn what_a_condition_never_lets_run_moves_nothing() {
     let program =
         path("x=p[1,2,3,0,0,0]\nif 1==2:\nmovel(x)\nelif a:\nmovej(x)\nend\nmovel(p[1,2,5,0,0,0])");
     assert_eq!(to(&program), ["x", "-"]);
+}
+
+#[test]
+fn a_robot_that_is_mounted_otherwise_than_the_profile_has_it_is_refused() {
+    let found = |gravity: &str, of_profile: Option<[f64; 3]>| {
+        let text =
+            format!("def t():\nset_gravity({gravity})\nmovel(p[.1,.2,.3,0,0,0])\nend\nt()\n");
+        let settings = Settings {
+            gravity_m_s2: of_profile,
+            ..Settings::default()
+        };
+        let sources = [Source::new("t.script", text.into_bytes())];
+        let program = crate::motion::read(&UrScript, &sources, &settings).expect("a script");
+        ids(&program).contains(&"gravity-differs")
+    };
+    let floor = Some([0.0, 0.0, -9.81]);
+    assert!(!found("[0.0, 0.0, 9.82]", floor));
+    assert!(found("[0.0, 0.0, -9.82]", floor));
+    assert!(found("[9.82, 0, 0]", floor));
+    assert!(!found("[9.82, 0, 0]", Some([-9.82, 0.0, 0.0])));
+    // nothing of the profile hangs on it; only the running program knows it
+    assert!(!found("[9.82, 0, 0]", None));
+    assert!(!found("g", floor));
 }

@@ -117,7 +117,7 @@ fn what_is_made_of_a_structure_somehow_takes_its_correction_along() {
         "s.a[2]=.5\nmovel(s.a)",
         "movel(p[s.a[0],s.a[1],s.b,0,0,0])",
         "r=struct(t=s)\nmovel(r.t.a)",
-        "r=foo(s)\nx=interpolate_pose(s.a,s.a,0.5)\nmovel(x)",
+        "x=interpolate_pose(s.a,s.a,0.5)\nmovel(x)",
         "h=s.a[2]+0.1\nmovel(p[h,h,h,0,0,0])",
     ] {
         let program = path(&format!("{s}{go}"));

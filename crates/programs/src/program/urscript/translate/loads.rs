@@ -2,9 +2,13 @@
 
 use super::super::syntax::{Cog, Event, Expr, ExprId, FunctionId, Payload};
 use super::Translator;
-use crate::geometry::{Pose, Vector};
-use crate::program::script::{self, Held, How};
+use crate::geometry::units::DEG;
+use crate::geometry::{Pose, Vector, dot, norm};
+use crate::program::script::{self, Held, How, Remark};
 use crate::program::{Load, number};
+
+/// A profile whose gravity is farther from that of the file is of a robot that is mounted otherwise.
+const MOST_TILT_DEG: f64 = 5.0;
 
 /// What is set where the text is read from top to bottom: behind branches, loops and calls nothing
 /// is known of it.
@@ -101,6 +105,41 @@ impl Translator<'_, '_, '_> {
         (self.present.mass_kg, self.present.cog_m) = (mass_kg, cog_m);
         let (mass_kg, cog_m) = mass_kg.zip(cog_m)?;
         (mass_kg >= 0.0).then_some(Load { mass_kg, cog_m })
+    }
+
+    /// Refuses a profile of a robot that is mounted otherwise than the file says.
+    ///
+    /// # Source
+    /// Universal Robots, "The `URScript` Programming Language", `set_gravity`: the acceleration away
+    /// from the earth, along the axes of the base.
+    pub(super) fn judge_gravity(&mut self) {
+        let Some(of_profile) = self.goals.common.gravity_m_s2 else {
+            return;
+        };
+        let parsed = self.goals.parsed;
+        for &(value, function, offset) in &parsed.gravities {
+            let Some(up) = self.three_numbers(value, function) else {
+                continue;
+            };
+            let long = norm(up) * norm(of_profile);
+            let cosine = -dot(up, of_profile) / long;
+            let angle = cosine.clamp(-1.0, 1.0).acos() / DEG;
+            // of nothing there is no direction
+            if angle.is_nan() || angle <= MOST_TILT_DEG {
+                continue;
+            }
+            let message = format!(
+                "the robot is mounted with gravity along ({}), and `gravity_m_s2` of the profile is \
+                 {angle:.0} deg from it",
+                up.map(|x| format!("{}", 0.0 - x)).join(", ")
+            );
+            let hint = "write how this robot is mounted into `gravity_m_s2` of its profile, along \
+                the axes of its base, or correct set_gravity";
+            self.say(
+                offset,
+                Remark::error_about("gravity-differs", message, hint),
+            );
+        }
     }
 
     /// `[0, 0, 0.05]`

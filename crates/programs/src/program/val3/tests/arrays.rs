@@ -86,6 +86,10 @@ fn arrays_that_are_not_followed_are_refused() {
         (33, "movel(pA[1],tA,m)\ncall sub(pA)"),
         (3, "movel(pA[1],tA,m)\ncall sub(pA[1])"),
         (3, "movel(pA[1],tA,m)\ncall other:doit(pA)"),
+        (
+            3,
+            "movel(pA[1],tA,m)\ncall other:doit(appro(pA[1],{0,0,-10,0,0,0}))",
+        ),
         (33, "movel(pA[1],tA,m)\ncall other:doit(pA)"),
     ] {
         let program = given(count, start, REFERENCE, "movel(x_p[1],tB,m)");
