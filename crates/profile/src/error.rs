@@ -4,6 +4,15 @@ use crate::model::effects::EntryError;
 use crate::nearest;
 use serde_yaml::Location;
 
+/// A number of four digits with its unit, where it has one.
+fn in_unit(number: f64, unit: &str) -> String {
+    let number: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    match unit {
+        "1" => number.to_string(),
+        _ => format!("{number} {unit}"),
+    }
+}
+
 /// A fault at its place in the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{line}:{column}: {fault}")]
@@ -231,7 +240,9 @@ pub enum Fault {
     },
     /// An effect beyond what arms have.
     #[error(
-        "`{key}` of `{label}` is {found} {unit}; more than {limit} {unit} is no error of an arm"
+        "`{key}` of `{label}` is {}; more than {} is no error of an arm",
+        in_unit(*found, unit),
+        in_unit(*limit, unit)
     )]
     Large {
         /// The effect.

@@ -198,6 +198,11 @@ fn an_effect_beyond_the_usual_says_that_it_is_meant_and_why() {
             error.line > 0 && error.hint().contains("large: true"),
             "{error}"
         );
+        let said = error.to_string();
+        assert!(
+            key != "ratio" || said.ends_with("6; more than 0.005556 is no error of an arm"),
+            "{said}"
+        );
         let meant = entry.replace('}', ", large: true, reason: \"measured\"}");
         let profile = with(&meant).expect(&meant);
         assert_eq!(

@@ -111,6 +111,27 @@ fn a_plan_is_simulated_calibrated_and_validated() {
         .expect("a number");
     assert!(real < 0.05, "{real}");
     assert!(seen["distance"]["controller"]["pairs"] == 780);
+    // positions that the controller computes of its joints are none of the arm
+    let computed = [
+        "simulate",
+        "--profile",
+        "DIR/nominal.yaml",
+        "--joints",
+        "DIR/q.csv",
+    ];
+    run(at, &[&computed[..], &["-o", "DIR/own.csv"]].concat());
+    let calibrate = [
+        "calibrate",
+        "--profile",
+        "DIR/nominal.yaml",
+        "--measurements",
+    ];
+    let ids = |rows: &str| {
+        let found = run(at, &[&calibrate[..], &[rows, "-o", "DIR/d.yaml"]].concat());
+        let findings = found["findings"].as_array().expect("findings").clone();
+        findings.iter().any(|f| f["id"] == "positions-computed")
+    };
+    assert!(ids("DIR/own.csv") && !ids("DIR/m.csv"));
 }
 
 #[test]

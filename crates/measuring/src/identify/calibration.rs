@@ -11,10 +11,11 @@ use super::levelled::by_the_device;
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::off::Off;
+use super::outlying::of_fit;
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::pick::Pick;
 use super::problem::{Estimate, Problem};
-use super::robust::{Shape, limit};
+use super::robust::Shape;
 use super::solver::{Solution, Stop, solve, solve_telling};
 use super::start::{self, Start, base_gap};
 use super::statistics::{Miss, Quality, misses};
@@ -23,10 +24,6 @@ use crate::geometry::Pose;
 use crate::model::effects::Kind;
 use crate::profile::{DevicePlace, Profile};
 
-/// A row is an outlier whose residual is beyond this many times the limit of normal ones.
-pub const OUTLIER: f64 = 1.6;
-/// Residuals below this are nobody's outliers, metres.
-const SMALL_M: f64 = 1e-6;
 /// Correlations above this are reported.
 pub const STRONG_CORRELATION: f64 = 0.9;
 
@@ -427,7 +424,7 @@ pub(super) fn identify(
     } else {
         (solution.estimate.world_from_base, profile.device)
     };
-    let outliers = outliers(&problem, &fit, &solution, &after_misses);
+    let outliers = of_fit(&problem, &fit, &solution, &after_misses);
     remarks.extend(plausibility::check_rows(&outliers));
     // distances and contacts say of a tool only what the fit makes of them
     let is_known = guess.moved_m.iter().any(Option::is_some);
@@ -514,42 +511,6 @@ pub fn judge(
     contact::carry((problem, estimate), &mut other, &mut values)?;
     other.sort_rigs(&values.effects);
     Ok(Quality::of(&other.rows, &misses(&other, &values)))
-}
-
-pub(super) fn outliers(
-    problem: &Problem,
-    measurements: &Measurements,
-    solution: &Solution,
-    misses: &[Miss],
-) -> Vec<Outlier> {
-    let counts = problem.rows.iter().map(|row| row.observed.count());
-    let scale = super::robust::scale_of(&solution.normal.squares, counts);
-    let mut found = Vec::new();
-    for ((row, miss), squared) in problem
-        .rows
-        .iter()
-        .zip(misses)
-        .zip(&solution.normal.squares)
-    {
-        let count = row.observed.count();
-        let typical = scale * (count as f64).sqrt();
-        let most = OUTLIER * limit(count) * scale;
-        let off = Off::of(row, miss);
-        if squared.sqrt() > most && off.size_m() > SMALL_M {
-            let m = &measurements.rows[row.measurement];
-            found.push(Outlier {
-                measurement: row.measurement,
-                line: m.line.clone(),
-                id: m.id.clone(),
-                off,
-                times: squared.sqrt() / typical,
-                limit: most / typical,
-                weight: solution.loss.of(*squared, count).1,
-            });
-        }
-    }
-    found.sort_by(|a, b| b.times.total_cmp(&a.times));
-    found
 }
 
 impl Calibration {

@@ -6,9 +6,9 @@ use super::external;
 use super::line::Line;
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector};
-use crate::model::Conditions;
 use crate::model::effects::MOST_EXTERNAL_AXES;
 use crate::model::external::Stand;
+use crate::model::{Conditions, Mechanism};
 use crate::profile::Profile;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -187,6 +187,32 @@ pub fn last_moves(postures: &[[f64; 6]]) -> Vec<[f64; 6]> {
         moved
     }));
     moves
+}
+
+/// A joint that moves by less has not moved: a controller's readings differ in their last digits.
+/// Radians.
+const STILL_RAD: f64 = 0.005 * DEG;
+
+/// From which side each joint comes at each of these postures, one after another: that of the angle
+/// which turns the joint, a coupled one's with the other joint's part. A joint that stands still
+/// keeps its side; of the first posture nothing is known.
+#[must_use]
+pub fn last_directions(arm: &Mechanism, postures: &[[f64; 6]]) -> Vec<[f64; 6]> {
+    let mut last = [0.0; 6];
+    let mut before: Option<[f64; 6]> = None;
+    let direction = |q: &[f64; 6]| {
+        let q = arm.commanded(q);
+        let from = before.get_or_insert(q);
+        for joint in 0..6 {
+            let moved = q[joint] - from[joint];
+            if moved.abs() > STILL_RAD {
+                last[joint] = moved.signum();
+                from[joint] = q[joint];
+            }
+        }
+        last
+    };
+    postures.iter().map(direction).collect()
 }
 
 impl Measurement {

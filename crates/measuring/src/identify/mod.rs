@@ -40,6 +40,7 @@ mod needs;
 pub mod normal;
 pub mod observation;
 pub mod off;
+mod outlying;
 pub mod parameters;
 pub mod pick;
 pub mod plan;

@@ -1,7 +1,7 @@
 //! Measurements of the robot that a profile describes: the truth that an identification must find
 //! again.
 
-use super::measurements::{Measurement, Observed, last_moves};
+use super::measurements::{Measurement, Observed, last_directions, last_moves};
 use super::random::Random;
 use crate::geometry::{Pose, Rotation, Vector, add, norm, sub};
 use crate::model::external::Stand;
@@ -82,7 +82,7 @@ pub struct Given {
     pub time_s: Option<f64>,
 }
 
-/// From which side a joint or axis comes: −1, 0, or +1.
+/// From which side an external axis comes: −1, 0, or +1.
 fn side(from: f64, to: f64) -> f64 {
     match to.total_cmp(&from) {
         std::cmp::Ordering::Less => -1.0,
@@ -123,7 +123,10 @@ pub fn simulate_given(
     let mut random = Random::new(session.seed);
     let mut rows = Vec::new();
     let count = commands.len();
-    let moves = last_moves(&commands.iter().map(|c| c.q).collect::<Vec<_>>());
+    let of_tool = commands.iter().filter(|command| command.plate.is_none());
+    let postures: Vec<_> = of_tool.map(|command| command.q).collect();
+    let directions = last_directions(&profile.mechanism, &postures);
+    let mut motions = last_moves(&postures).into_iter().zip(directions);
     let on_plate = |positioner: usize| {
         let points = &profile.external.positioners[positioner].points;
         let named = points
@@ -132,11 +135,11 @@ pub fn simulate_given(
         named.collect::<Vec<_>>()
     };
     for (i, command) in commands.iter().enumerate() {
+        let of_arm = command.plate.is_none().then(|| motions.next()).flatten();
+        let (moved, direction) = of_arm.unwrap_or_default();
         let mut conditions = Conditions {
-            direction: command.direction.unwrap_or_else(|| {
-                let before = &commands[i.saturating_sub(1)].q;
-                std::array::from_fn(|j| side(before[j], command.q[j]))
-            }),
+            direction: command.direction.unwrap_or(direction),
+            moved,
             force_n: command.force_n,
             device_m: profile.world_from_device().translation,
             ..Conditions::default()
@@ -147,7 +150,6 @@ pub fn simulate_given(
             let both = before.iter().zip(&stand.values);
             stand.directions = both.map(|(from, to)| side(*from, *to)).collect();
         }
-        conditions.moved = moves[i];
         let part = i as f64 / (count.max(2) - 1) as f64;
         if let Some([first, last]) = session.temperature_c {
             conditions.temperature_c = Some(first + part * (last - first));

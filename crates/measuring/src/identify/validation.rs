@@ -8,6 +8,7 @@ use super::error::IdentifyError;
 use super::external::{in_files, plate_of};
 use super::input_checks::{self, Remark};
 use super::measurements::{Measurement, Measurements, Purpose};
+use super::outlying;
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::problem::{Estimate, Problem};
 use super::repeated::{groups, repeated, repeated_distances};
@@ -249,9 +250,10 @@ pub fn validate_telling(
         Refit::Judged | Refit::Others => frames_only.clone(),
     };
     remarks.extend(input_checks::validation::after(
-        &judged_real.quality,
+        (&judged_real.quality, &judged_real.misses),
         &frames_only.quality,
         given.then_some(normalised),
+        &outlying::of_judged(&real_problem, measurements, &judged_real.misses),
         refit,
     ));
     let by = [judged_real.misses.as_slice(), &controller.misses];

@@ -19,6 +19,11 @@ use std::collections::BTreeSet;
 pub(crate) const HOPELESS_M: f64 = 20.0 * MM;
 /// A fit that misses by more is worth a warning, metres.
 const POOR_M: f64 = 2.0 * MM;
+/// The nominal arm misses by less where positions are its controller's own: arms repeat to 0.01 mm at
+/// best, and a controller shows thousandths, metres.
+const COMPUTED_M: f64 = 0.005 * MM;
+/// From so many rows on.
+const COMPUTED_ROWS: usize = 10;
 /// The same of orientations, radians.
 const HOPELESS_RAD: f64 = 3.0 * DEG;
 /// And worth a warning.
@@ -107,6 +112,19 @@ pub(crate) fn check_fit(
              missing",
         ));
     }
+    if frames < COMPUTED_M && frames_only.len() >= COMPUTED_ROWS {
+        remarks.push(remark(
+            "positions-computed",
+            WHOLE_FILE,
+            format!(
+                "the nominal arm misses these rows by {:.4} mm rms once base and tool are fitted: no \
+                 real arm is so near its drawing",
+                mm_from_m(frames)
+            ),
+            "are these positions that the controller computed from its joints? those of a tracker, \
+             probe or ballbar are needed",
+        ));
+    }
     let times = times_sigma(after).filter(|_| !problem.sigma_assumed);
     // what parameters take up is missing in the residuals of few rows
     let numbers: usize = problem.rows.iter().map(|row| row.observed.count()).sum();
@@ -118,7 +136,7 @@ pub(crate) fn check_fit(
 }
 
 /// How many of their standard deviations most residuals are.
-fn times_sigma(misses: &[Miss]) -> Option<f64> {
+pub(super) fn times_sigma(misses: &[Miss]) -> Option<f64> {
     usual(misses.iter().map(|miss| miss.normalised))
 }
 

@@ -1,11 +1,13 @@
 //! Checks of a validation: measurements that are not of this robot, or not as the file says.
 
+use super::plausibility::{check_rows, times_sigma};
 use super::screening::{check_points, check_start, duplicates, look, refuse_far_off};
 use super::{Remark, WHOLE_FILE, finite, remark, sigma};
+use crate::identify::calibration::Outlier;
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
 use crate::identify::start;
-use crate::identify::statistics::Quality;
+use crate::identify::statistics::{Miss, Quality};
 use crate::identify::validation::Refit;
 use crate::profile::Profile;
 
@@ -64,9 +66,10 @@ pub(crate) fn before(
 
 /// What the errors say.
 pub(crate) fn after(
-    real: &Quality,
+    (real, misses): (&Quality, &[Miss]),
     frames: &Quality,
     normalised: Option<f64>,
+    outliers: &[Outlier],
     refit: Refit,
 ) -> Vec<Remark> {
     let mut remarks = Vec::new();
@@ -109,10 +112,26 @@ pub(crate) fn after(
         };
         remarks.push(remark("worse-than-nominal", WHOLE_FILE, message, hint));
     }
-    remarks.extend(
-        normalised
-            .filter(|_| moved.is_none())
-            .and_then(|times| sigma(times, f64::INFINITY)),
-    );
+    if moved.is_some() {
+        return remarks;
+    }
+    remarks.extend(rows_off(outliers));
+    // single rows say nothing of what is stated of all
+    let usual = match outliers {
+        [] => normalised,
+        _ => normalised.and_then(|_| times_sigma(misses)),
+    };
+    remarks.extend(usual.and_then(|times| sigma(times, f64::INFINITY)));
     remarks
+}
+
+/// Rows that do not fit the others, where nothing is identified.
+pub(crate) fn rows_off(outliers: &[Outlier]) -> Option<Remark> {
+    let hint = "was the beam lost, the reflector not seated, the robot still moving? leave wrong \
+        rows out; where they are right the model misses something there";
+    let found = check_rows(outliers)?;
+    Some(Remark {
+        hint: hint.into(),
+        ..found
+    })
 }

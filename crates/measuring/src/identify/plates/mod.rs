@@ -10,12 +10,13 @@
 
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Vector, add, scale};
-use crate::identify::calibration::{Calibration, Options, observability_of, outliers};
+use crate::identify::calibration::{Calibration, Options, observability_of};
 use crate::identify::error::IdentifyError;
 use crate::identify::external::{places, plate_of};
 use crate::identify::identifiability::Identifiable;
 use crate::identify::input_checks::plausibility;
 use crate::identify::measurements::{Measurements, Purpose};
+use crate::identify::outlying::of_fit;
 use crate::identify::parameters::{Level, Parameter, Selection, Subject, Wanted, at};
 use crate::identify::pick::Pick;
 use crate::identify::problem::{Estimate, NamedPoint, PointRef, Problem};
@@ -435,7 +436,7 @@ pub fn calibrate_plates(
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
     refuse_astray(&after, ASTRAY_M)?;
-    let outliers = outliers(&problem, &fit, &solution, &after_misses);
+    let outliers = of_fit(&problem, &fit, &solution, &after_misses);
     let held = measurements.filtered(|_, row| row.purpose == Some(Purpose::Validate));
     let held_out = if held.rows.is_empty() {
         None

@@ -2,7 +2,9 @@
 
 use super::begin;
 use crate::identify::error::IdentifyError;
+use crate::identify::input_checks::validation::rows_off;
 use crate::identify::measurements::{Measurements, Purpose};
+use crate::identify::outlying;
 use crate::identify::parameters::{Level, Selection};
 use crate::identify::problem::{Estimate, PointRef, Problem};
 use crate::identify::robust::Shape;
@@ -64,11 +66,12 @@ pub fn validate_plates(
     let squares = real_judged.misses.iter().map(|m| m.normalised.powi(2));
     let rms = (squares.sum::<f64>() / real_judged.misses.len().max(1) as f64).sqrt();
     let problem = real.0.with_rows(is_judged);
+    let outliers = outlying::of_judged(&problem, measurements, &real_judged.misses);
     Ok(Validation {
         parts: parts(profile, &rows, &real_judged.misses, None),
         repeated: Vec::new(),
         repeated_distances: Vec::new(),
-        remarks: Vec::new(),
+        remarks: rows_off(&outliers).into_iter().collect(),
         controller: by_controller,
         frames_only,
         real: real_judged,

@@ -23,13 +23,11 @@ pub use units::{Unit, Units};
 
 use super::fault::{MeasurementError, MeasurementFault};
 use super::input_checks::Remark;
-use super::measurements::{DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS};
+use super::measurements::{
+    DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS, last_directions,
+};
 use crate::geometry::units::DEG;
 use crate::model::Mechanism;
-
-/// A joint that moves by less has not moved: a controller's readings differ in their last digits.
-/// Radians.
-const STILL_RAD: f64 = 0.005 * DEG;
 
 /// As many names of columns are listed.
 const LISTED: usize = 6;
@@ -355,9 +353,7 @@ impl Table {
         // what is missing is reported where joints are read
         let Some(columns) = found else { return Ok(()) };
         let file = self.columns[columns[0]].grid;
-        let mut directions = Vec::with_capacity(self.grids[file].rows.len());
-        let mut last = [0.0; 6];
-        let mut before: Option<[f64; 6]> = None;
+        let mut postures = Vec::with_capacity(self.grids[file].rows.len());
         for at in 0..self.grids[file].rows.len() {
             let row = Row {
                 at: [at, at],
@@ -375,17 +371,9 @@ impl Table {
                     self.error(&row, *column, fault)
                 })? * DEG;
             }
-            let q = arm.commanded(&q);
-            let from = before.get_or_insert(q);
-            for joint in 0..6 {
-                let moved = q[joint] - from[joint];
-                if moved.abs() > STILL_RAD {
-                    last[joint] = moved.signum();
-                    from[joint] = q[joint];
-                }
-            }
-            directions.push(last);
+            postures.push(q);
         }
+        let directions = last_directions(arm, &postures);
         for row in &mut self.rows {
             row.direction = Some(directions[row.at[file]]);
         }
