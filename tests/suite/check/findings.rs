@@ -516,3 +516,42 @@ fn joints_rotate_as_fast_with_backlash_as_without() {
         assert!((a / b - 1.0).abs() < 0.05, "{plain:?} {loose:?}");
     }
 }
+
+#[test]
+fn sides_that_nobody_knows_and_moves_that_are_not_followed_are_reported() {
+    let backlash = "\n  effects:\n    - {effect: backlash, joint: 1, width_deg: 0.05}";
+    let loose = THESIS.replace("\n  effects:", backlash);
+    let target = "[[350,-100,300],[0,0,1,0],[-1,-1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let found = |lines: &str, start_joints: Option<[f64; 6]>| {
+        let options = Options {
+            start_joints,
+            ..Options::default()
+        };
+        let found = run(&profile(&loose), None, &rapid(lines), None, &options);
+        let about = |id: &str| {
+            let of = found.findings.iter().find(|f| f.id == id)?;
+            Some((of.severity, of.message.clone()))
+        };
+        (about("direction-uncertain"), about("not-followed"))
+    };
+    let go = format!("    MoveJ {target},v100,fine,artifact;\n");
+    let (uncertain, left) = found(&go, None);
+    let (severity, said) = uncertain.expect("the first side");
+    // half of 0.05 deg at some 0.36 m
+    assert!(
+        severity == Severity::Warning && said.contains("0.159 mm"),
+        "{said}"
+    );
+    assert_eq!(left, None);
+    let away = [-40.0, 10.0, 20.0, 0.0, 60.0, 0.0].map(f64::to_radians);
+    assert_eq!(found(&go, Some(away)).0, None);
+    let steps = format!(
+        "    CONST robtarget p:={target};\n    ConfL\\Off;\n    FOR i FROM 0 TO 9 DO\n    MoveL \
+         Offs(p,0,i*10,0),v100,fine,artifact;\n    ENDFOR\n"
+    );
+    let (_, left) = found(
+        &(joint_move([-20.0, 10.0, 20.0, 0.0, 60.0, 0.0]) + &steps),
+        None,
+    );
+    assert_eq!(left.map(|(severity, _)| severity), Some(Severity::Warning));
+}

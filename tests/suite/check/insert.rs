@@ -595,3 +595,43 @@ fn stops_that_come_in_are_reported_once_a_file() {
         assert_eq!(stops, [""; 0], "{}", case.language);
     }
 }
+
+#[test]
+fn an_arc_through_a_frame_of_the_data_list_is_divided() {
+    let text = std::fs::read_to_string(repository("robots/kuka_kr6_r900.yaml"));
+    let text = text.expect("a profile");
+    let plain = &text[..text.find("calibration:").expect("a list of effects")];
+    let profile = format!(
+        "{plain}calibration: {{effects: [{{effect: link_geometry, link: 3, theta_deg: 0.2, a_mm: \
+         0.5}}, {{effect: joint_harmonic, joint: 1, order: 9, cos_deg: 0.1, sin_deg: 0}}]}}\n"
+    );
+    let dat = "DEFDAT t\nDECL E6POS XP1={X 600,Y -150,Z 600,A 180,B 0,C 180}\nDECL FRAME V1={X \
+        680,Y 0,Z 600,A 180,B 0,C 180}\nDECL E6POS XP2={X 600,Y 150,Z 600,A 180,B 0,C 180}\nENDDAT\n";
+    let src = "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}\nLIN \
+        XP1\nCIRC V1,XP2\nEND\n";
+    for dat in [dat.to_owned(), dat.replace("FRAME", "E6POS")] {
+        let folder = scratch();
+        let file = |name: &str| folder.path().join(name);
+        std::fs::write(file("t.src"), src).expect("scratch");
+        std::fs::write(file("t.dat"), &dat).expect("scratch");
+        std::fs::write(file("p.yaml"), &profile).expect("scratch");
+        let mut command = poseshift();
+        command
+            .arg("compensate")
+            .arg(file("t.src"))
+            .arg(file("t.dat"));
+        command
+            .arg("--profile")
+            .arg(file("p.yaml"))
+            .arg("-o")
+            .arg(file("out"));
+        let done = command
+            .args(["--max-path-error", "0.02"])
+            .output()
+            .expect("it starts");
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(0), "{dat}{said}");
+        let text = std::fs::read_to_string(file("out/t.src")).expect("written");
+        assert!(text.matches("CIRC").count() > 2, "{text}");
+    }
+}

@@ -321,3 +321,92 @@ fn runs_say_since_when_an_arm_errs_otherwise() {
         "{reported}"
     );
 }
+
+/// Measurements `m.csv` of an arm whose third joint is counted with the second, the profile `f.yaml`,
+/// and the same rows `n.csv` without the columns of directions.
+fn coupled() -> TempDir {
+    let folder = scratch();
+    let at = folder.path();
+    let arm =
+        std::fs::read_to_string(repository("robots/fanuc_lrmate200ic.yaml")).expect("a profile");
+    let arm = arm
+        .replace(
+            "effects: []",
+            "effects:\n    - {effect: backlash, joint: 3, width_deg: 0.08}",
+        )
+        .replace(
+            "tools: {}",
+            "tools: {t: {frame: {x_mm: 40, y_mm: 0, z_mm: 120, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}",
+        );
+    std::fs::write(at.join("f.yaml"), arm).expect("scratch");
+    let mut joints = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg".to_owned();
+    let mut random = seeded(5);
+    for _ in 0..40 {
+        let ends = [100.0, 40.0, 40.0, 100.0, 90.0, 100.0];
+        let q = ends.map(|end: f64| random.random_range(-end..end).to_string());
+        joints += &format!("\n{}", q.join(","));
+    }
+    std::fs::write(at.join("q.csv"), joints).expect("scratch");
+    let simulate = "simulate --profile f.yaml --joints q.csv -o m.csv";
+    let (status, _, reported) = run(at, simulate);
+    assert_eq!(status, Some(0), "{reported}");
+    let text = std::fs::read_to_string(at.join("m.csv")).expect("measurements");
+    let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+    let without = text.lines().map(|line| {
+        let cells = line.split(',').zip(&header);
+        let kept = cells.filter(|(_, name)| !name.starts_with("dir"));
+        kept.map(|(cell, _)| cell).collect::<Vec<_>>().join(",")
+    });
+    let without = without.collect::<Vec<_>>().join("\n");
+    std::fs::write(at.join("n.csv"), without).expect("scratch");
+    folder
+}
+
+#[test]
+fn a_coupled_joint_comes_from_the_side_of_its_gearbox_in_simulations_too() {
+    let folder = coupled();
+    let at = folder.path();
+    let max = |rest: &str| {
+        let (status, report, reported) = run(at, &format!("validate --profile f.yaml {rest}"));
+        assert_eq!(status, Some(0), "{reported}");
+        report["position"]["real"]["max_mm"]
+            .as_f64()
+            .expect("a number")
+    };
+    let [written, derived] = [
+        "--measurements m.csv",
+        "--measurements n.csv --driven-in-order",
+    ];
+    assert!(max(written) < 1e-6, "{}", max(written));
+    assert!(max(derived) < 1e-6, "{}", max(derived));
+    // the pendant's angle of joint 3 goes the other way in some rows
+    let text = std::fs::read_to_string(at.join("m.csv")).expect("measurements");
+    let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let index = header.iter().position(|h| *h == name).expect("a column");
+        let cell = |line: &str| line.split(',').nth(index)?.parse().ok();
+        text.lines().skip(1).filter_map(cell).collect()
+    };
+    let (q, side) = (column("q3_deg"), column("dir3"));
+    let others = q.windows(2).zip(&side[1..]);
+    let others = others.filter(|(pair, side)| (pair[1] - pair[0]) * **side < 0.0);
+    assert!(others.count() > 3);
+}
+
+#[test]
+fn a_single_row_that_is_off_is_named_and_says_nothing_of_the_others() {
+    let folder = measured(40);
+    let row = std::cell::Cell::new(0);
+    change(folder.path(), &["x_mm"], |x| {
+        row.set(row.get() + 1);
+        x + if row.get() == 17 { 5.0 } else { 0.0 }
+    });
+    let (_, report, _) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(ids(&report), ["outliers"]);
+    let finding = &report["findings"][0];
+    assert_eq!(finding["line"], 18, "{finding}");
+    // all are, too, where the stated deviations are too small
+    change(folder.path(), &["sigma_mm"], |sigma| sigma * 1e-2);
+    let (_, report, _) = validate(folder.path(), "TRUTH", "");
+    assert_eq!(ids(&report), ["outliers", "sigma-small"]);
+}

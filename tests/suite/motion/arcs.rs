@@ -198,3 +198,54 @@ fn a_middle_whose_orientation_the_controller_takes_up_is_reported_where_it_diffe
     let along = try_with(start, &[PLAIN], &[("t.ls", &arc("180.000"))]).expect("read");
     assert!(!along.findings.iter().any(|f| f.id == "arc-rotation"));
 }
+
+#[test]
+fn an_arc_in_a_routine_is_corrected_alike_however_often_that_is_called() {
+    let middle = "[0.3420201433,0,0.9396926208,0]";
+    let written = |data: &str, main: &str, arc: &str| {
+        let text = format!(
+            "MODULE t\nCONST robtarget m := [[400,60,420],{middle},{EXTERNAL};\n{data}\nPROC \
+             main()\n{HOME}\n{main}ENDPROC\nPROC r({arc}ENDPROC\nENDMODULE\n"
+        );
+        done(&[PLAIN], &[("t.mod", &text)])
+    };
+    let start = format!("MoveL [[430,0,400],[0,0,1,0],{EXTERNAL},v100,fine,tool0;\n");
+    let end = format!("[[370,0,440],[0,0,1,0],{EXTERNAL}");
+    let arc = format!(")\nMoveC m,{end},v100,fine,tool0;\n");
+    let once = written("", &format!("{start}r;\n"), &arc);
+    let twice = written("", &format!("{start}r;\n{start}r;\n"), &arc);
+    let chosen = written(
+        "",
+        &format!("{start}IF x THEN\nr;\nELSE\nr;\nENDIF\n"),
+        &arc,
+    );
+    for of in [&twice, &chosen] {
+        assert_eq!(errors(of), [""; 0], "{:?}", of.findings);
+        let gap = middle_of(of).separation(&middle_of(&once));
+        assert!(gap.distance_m < 1e-7 && gap.angle_rad < 1e-6, "{gap:?}");
+    }
+    // a routine that ends it here and there
+    let given = "robtarget e)\nMoveC m,e,v100,fine,tool0;\n";
+    let data = format!(
+        "CONST robtarget e1 := {end};\nCONST robtarget e2 := \
+         [[370,0,440],[0.1736481777,0,0.9848077530,0],{EXTERNAL};"
+    );
+    let main = format!("{start}r e1;\n{start}r e2;\n");
+    let both = written(&data, &main, given);
+    assert!(
+        both.findings
+            .iter()
+            .any(|f| f.id == "arc-rotation" || f.id == "target-shared" || f.id == "arc-shared"),
+        "{:?}",
+        both.findings
+    );
+}
+
+/// The fake target of the point `m`.
+fn middle_of(done: &Compensation) -> Pose {
+    let targets = &done.program.targets;
+    let at = targets
+        .iter()
+        .position(|of| of.name.as_deref() == Some("m"));
+    done.targets[at.expect("m")].fake.expect("a fake target")
+}

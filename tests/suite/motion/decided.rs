@@ -354,6 +354,36 @@ fn files_of_context_are_read_and_stay() {
 }
 
 #[test]
+fn what_a_context_file_makes_of_a_target_is_reported_at_the_target() {
+    let main = rapid(
+        &format!("CONST robtarget p := [[430,0,300],{P};"),
+        "MoveJ p,v100,fine,tool0;\n go p;",
+    );
+    let library = "MODULE lib\nPROC go(robtarget q)\nVAR robtarget own;\nown:=q;\n\
+        own.trans.z:=260;\nMoveL own,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+    let run = |as_context: bool| {
+        let bytes = library.as_bytes().to_vec();
+        let sources = [
+            Source::new("t.mod", main.as_bytes().to_vec()),
+            if as_context {
+                Source::context("lib.mod", bytes)
+            } else {
+                Source::new("lib.mod", bytes)
+            },
+        ];
+        let language = program::language_of(&sources[0]).expect("a language");
+        compensate(language, &sources, &profile(&[PLAIN]), &Options::default()).expect("read")
+    };
+    for (as_context, file) in [(false, "lib.mod"), (true, "t.mod")] {
+        let done = run(as_context);
+        assert_eq!(errors(&done), ["target-overwritten"], "{:?}", done.findings);
+        let found = done.findings.iter().find(|f| f.id == "target-overwritten");
+        assert_eq!(found.map(|f| f.file.as_str()), Some(file));
+        assert!(!as_context || message(&done, "target-overwritten").contains("line 6 of lib.mod"));
+    }
+}
+
+#[test]
 fn good_programs_are_those_that_share_nothing_with_a_refused_one() {
     let module = |name: &str, body: &str| {
         format!("MODULE {name}\nPROC {name}()\n{body}\nENDPROC\nENDMODULE\n")

@@ -1,6 +1,6 @@
 //! What routines of KRL write through parameters: tools, bases, loads and parts of positions.
 
-use super::{PLAIN, done, errors};
+use super::{P, PLAIN, done, errors, given, message};
 use poseshift::compensate::Compensation;
 
 pub(super) const CONFIG: &str = "DEFDAT $CONFIG\nDECL FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 0,Y 0,Z 50,A 0,B \
@@ -146,4 +146,40 @@ fn a_base_that_a_routine_is_given_is_known_in_it() {
         assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
         assert_eq!(&done.targets[0].q, want, "{argument}");
     }
+}
+
+#[test]
+fn a_tool_that_program_and_profile_have_at_different_places_is_refused_where_it_was_measured() {
+    let text = std::fs::read_to_string(crate::support::repository("robots/abb_irb120.yaml"));
+    let text = text.expect("a profile");
+    let plain = &text[..text.find("calibration:").expect("a list of effects")];
+    let plain = plain.replace("tools: {}\n", "");
+    let run = |effect: &str, z_mm: f64| {
+        let profile = format!(
+            "{plain}tools:\n  tGun: {{frame: {{x_mm: 0, y_mm: 0, z_mm: 100, rx_deg: 0, ry_deg: 0, \
+             rz_deg: 0}}, mass_kg: 1, cog_mm: [0, 0, 50]}}\ncalibration: {{effects: [{PLAIN}, {effect}]}}\n"
+        );
+        let profile = poseshift::model::profile::Profile::from_yaml(&profile).expect("a profile");
+        let text = super::rapid(
+            &format!(
+                "PERS tooldata tGun := [TRUE,[[0,0,{z_mm}],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];"
+            ),
+            &format!("MoveJ [[430,0,300],{P},v100,fine,tGun;"),
+        );
+        let sources = [poseshift::program::Source::new("t.mod", text.into_bytes())];
+        let language = poseshift::program::language_of(&sources[0]).expect("a language");
+        poseshift::compensate::compensate(language, &sources, &profile, &given()).expect("read")
+    };
+    let off = "{effect: tool_frame, tool: tGun, x_mm: 0.6, z_mm: 0.5}";
+    let refused = run(off, 100.5);
+    assert_eq!(errors(&refused), ["tool-differs"]);
+    let said = message(&refused, "tool-differs");
+    assert!(
+        said.contains("100.5") && said.contains("0.500 mm"),
+        "{said}"
+    );
+    assert_eq!(errors(&run(off, 100.0)), [""; 0]);
+    // nothing counts from the profile's place
+    let other = "{effect: tool_frame, tool: tOther, x_mm: 0.6, z_mm: 0.5}";
+    assert_eq!(errors(&run(other, 100.5)), [""; 0]);
 }

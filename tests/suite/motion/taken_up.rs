@@ -1,8 +1,10 @@
 //! A joint that turns back comes from its new side once it has gone by the width of its backlash.
 
 use super::displaced::miss_mm;
-use super::{BACKLASH, P, done, errors, message, rapid};
-use poseshift::compensate::Compensation;
+use super::{BACKLASH, P, done, errors, given, message, rapid};
+use poseshift::compensate::{Compensation, compensate};
+use poseshift::geometry::Pose;
+use poseshift::program::{self, Source};
 
 /// Joint 2 runs ahead: between the two sides is what the correction takes away from the way back.
 const AHEAD: &str = "{effect: backlash, joint: 2, width_deg: 0.1}";
@@ -121,4 +123,49 @@ fn behind_a_move_in_one_of_several_work_frames_no_side_is_taken_for_sure() {
     let (refused, of_q) = found("IF DInput(di1)=1 THEN\nSetFrame w;\nENDIF");
     assert_eq!(refused, ["frame-chosen-at-run-time", "target-shared"]);
     assert_eq!(of_q, ["direction-uncertain", "target-shared"]);
+}
+
+/// An arc near whose end joint 1 turns back slowly: at less than a thousandth of a radian a metre of
+/// its long way, by three hundredths of a degree altogether.
+fn slow_end(effect: &str) -> Compensation {
+    let text = "DEF t()\n$TOOL={X -12.5,Y 3,Z 418.25,A 0,B 60,C 0}\n$BASE={X 1480,Y -310.5,Z 520,A \
+        14.25,B 0,C 0}\nPTP {A1 24.9750,A2 -71.6825,A3 109.4669,A4 23.5313,A5 51.8052,A6 \
+        -5.6330}\nPTP {X 164.73178,Y -572.58651,Z 104.83525,A 132.29462,B -44.47573,C \
+        -159.68286,S 2,T 34}\nLIN {X 95.03084,Y -625.69107,Z 213.81423,A 129.73004,B -41.55730,C \
+        -155.23686,S 2,T 34}\nCIRC {X 15.67292,Y -573.28958,Z 188.65709,A 128.15214,B \
+        -46.78571,C -159.67615},{X 19.21642,Y -558.14449,Z 91.52549,A 128.15214,B -46.78571,C \
+        -159.67615,S 2,T 34}\nEND\n";
+    let sources = [Source::new("t.src", text.as_bytes().to_vec())];
+    let language = program::language_of(&sources[0]).expect("a language");
+    let profile = super::profile_of("robots/kuka_kr210_r2700.yaml", &[effect]);
+    let done = compensate(language, &sources, &profile, &given()).expect("read");
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    done
+}
+
+#[test]
+fn a_joint_that_turns_back_slowly_at_the_end_of_an_arc_comes_from_its_new_side() {
+    let ends = |effect: &str| {
+        let fakes: Vec<Pose> = slow_end(effect)
+            .targets
+            .iter()
+            .filter_map(|of| of.fake)
+            .collect();
+        // the second arrives with joint 1 on its way up, the last behind its turn
+        [fakes[1], fakes[3]]
+    };
+    let with_backlash = ends("{effect: backlash, joint: 1, width_deg: 0.012}");
+    let offsets = ["-0.006", "0.006"];
+    let of_offset = offsets.map(|deg| {
+        ends(&format!(
+            "{{effect: link_geometry, link: 1, theta_deg: {deg}}}"
+        ))
+    });
+    // joint 1 stands on one side where it comes from there all along
+    let side = |at: usize| {
+        let gaps = of_offset.map(|of| of[at].separation(&with_backlash[at]).distance_m);
+        assert!(gaps[0].min(gaps[1]) < 1e-6, "{at} {gaps:?}");
+        gaps[0] < gaps[1]
+    };
+    assert_ne!(side(0), side(1));
 }

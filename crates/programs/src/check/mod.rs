@@ -70,6 +70,7 @@ use deviation::PathError;
 use judge::Job;
 use limits::Limits;
 use rayon::prelude::*;
+use std::collections::HashSet;
 use walk::{Stop, Stops, Walk};
 
 /// Moves judged by one thread at a time.
@@ -371,6 +372,7 @@ pub fn check_telling(
             findings.extend(found);
         }
     }
+    findings.extend(not_followed(&job, &indices));
     let order = |file: &str| subject.sources.iter().position(|s| s.name == file);
     findings.sort_by_cached_key(|f| (order(&f.file), f.line, f.column, f.id));
     findings.dedup();
@@ -393,6 +395,31 @@ pub fn check_telling(
         findings,
         summary,
     })
+}
+
+/// Moves that could not be followed, and of which nothing else says why.
+fn not_followed(job: &Job, stops: &[usize]) -> Vec<Finding> {
+    let Job { subject, walk, .. } = job;
+    let said = walk.findings.iter().map(|f| (f.file.as_str(), f.line));
+    let mut said: HashSet<(&str, usize)> = said.collect();
+    let open = stops.iter().filter(|stop| walk.stops.all[**stop].is_none());
+    open.filter_map(|stop| {
+        let motion = walk.motion(*stop);
+        let source = &subject.sources[motion.file as usize];
+        let (line, _) = source.line_column(motion.offset as usize);
+        said.insert((&source.name, line)).then(|| {
+            let message = "where this move goes only the running program knows: it was not checked";
+            let hint = "a target of its own, with numbers, is checked";
+            subject.finding(
+                motion,
+                "not-followed",
+                Severity::Warning,
+                message.into(),
+                hint,
+            )
+        })
+    })
+    .collect()
 }
 
 /// Configurations that the paths of the original do not end in either are those of its simulation:

@@ -217,6 +217,7 @@ impl Walk {
             turning: options.turning,
         };
         let arrivals = walk::walk(&ground, &walk_options, &mut findings);
+        sides::unknown(&ground, &arrivals, &mut findings);
         sides::revisits(&ground, &arrivals, &walk_options, &mut findings);
         let mut order: Vec<usize> = (0..arrivals.all.len()).collect();
         let key = |at: usize| (arrivals.all[at].motion, arrivals.all[at].from);

@@ -4,7 +4,7 @@ use super::written::without_configuration;
 use super::{Added, Compensation};
 use crate::finding::Severity;
 use crate::program::{
-    Edits, Insertion, Insertions, Language, Program, Replacements, Source, number,
+    Before, Edits, Insertion, Insertions, Language, Motion, Program, Replacements, Source, number,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -155,6 +155,16 @@ impl Compensation {
         if insertion.own.is_some() {
             self.added.freed.extend(motion.target);
         }
+        // its parts pass through other points
+        let vias = program
+            .before(motion)
+            .iter()
+            .filter_map(|before| match before {
+                Before::One(via) => Some(&program.moves[*via as usize]),
+                _ => None,
+            });
+        let vias = vias.filter(|via| is_arc && via.motion == Motion::ArcVia);
+        self.added.freed.extend(vias.filter_map(|via| via.target));
         for (at, part) in insertion.between.iter().enumerate() {
             texts.extend(&part.via);
             // the last part of an arc ends at the move's own target

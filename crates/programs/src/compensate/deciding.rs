@@ -46,13 +46,17 @@ pub(super) fn check(job: &Job, shifts: &BTreeMap<usize, f64>, findings: &mut Vec
         let hint = "see that the decision has room for the correction, or let it use numbers of \
             its own";
         let place = decided.place;
-        findings.push(ground.finding(
-            "numbers-read",
-            Severity::Warning,
-            place.file,
-            place.offset,
-            message,
-            hint,
-        ));
+        let source = &ground.sources[place.file as usize];
+        let (id, severity) = ("numbers-read", Severity::Warning);
+        // of files that are read for their declarations nothing is reported
+        let of_target = decided.targets.iter().next().filter(|_| source.is_context);
+        findings.push(match of_target {
+            Some(target) => {
+                let (line, _) = source.line_column(place.offset as usize);
+                let message = format!("line {line} of {}: {message}", source.name);
+                ground.at_target(id, severity, *target, message, hint)
+            }
+            None => ground.finding(id, severity, place.file, place.offset, message, hint),
+        });
     }
 }

@@ -121,7 +121,7 @@ pub(super) fn check(
                     |a: &Verdict, b: &Verdict| severity(a, b).then(a.off_m.total_cmp(&b.off_m));
                 let worst = verdicts.into_iter().max_by(worst)?;
                 let message = format!("{}{others}", worst.message);
-                Some(ground.at_move(worst.id, worst.severity, motion, message, hint))
+                Some(ground.at_use(worst.id, worst.severity, motion, message, hint))
             }),
     );
 }
@@ -136,7 +136,7 @@ fn uncorrected(job: &Job, motion: &Move, target: TargetId) -> Finding {
     let hint = "go to a target of its own if it must be exact, or correct joints, too \
         (--joint-targets correct)";
     let ground = &job.ground;
-    ground.at_move("displaced-target", Severity::Warning, motion, message, hint)
+    ground.at_use("displaced-target", Severity::Warning, motion, message, hint)
 }
 
 /// What is found of a displacement.

@@ -7,11 +7,12 @@ use super::approach::Approach;
 use super::solve::is_directed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::geometry::{Pose, norm, sub};
+use crate::geometry::{Pose, Vector, norm, sub};
 use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::motion::placed::Placed;
 use crate::motion::posture;
+use crate::motion::sides;
 use crate::motion::walk::Arrivals;
 use crate::program::{Called, Configuration, Interrupt, Motion, Stand, Value};
 use std::borrow::Cow;
@@ -341,33 +342,39 @@ fn open_branches(job: &Job, motion: usize, honoured: bool) -> Vec<Branch> {
     all
 }
 
-/// How far the tool is off the part where joints and external axes with backlash come from the other
-/// side.
+/// How far the tool may be off the part where joints and external axes with backlash come from the
+/// other side.
 fn from_the_other_sides_m(job: &Job, approach: &Approach) -> f64 {
     let equipped = job.ground.arm_with(approach.tool as usize);
-    let stand = job.ground.stand_in(approach.frame as usize);
-    let stand = stand.filter(|stand| has_sides(stand));
-    let side = |side: f64| {
-        let mut conditions = approach.conditions(job);
-        for (direction, has_backlash) in conditions.direction.iter_mut().zip(equipped.has_backlash)
-        {
-            if has_backlash {
-                *direction *= side;
-            }
-        }
-        let tool = equipped
-            .inverse
-            .real
-            .forward(&approach.nominal_q, &conditions);
-        let Some(stand) = stand else {
-            return tool;
+    let conditions = approach.conditions(job);
+    let real = &equipped.inverse.real;
+    let landing = |conditions: &Conditions| real.forward(&approach.nominal_q, conditions);
+    let open = (0..6).filter(|&i| equipped.has_backlash[i] && approach.direction[i] != 0);
+    let joints = open.map(|i| sides::other_side(landing, &conditions, i));
+    let mut steps: Vec<Vector> = joints.collect();
+    if let Some(stand) = job.ground.stand_in(approach.frame as usize) {
+        let on_part = |axis: usize, side: f64| {
+            let mut stand = stand.clone();
+            stand.directions[axis] *= side;
+            let part = Placed::at(job.ground.profile, &stand, Pose::identity());
+            (part.real.inverse() * landing(&conditions)).translation
         };
-        let mut stand = stand.clone();
-        stand.directions.iter_mut().for_each(|of| *of *= side);
-        let part = Placed::at(job.ground.profile, &stand, Pose::identity());
-        part.real.inverse() * tool
-    };
-    side(1.0).separation(&side(-1.0)).distance_m
+        let axes = (0..stand.directions.len()).filter(|&axis| stand.directions[axis] != 0.0);
+        let by = axes.map(|axis| sub(on_part(axis, -1.0), on_part(axis, 1.0)));
+        // seen from the arm: the sides of joints are
+        let part = Placed::at(job.ground.profile, stand, Pose::identity());
+        steps.extend(by.map(|by| part.real.rotation * by));
+    }
+    let steps: Vec<_> = steps
+        .iter()
+        .map(|step| (*step, &sides::OR_OTHER[..]))
+        .collect();
+    sides::largest_sum(&steps)
+}
+
+/// Whether it matters from which side external axes come.
+fn has_sides(stand: &Stand) -> bool {
+    stand.directions.iter().any(|of| *of != 0.0)
 }
 
 /// External axes for which it matters from which side they come, by their names.
@@ -378,11 +385,6 @@ fn external_sides(job: &Job, approach: &Approach) -> Vec<String> {
     let axes = ground.profile.external.listed().zip(directions);
     let axes = axes.filter(|(_, direction)| **direction != 0.0);
     axes.map(|(axis, _)| axis.name().to_owned()).collect()
-}
-
-/// Whether it matters from which side external axes come.
-fn has_sides(stand: &Stand) -> bool {
-    stand.directions.iter().any(|of| *of != 0.0)
 }
 
 /// How far the tool is off where the robot comes to the target on another one of these branches.

@@ -10,6 +10,7 @@ use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
 use crate::model::Conditions;
 use crate::model::effects::Need;
+use crate::motion::sides;
 use crate::motion::walk::{Arrival, Arrivals, WalkOptions};
 use crate::program::script::{Turn, short};
 use crate::program::{Displacement, Shape, Shift};
@@ -128,21 +129,18 @@ pub(super) fn unknown_side(
         .filter(|&i| equipped.has_backlash[i] && approach.direction[i] == 0)
         .map(|i| (i + 1).to_string())
         .collect();
-    let real = &equipped.inverse.real;
-    let from = |side: f64| {
-        let mut conditions = approach.conditions(job);
-        for i in 0..6 {
-            if approach.direction[i] == 0 {
-                conditions.direction[i] = side;
-            }
-        }
-        real.forward(&approach.nominal_q, &conditions)
-    };
-    let apart = from(-1.0).separation(&from(1.0)).distance_m;
+    let conditions = approach.conditions(job);
+    let q = &approach.nominal_q;
     let line_of = |motion: u32| ground.line_of(&ground.program.moves[motion as usize]);
     let (assumed, off_m) = match served_by {
-        None => (" stand in the middle".to_owned(), 0.5 * apart),
-        Some(other) => (format!(" come as in line {}", line_of(other.motion)), apart),
+        None => (
+            " stand in the middle".to_owned(),
+            sides::from_middle_m(equipped, q, &conditions),
+        ),
+        Some(other) => (
+            format!(" come as in line {}", line_of(other.motion)),
+            2.0 * sides::from_middle_m(equipped, q, &conditions),
+        ),
     };
     let (why, hint) = match arrivals.unknown_before(ground.program, approach.arrival) {
         None => (

@@ -6,7 +6,7 @@ use crate::program::script::Script;
 use crate::program::{Edits, Language, Marker, Number, Role, Settings, Source, Target, number};
 use rayon::prelude::*;
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// What is written does not read back as what was meant: a fault of this program.
@@ -186,8 +186,9 @@ fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
 struct Meant {
     /// The numbers that stay and those that replace others, in the order of the file.
     numbers: Vec<f64>,
-    /// Those of targets that no move goes to any more, by place in the list.
-    freed: BTreeSet<usize>,
+    /// Those of targets that no move goes to any more, by place in the list, and where they stand in
+    /// the written file.
+    freed: BTreeMap<usize, usize>,
     /// Text that is new, in the written file.
     new: Vec<Range<usize>>,
 }
@@ -199,12 +200,15 @@ impl Meant {
         let mut next = numbers.into_iter().peekable();
         let mut meant = Self {
             numbers: Vec::with_capacity(next.len()),
-            freed: BTreeSet::new(),
+            freed: BTreeMap::new(),
             new: Vec::new(),
         };
         let freed = &compensation.added.freed;
         let freed: Vec<&Range<u32>> = freed.iter().map(|t| &program.targets[*t].numbers).collect();
-        let is_freed = |index: u32| freed.iter().any(|numbers| numbers.contains(&index));
+        let start_of_freed = |index: u32| {
+            let is_freed = freed.iter().any(|numbers| numbers.contains(&index));
+            is_freed.then(|| program.numbers[index as usize].start as usize)
+        };
         let computed = |index: u32| {
             let computed = &compensation.meant;
             let at = computed.binary_search_by_key(&index, |(index, _)| *index);
@@ -228,7 +232,8 @@ impl Meant {
                 if program.numbers[index as usize].length == 0 {
                     missing = Some(program.numbers[index as usize].start);
                 }
-                meant.keep(kept(index), is_freed(index));
+                let start = start_of_freed(index).map(|start| start + behind - before);
+                meant.keep(kept(index), start);
             }
             if span.is_empty() && missing == Some(start) {
                 behind += text.len();
@@ -243,7 +248,8 @@ impl Meant {
                 next.next();
                 let value = computed(index).or_else(|| number::parse(text.trim_ascii_start()));
                 // what is no number equals none
-                meant.numbers.push(value.unwrap_or(f64::NAN));
+                let freed = start_of_freed(index).map(|_| at);
+                meant.keep(value.unwrap_or(f64::NAN), freed);
             } else {
                 while next
                     .next_if(|i| (program.numbers[*i as usize].start as usize) < span.end)
@@ -257,14 +263,16 @@ impl Meant {
             before += span.len();
         }
         for index in next {
-            meant.keep(kept(index), is_freed(index));
+            let start = start_of_freed(index).map(|start| start + behind - before);
+            meant.keep(kept(index), start);
         }
         meant
     }
 
-    fn keep(&mut self, number: f64, is_freed: bool) {
-        if is_freed {
-            self.freed.insert(self.numbers.len());
+    /// `freed`: where a number stands that no move needs any more.
+    fn keep(&mut self, number: f64, freed: Option<usize>) {
+        if let Some(start) = freed {
+            self.freed.insert(self.numbers.len(), start);
         }
         self.numbers.push(number);
     }
@@ -299,19 +307,25 @@ impl Meant {
                 }
             }
         }
+        // a language may know no target that nothing goes to
+        let starts = |index: &u32| after.numbers[*index as usize].start as usize;
+        let is_gone = |start: &usize| found.binary_search_by_key(start, starts).is_err();
         let all_there = found.len() == self.numbers.len();
-        if !all_there && found.len() + self.freed.len() != self.numbers.len() {
+        let freed = self.freed.iter().filter(|_| !all_there);
+        let gone = freed.filter(|(_, start)| is_gone(start));
+        let gone: BTreeSet<usize> = gone.map(|(at, _)| *at).collect();
+        if found.len() + gone.len() != self.numbers.len() {
             return Err(format!(
                 "{} numbers where {} are meant",
                 found.len(),
-                self.numbers.len()
+                self.numbers.len() - gone.len()
             ));
         }
-        let numbers = if all_there {
+        let numbers = if gone.is_empty() {
             Cow::from(&self.numbers)
         } else {
             let meant = self.numbers.iter().enumerate();
-            let meant = meant.filter(|(at, _)| !self.freed.contains(at));
+            let meant = meant.filter(|(at, _)| !gone.contains(at));
             meant.map(|(_, meant)| *meant).collect()
         };
         let pairs = found.par_iter().zip(&*numbers);

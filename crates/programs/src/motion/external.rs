@@ -8,11 +8,12 @@
 //! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows
 //! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
-use super::external_values::{Coming, Known, followed, has_backlash, width};
+use super::external_values::{CameFrom, Known, followed, has_backlash, width};
 use super::passed;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
+use crate::model::effects::Need;
 use crate::model::external::{ExternalAxes, Follows, Listed};
 use crate::profile::Profile;
 use crate::program::{
@@ -34,6 +35,9 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
     let ignored = ignored.map(|axis| axis.axis.clone());
     Settings {
         world_from_base: (external.track.is_empty()).then(|| profile.world_from_foot()),
+        gravity_m_s2: (profile.real_effects().iter())
+            .any(|of| !of.is_zero() && of.definition().needs.contains(&Need::Masses))
+            .then_some(profile.gravity_m_s2),
         pulses_per_deg: profile.pulses_per_deg,
         accept_absolutely_accurate,
         external: ExternalNames {
@@ -217,7 +221,7 @@ fn measured(profile: &Profile) -> Vec<Option<[f64; 2]>> {
 }
 
 impl Settler<'_> {
-    fn motion(&mut self, at: usize, values: &[Known], directions: &[Coming]) {
+    fn motion(&mut self, at: usize, values: &[Known], directions: &[CameFrom]) {
         let motion = &self.program.moves[at];
         let Some(target) = motion.target else {
             return;
@@ -285,7 +289,7 @@ impl Settler<'_> {
             self.tell_extrapolated(at, k, *value);
         }
         for (k, direction) in directions.iter().enumerate() {
-            if self.backlash[k] && *direction == Coming::Unknown {
+            if self.backlash[k] && *direction == CameFrom::Unknown {
                 self.tell_direction(at, k);
             }
         }
@@ -293,9 +297,9 @@ impl Settler<'_> {
             return;
         }
         let from_both = |both: f64| -> Vec<f64> {
-            let of = |(direction, has_backlash): (&Coming, &bool)| match direction {
-                Coming::Going(direction) if *has_backlash => *direction,
-                Coming::FromBoth if *has_backlash => both,
+            let of = |(direction, has_backlash): (&CameFrom, &bool)| match direction {
+                CameFrom::Going(direction) if *has_backlash => *direction,
+                CameFrom::FromBoth if *has_backlash => both,
                 _ => 0.0,
             };
             directions.iter().zip(&self.backlash).map(of).collect()

@@ -30,7 +30,7 @@ impl Known {
 
 /// From where an axis comes to the end of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Coming {
+pub(super) enum CameFrom {
     /// Not looked at yet.
     Open,
     /// By the sign of its way.
@@ -41,7 +41,7 @@ pub(super) enum Coming {
     Unknown,
 }
 
-impl Coming {
+impl CameFrom {
     fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Open, known) | (known, Self::Open) => known,
@@ -76,7 +76,7 @@ pub(super) fn followed(
     profile: &Profile,
     own: &[Option<f64>],
     count: usize,
-) -> (Vec<Known>, Vec<Coming>) {
+) -> (Vec<Known>, Vec<CameFrom>) {
     let mut values: Vec<Known> = own
         .iter()
         .map(|value| match value {
@@ -98,7 +98,7 @@ pub(super) fn followed(
     let led_by: Vec<(&[u32], Vec<Known>)> = (program.interrupts.iter())
         .map(|of| (&*of.moves, led_to(own, &of.moves, count)))
         .collect();
-    let mut directions = vec![Coming::Open; values.len()];
+    let mut directions = vec![CameFrom::Open; values.len()];
     let directed = has_backlash(&profile.effects, None);
     let widths: Vec<f64> = (0..count)
         .map(|axis| width(&profile.effects, axis))
@@ -115,7 +115,7 @@ pub(super) fn followed(
             let is_own = |of: &[u32]| of.binary_search(&short(at)).is_ok();
             for k in 0..count {
                 let here = at * count + k;
-                let (mut value, mut direction) = (Known::Open, Coming::Open);
+                let (mut value, mut direction) = (Known::Open, CameFrom::Open);
                 for (_, to) in led_by.iter().filter(|(of, _)| !is_own(of)) {
                     value = value.and(to[k]);
                 }
@@ -126,11 +126,11 @@ pub(super) fn followed(
                             (values[from], directions[from])
                         }
                         Before::Start => match program.stands_at_start.get(k) {
-                            Some(Some(start)) => (Known::Is(*start), Coming::Unknown),
-                            _ => (Known::Unknown, Coming::Unknown),
+                            Some(Some(start)) => (Known::Is(*start), CameFrom::Unknown),
+                            _ => (Known::Unknown, CameFrom::Unknown),
                         },
                         Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => {
-                            (Known::Unknown, Coming::Unknown)
+                            (Known::Unknown, CameFrom::Unknown)
                         }
                     };
                     value = value.and(from);

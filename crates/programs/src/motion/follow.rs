@@ -336,6 +336,11 @@ pub(crate) fn leads_wrist(motion: &Move) -> bool {
     motion.free_orientation && motion.motion != Motion::Joint
 }
 
+/// The finest part at the end of a path in which a slow joint is looked at: this many times halved.
+const FINEST: i32 = 10;
+/// A joint that turns by less has not moved, radians.
+const STILL_RAD: f64 = 1e-6;
+
 /// How the joints come to the end of a path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coming {
@@ -384,10 +389,28 @@ fn arrival_direction(
     let half = leg.joints(0.5, end);
     let first = turned(mechanism, start, &half, before);
     let on_way = turned(mechanism, &half, end, first);
-    Coming {
-        direction: std::array::from_fn(|i| sign(rates[i], STANDSTILL_RAD_M).unwrap_or(on_way[i])),
-        half,
-    }
+    let mut ends: Vec<[f64; 6]> = Vec::new();
+    let direction = std::array::from_fn(|i| {
+        let at = |q: &[f64; 6]| mechanism.commanded(q)[i];
+        let stands = [start, &half]
+            .iter()
+            .all(|q| (at(q) - to[i]).abs() < STILL_RAD);
+        sign(rates[i], STANDSTILL_RAD_M).unwrap_or_else(|| {
+            if stands || !equipped.has_backlash[i] {
+                return on_way[i];
+            }
+            if ends.is_empty() {
+                // ever longer parts of the path, up to its end
+                let parts = (2..=FINEST).rev().map(|k| 1.0 - 0.5_f64.powi(k));
+                ends.extend(parts.map(|s| mechanism.commanded(&leg.joints(s, &last))));
+            }
+            let mut turns = ends.iter().map(|from| to[i] - from[i]);
+            turns
+                .find_map(|by| sign(by, STILL_RAD))
+                .unwrap_or(on_way[i])
+        })
+    });
+    Coming { direction, half }
 }
 
 /// A path of the controller's joints.

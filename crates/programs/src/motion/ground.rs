@@ -299,6 +299,26 @@ impl<'a> Ground<'a> {
         self.finding(id, severity, motion.file, motion.offset, message, hint)
     }
 
+    /// A finding of what a move makes of its target: at the target where the move is in a file that is
+    /// read for its declarations only, of which nothing is reported.
+    pub(crate) fn at_use(
+        &self,
+        id: &'static str,
+        severity: Severity,
+        motion: &Move,
+        message: String,
+        hint: &str,
+    ) -> Finding {
+        let of_move = &self.sources[motion.file as usize];
+        let target = motion.target.filter(|_| of_move.is_context);
+        let Some(target) = target else {
+            return self.at_move(id, severity, motion, message, hint);
+        };
+        let line = self.line_of(motion);
+        let message = format!("line {line} of {}: {message}", of_move.name);
+        self.at_target(id, severity, target, message, hint)
+    }
+
     /// A finding at a target.
     pub(crate) fn at_target(
         &self,

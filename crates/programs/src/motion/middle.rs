@@ -42,11 +42,21 @@ pub(super) fn middle(
     if motion.motion != Motion::ArcVia {
         return None;
     }
-    let (end, _) = end_of(ground, at).filter(|(_, moves_axes)| !moves_axes)?;
+    let ends: Vec<_> = ends_of(ground, at).collect();
+    let (_, end, _) = *ends.first().filter(|(.., moves_axes)| !moves_axes)?;
     let equipped = ground.equipped(motion.tool)?;
     let from = start_pose(ground, equipped, start, walk_options);
-    let course = ToolCourse::arc(&from, wanted.translation, &end, walk_options.turning);
+    let to = |end: &Pose| ToolCourse::arc(&from, wanted.translation, end, walk_options.turning);
+    let course = to(&end);
     let there = rotation_on(&course, wanted);
+    let others = ends[1..].iter().map(|(_, other, _)| {
+        let rotation = rotation_on(&to(other), wanted);
+        (there.transpose() * rotation).angle()
+    });
+    let apart = others.fold(0.0, f64::max);
+    if apart > SAME_RAD && !ground.language.turns_through_middle() {
+        findings.push(ends_otherwise(ground, motion, apart));
+    }
     let middle = wanted.rotation.transpose() * there;
     if let Some(angle) = other_way(ground, &course, &end, wanted, &there) {
         findings.push(turns_otherwise(ground, motion, angle));
@@ -75,7 +85,7 @@ pub(crate) fn halfway(
     if motion.motion != Motion::ArcVia {
         return None;
     }
-    let (end, moves_axes) = end_of(ground, at)?;
+    let (end_at, end, moves_axes) = ends_of(ground, at).next()?;
     let controller = &ground.equipped(motion.tool)?.controller;
     let from = controller.forward(start, &Conditions::default());
     let half = |from: &Pose, via: &Pose, end: &Pose| {
@@ -87,7 +97,7 @@ pub(crate) fn halfway(
     }
     // it is an arc on the part
     let ride = ride.filter(|ride| ride.is_known())?;
-    let last = ground.ride(None, &ground.program.moves[at + 1])?;
+    let last = ground.ride(None, &ground.program.moves[end_at])?;
     let on_part = |ride: &Ride, s: f64, pose: &Pose| ride.home_from_part(s).inverse() * *pose;
     let (from, via) = (on_part(ride, 0.0, &from), on_part(ride, 1.0, via));
     let there = half(&from, &via, &on_part(&last, 1.0, &end));
@@ -143,12 +153,29 @@ fn start_pose(
     }
 }
 
-/// Where the arc through the point of a move ends, and whether external axes move on it; `None` where
-/// nobody knows.
-fn end_of(ground: &Ground, at: usize) -> Option<(Pose, bool)> {
+/// The moves that end the arc through the point of a move, where they end, and whether external axes
+/// move on them: several where a routine is called with several. None where nobody knows.
+fn ends_of(ground: &Ground, at: usize) -> impl Iterator<Item = (usize, Pose, bool)> {
+    let program = ground.program;
+    let via = &program.moves[at];
+    // moves of one statement follow each other, once for each state in which the robot comes there
+    let behind = (at + 1..).zip(&program.moves[at + 1..]);
+    let mut behind = behind
+        .skip_while(|(_, of)| of.instruction == via.instruction)
+        .peekable();
+    let last = behind.peek().map(|(_, of)| of.instruction);
+    let ends = behind.take_while(move |(_, of)| Some(of.instruction) == last);
+    ends.filter_map(move |(end_at, end)| {
+        let (pose, moves_axes) = end_of(ground, at, end)?;
+        Some((end_at, pose, moves_axes))
+    })
+}
+
+/// Where the arc through the point of a move ends with another one, and whether external axes move on
+/// it; `None` where nobody knows, or where it is no end of it.
+fn end_of(ground: &Ground, at: usize, end: &Move) -> Option<(Pose, bool)> {
     let program = ground.program;
     let via = crate::program::script::short(at);
-    let end: &Move = program.moves.get(at + 1)?;
     let is_arc = end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(via));
     end.target.filter(|_| is_arc)?;
     ground.equipped(end.tool)?;
@@ -165,6 +192,17 @@ fn end_of(ground: &Ground, at: usize) -> Option<(Pose, bool)> {
         .any(|ride| ride.moves());
     let goal = ground.goal(end).filter(|goal| !goal.is_near)?;
     Some((ground.meant(&goal.value, end.tool, frame), moves_axes))
+}
+
+/// That an arc ends now here and now there, in other rotations at its middle.
+fn ends_otherwise(ground: &Ground, motion: &Move, angle_rad: f64) -> Finding {
+    let message = format!(
+        "this arc ends at several poses: its middle is corrected for the first, and the tool is \
+         rotated there by up to {:.1} deg on the way to the others",
+        angle_rad / DEG
+    );
+    let hint = "write the arc out for each end, with a middle of its own";
+    ground.at_move("arc-rotation", Severity::Warning, motion, message, hint)
 }
 
 /// That the tool may turn otherwise on an arc than it is taken to.

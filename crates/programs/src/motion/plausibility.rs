@@ -3,10 +3,10 @@
 
 use super::ground::Ground;
 use crate::finding::{Finding, Severity};
-use crate::geometry::Vector;
-use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::units::{DEG, MM, mm_from_m};
+use crate::geometry::{Pose, Vector};
 use crate::model::Conditions;
-use crate::model::effects::{Effect, Need, same_tool};
+use crate::model::effects::{Effect, Kind, Need, same_tool};
 use crate::nearest;
 use crate::profile::{Mounted, Profile, ToolOfProfile, is_tiny};
 use crate::program::Move;
@@ -22,6 +22,9 @@ const MOST_LOAD_KG: f64 = 1e4;
 const PLACES: usize = 5;
 /// A shift by less is not worth a word, mm.
 const VISIBLE_MM: f64 = 0.01;
+/// Tools of program and profile that are nearer are one: files round.
+const SAME_TOOL_M: f64 = 0.02 * MM;
+const SAME_TOOL_RAD: f64 = 0.02 * DEG;
 /// No tool, work frame or target is farther away, metres.
 pub(super) const FARTHEST_M: f64 = 1e3;
 
@@ -245,6 +248,7 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
         }
         // as effects see it: the command line may give the profile's tool for it
         used.push((&tool.name, motion));
+        findings.extend(other_frame(ground, tool, motion));
         if tool.load.is_none() {
             findings.extend(unknown_load(
                 ground,
@@ -264,7 +268,17 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
         let alike: Vec<&Effect> = profile.effects.iter().filter(of_kind).collect();
         let lacks = |(used, _): &(&str, &Move)| alike.iter().all(|e| !e.site.is_of_tool(used));
         let is_used = used.iter().any(|(used, _)| same_tool(used, name));
-        if effect.is_zero() || is_used || profile.tool(name).is_some() || !used.iter().any(lacks) {
+        if effect.is_zero() || is_used || !used.iter().any(lacks) {
+            continue;
+        }
+        let known = profile.tool(name);
+        let at_its_place = |(_, motion): &&(&str, &Move)| {
+            let own = ground.setting.tools[motion.tool].as_ref();
+            let own = own.zip(known.as_ref());
+            own.is_some_and(|(own, known)| is_same_place(own, known))
+        };
+        let unnamed = used.iter().filter(|of| lacks(of)).find(at_its_place);
+        if known.is_some() && unnamed.is_none() {
             continue;
         }
         let names = used
@@ -272,14 +286,71 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
             .map(|(name, _)| *name)
             .filter(|name| !name.is_empty());
         let names: Vec<&str> = names.collect();
+        let id = effect.definition().id;
+        if let Some((other, motion)) = unnamed {
+            let message = format!(
+                "`{id}` of tool `{name}` applies to no move; `{other}` of the program has the place of \
+                 `{name}` on the flange, and another name"
+            );
+            let hint =
+                format!("call the tool `{name}` in the program, or `{other}` in the profile");
+            findings.push(ground.at_move(
+                "effect-unused",
+                Severity::Warning,
+                motion,
+                message,
+                &hint,
+            ));
+            continue;
+        }
         let message = format!(
-            "`{}` of tool `{name}` applies to no move, and the profile has no tool of this name",
-            effect.definition().id
+            "`{id}` of tool `{name}` applies to no move, and the profile has no tool of this name"
         );
         let mut hint = nearest::hint(name, "tools of the program", names);
         hint.push_str("; correct `tool` of the effect, or leave `tool` out for every tool");
         findings.push(ground.at_move("effect-unused", Severity::Warning, first, message, &hint));
     }
+}
+
+/// Whether two tools are one, but for what files round.
+fn is_same_place(a: &Mounted, b: &Mounted) -> bool {
+    let gap = a.flange_from_tool.separation(&b.flange_from_tool);
+    gap.distance_m <= SAME_TOOL_M && gap.angle_rad <= SAME_TOOL_RAD
+}
+
+/// That a program has a tool elsewhere on the flange than the profile does, whose `tool_frame` says how
+/// far it really is from there.
+fn other_frame(ground: &Ground, tool: &Mounted, motion: &Move) -> Option<Finding> {
+    let profile = ground.profile;
+    let known = profile.tool(&tool.name)?;
+    let mut own = profile.effects.iter();
+    let own = own.find(|effect| {
+        let site = &effect.site;
+        effect.kind == Kind::ToolFrame
+            && !effect.is_zero()
+            && site.tool.is_some()
+            && site.is_of_tool(&tool.name)
+    })?;
+    if is_same_place(tool, &known) {
+        return None;
+    }
+    let known = known.flange_from_tool;
+    let gap = known.separation(&tool.flange_from_tool);
+    let at = |pose: &Pose| pose.translation.map(|m| (mm_from_m(m) * 1e3).round() / 1e3);
+    let [x, y, z] = at(&tool.flange_from_tool);
+    let [of_x, of_y, of_z] = at(&known);
+    let message = format!(
+        "the program has tool `{}` at ({x}, {y}, {z}) mm on the flange, the profile at ({of_x}, \
+         {of_y}, {of_z}) mm, {:.3} mm and {:.3} deg from there; `{}` of the profile counts from the \
+         profile's: it would count from another place, or twice",
+        tool.name,
+        mm_from_m(gap.distance_m),
+        gap.angle_rad / DEG,
+        own.definition().id
+    );
+    let hint = "write the tool into the profile as the program has it, and calibrate with it; where \
+        the program has it as it was measured, take the effect out of the profile";
+    Some(ground.at_move("tool-differs", Severity::Error, motion, message, hint))
 }
 
 /// Whether masses move the arm.

@@ -7,11 +7,8 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Ambiguous, Answer, Arm, Branch};
 use crate::model::JointSense;
-use crate::program::{Configuration, TargetId};
+use crate::program::{BORDER_RAD, Configuration, TargetId};
 
-/// How far beyond its quadrant or turn a joint may stand: files round, and borders belong to both
-/// sides.
-const BORDER_RAD: f64 = 0.05 * DEG;
 /// Likewise where another posture is on the side that is asked for: the controller takes that one.
 const ROUNDED_RAD: f64 = 0.01 * DEG;
 /// Likewise of the wrist centre at axis 1.

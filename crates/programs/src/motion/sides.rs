@@ -1,13 +1,16 @@
 //! From which side joints with backlash come to a position: what that is worth, and where the robot
 //! goes back to a position of its own.
 
+use super::arms::Equipped;
 use super::follow::{self, course};
 use super::ground::Ground;
 use super::walk::{Arrival, Arrivals, WalkOptions};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
+use crate::geometry::{Pose, Vector, add, norm, scale, sub};
 use crate::model::Conditions;
 use crate::program::{Before, Motion, Move};
+use std::collections::BTreeMap;
 
 /// What the sides are worth is reported beyond this, metres.
 pub(crate) const LEAST_SIDE_M: f64 = 2e-6;
@@ -24,7 +27,8 @@ pub(crate) fn conditions(ground: &Ground, motion: &Move) -> Conditions {
     }
 }
 
-/// How far apart the tool is where some joints come from one side and from the other, metres.
+/// How far apart the tool may be where some joints come from one side and from the other, metres:
+/// those with a direction from that or the other, those without from any.
 pub(crate) fn apart_m(
     ground: &Ground,
     arrival: &Arrival,
@@ -32,20 +36,115 @@ pub(crate) fn apart_m(
     open: [bool; 6],
 ) -> f64 {
     let motion = &ground.program.moves[arrival.motion as usize];
-    let equipped = ground.arm_with(motion.tool);
-    let from = |side: f64| {
-        let of = |i: usize| match (open[i], direction[i]) {
-            (true, 0) => side,
-            (true, direction) => f64::from(direction) * side,
-            (false, direction) => f64::from(direction),
+    let real = &ground.arm_with(motion.tool).inverse.real;
+    let taken = Conditions {
+        direction: direction.map(f64::from),
+        ..conditions(ground, motion)
+    };
+    let from = |conditions: &Conditions| real.forward(&arrival.q, conditions);
+    let steps = (0..6).filter(|i| open[*i]).map(|i| {
+        let choices = if direction[i] == 0 {
+            &EITHER[..]
+        } else {
+            &OR_OTHER
         };
+        (other_side(from, &taken, i), choices)
+    });
+    largest_sum(&steps.collect::<Vec<_>>())
+}
+
+/// A joint comes from the side that is taken, or from the other one.
+pub(crate) const OR_OTHER: [f64; 2] = [0.0, 1.0];
+/// From one side or the other, and so before.
+const EITHER: [f64; 3] = [-1.0, 0.0, 1.0];
+
+/// How the tool moves where a joint comes from the other side than it is taken to; from above and not
+/// from below where none is.
+pub(crate) fn other_side(
+    landing: impl Fn(&Conditions) -> Pose,
+    taken: &Conditions,
+    joint: usize,
+) -> Vector {
+    let from = |side: f64| {
+        let mut conditions = *taken;
+        conditions.direction[joint] = side;
+        landing(&conditions).translation
+    };
+    let side = taken.direction[joint];
+    if side == 0.0 {
+        sub(from(1.0), from(-1.0))
+    } else {
+        sub(from(-side), from(side))
+    }
+}
+
+/// The longest sum of steps, each as often as one of its choices. Joints may cancel each other where all
+/// come from the other side.
+pub(crate) fn largest_sum(steps: &[(Vector, &[f64])]) -> f64 {
+    fn add_to(sum: Vector, steps: &[(Vector, &[f64])]) -> f64 {
+        let Some(((step, choices), rest)) = steps.split_first() else {
+            return norm(sum);
+        };
+        let all = choices.iter();
+        let all = all.map(|times| add_to(add(sum, scale(*times, *step)), rest));
+        all.fold(0.0, f64::max)
+    }
+    add_to([0.0; 3], steps)
+}
+
+/// Joints that are taken to stand in the middle stand half their backlash from it, on either side.
+const FROM_MIDDLE: [f64; 2] = [-0.5, 0.5];
+
+/// How far the tool may be off where joints are taken to stand in the middle of their backlash, metres:
+/// those with one and without a direction.
+pub(crate) fn from_middle_m(equipped: &Equipped, q: &[f64; 6], conditions: &Conditions) -> f64 {
+    let landing = |conditions: &Conditions| equipped.inverse.real.forward(q, conditions);
+    let open = (0..6).filter(|i| equipped.has_backlash[*i] && conditions.direction[*i] == 0.0);
+    let steps = open.map(|i| (other_side(landing, conditions, i), &FROM_MIDDLE[..]));
+    largest_sum(&steps.collect::<Vec<_>>())
+}
+
+/// Says of which ends of moves nobody knows from which side joints with backlash come, and what that is
+/// worth: once a move.
+pub(crate) fn unknown(ground: &Ground, arrivals: &Arrivals, findings: &mut Vec<Finding>) {
+    let mut worst: BTreeMap<u32, (f64, [bool; 6])> = BTreeMap::new();
+    let followed = arrivals.all.iter();
+    let followed = followed.filter(|arrival| arrival.known && !arrival.displaced);
+    for arrival in followed {
+        let motion = &ground.program.moves[arrival.motion as usize];
+        let Some(equipped) = ground.equipped(motion.tool) else {
+            continue;
+        };
+        let open = std::array::from_fn(|i| equipped.has_backlash[i] && arrival.direction[i] == 0);
+        if !open.contains(&true) {
+            continue;
+        }
         let conditions = Conditions {
-            direction: std::array::from_fn(of),
+            direction: arrival.direction.map(f64::from),
             ..conditions(ground, motion)
         };
-        equipped.inverse.real.forward(&arrival.q, &conditions)
-    };
-    from(1.0).separation(&from(-1.0)).distance_m
+        let off_m = from_middle_m(equipped, &arrival.q, &conditions);
+        let before = worst.entry(arrival.motion).or_insert((0.0, open));
+        if off_m > before.0 {
+            *before = (off_m, open);
+        }
+    }
+    for (motion, (off_m, open)) in worst
+        .into_iter()
+        .filter(|(_, (off, _))| *off > LEAST_SIDE_M)
+    {
+        let joints = (0..6).filter(|i| open[*i]).map(|i| (i + 1).to_string());
+        let message = format!(
+            "nothing says from which side joint {} with backlash comes here: it is taken to stand in \
+             the middle, and the tool may be {:.3} mm off",
+            joints.collect::<Vec<_>>().join(", "),
+            mm_from_m(off_m)
+        );
+        let motion = &ground.program.moves[motion as usize];
+        let hint = "--start-joints says where the robot stands when the program starts";
+        let (id, severity) = ("direction-uncertain", Severity::Warning);
+        findings.push(ground.at_move(id, severity, motion, message, hint));
+    }
 }
 
 /// Judges moves to where the robot itself was: its joints come back to the same angles, those with
@@ -145,4 +244,19 @@ fn uncertain(ground: &Ground, motion: &Move, off_m: f64, open: [bool; 6]) -> Fin
     );
     let hint = "come there from the same side both times, or go to a target with numbers";
     ground.at_move(RUN_TIME_POSITION, Severity::Warning, motion, message, hint)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_sum_is_not_that_of_all_where_steps_cancel() {
+        let x = |mm: f64| [mm, 0.0, 0.0];
+        let longest = |choices: &[f64]| largest_sum(&[(x(3.0), choices), (x(-2.0), choices)]);
+        assert_eq!(longest(&OR_OTHER), 3.0);
+        assert_eq!(longest(&EITHER), 5.0);
+        assert_eq!(longest(&FROM_MIDDLE), 2.5);
+        assert_eq!(largest_sum(&[]), 0.0);
+    }
 }
