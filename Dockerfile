@@ -22,7 +22,7 @@ RUN python3 -m venv /tools && /tools/bin/pip install --no-cache-dir "maturin>=1.
 WORKDIR /source
 COPY . .
 WORKDIR /source/python
-RUN /tools/bin/maturin build --profile dist --locked --out /dist
+RUN /tools/bin/maturin build --profile dist --locked --compression-level 9 --out /dist
 
 FROM python:3.13-slim-bookworm AS fleet
 COPY --from=wheel /dist /dist

@@ -15,7 +15,7 @@ python3 -m venv "$folder/tools" || skip "python3 -m venv does not work here"
 "$folder/tools/bin/pip" install -q "maturin>=1.9,<2" || skip "pip cannot install maturin"
 
 cd "$here"
-"$folder/tools/bin/maturin" build --release --out "$folder/dist" --interpreter python3
+"$folder/tools/bin/maturin" build --release --compression-level 9 --out "$folder/dist" --interpreter python3
 wheel=("$folder"/dist/*.whl)
 size=$(stat -c %s "${wheel[0]}" 2> /dev/null || stat -f %z "${wheel[0]}")
 echo "${wheel[0]##*/}: $size bytes"
