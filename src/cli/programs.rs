@@ -113,12 +113,13 @@ impl Gathered {
         names: &[String],
     ) -> Result<Shared, Failure> {
         // files of one name are one module: a.src means a.dat, too
-        let module = |path: &Path| path.with_extension("");
-        let is_shared = |program: &ProgramFile| {
-            let own = module(&program.below);
-            let mut others = others.iter().map(|other| module(other));
-            others.any(|other| other.as_os_str().eq_ignore_ascii_case(&own))
+        let module = |path: &Path| {
+            path.with_extension("")
+                .into_os_string()
+                .to_ascii_lowercase()
         };
+        let others: HashSet<OsString> = others.iter().map(|other| module(other)).collect();
+        let is_shared = |program: &ProgramFile| others.contains(&module(&program.below));
         let shared: Vec<bool> = self.programs.iter().map(is_shared).collect();
         let any = shared.contains(&true);
         let meant = meant(&self.programs, names)?;

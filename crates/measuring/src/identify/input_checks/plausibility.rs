@@ -19,15 +19,15 @@ use std::collections::BTreeSet;
 pub(crate) const HOPELESS_M: f64 = 20.0 * MM;
 /// A fit that misses by more is worth a warning, metres.
 const POOR_M: f64 = 2.0 * MM;
+/// The same of orientations, radians.
+const HOPELESS_RAD: f64 = 3.0 * DEG;
+/// And worth a warning.
+const POOR_RAD: f64 = 0.5 * DEG;
 /// The nominal arm misses by less where positions are its controller's own: arms repeat to 0.01 mm at
 /// best, and a controller shows thousandths, metres.
 const COMPUTED_M: f64 = 0.005 * MM;
 /// From so many rows on.
 const COMPUTED_ROWS: usize = 10;
-/// The same of orientations, radians.
-const HOPELESS_RAD: f64 = 3.0 * DEG;
-/// And worth a warning.
-const POOR_RAD: f64 = 0.5 * DEG;
 /// The part of the rows that a fit is judged by: gross errors are outliers, not the fit.
 const JUDGED: f64 = 0.9;
 /// So many numbers a parameter show the noise to a loss that leaves rows out. Over 60 to 100 draws of

@@ -427,6 +427,10 @@ fn what_is_given_to_functions_that_are_not_in_the_file() {
             vec!["target-passed-to-routine"],
         ),
         ("l=[p[1,2,4,0,0,0]]\nfoo(l)", vec!["pose-passed-to-routine"]),
+        (
+            "s=struct(p=p[1,2,4,0,0,0])\nfoo(s.p)",
+            vec!["pose-passed-to-routine"],
+        ),
     ] {
         let program = path(&format!("x=p[1,2,3,0,0,0]\n{lines}\nmovel(x)"));
         assert_eq!(ids(&program), found, "{lines}");

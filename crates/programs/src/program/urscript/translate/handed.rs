@@ -5,11 +5,14 @@ use super::Translator;
 use crate::program::script::{self, Argument, Remark};
 use crate::program::urscript::syntax::{Called, Expr, ExprId, FunctionId};
 use crate::program::urscript::variables::MOST_STEPS;
+use foldhash::HashSet;
 
 /// Poses in what one call is given, themselves or in lists and structures.
 #[derive(Default)]
 struct Handed {
     targets: Vec<(ExprId, FunctionId)>,
+    /// What has been looked into.
+    seen: HashSet<(ExprId, FunctionId)>,
     /// Poses that no move in the files goes to.
     has_others: bool,
 }
@@ -43,7 +46,10 @@ impl Translator<'_, '_, '_> {
     }
 
     fn look_into(&self, value: ExprId, function: FunctionId, steps: u32, found: &mut Handed) {
-        let Some(steps) = steps.checked_sub(1) else {
+        let Some(steps) = steps
+            .checked_sub(1)
+            .filter(|_| found.seen.insert((value, function)))
+        else {
             return;
         };
         let goals = &self.goals;
@@ -69,6 +75,12 @@ impl Translator<'_, '_, '_> {
             Expr::Call(call) if goals.variables.is_structure(call) => {
                 for &(_, of) in parsed.arguments_of(&parsed.calls[call as usize]) {
                     self.look_into(of, function, steps, found);
+                }
+            }
+            Expr::Element(name, at) => {
+                let elements = goals.variables.elements(name, at, function);
+                for (of, function) in elements.into_iter().flat_map(|of| of.values) {
+                    self.look_into(of, function, steps / 2, found);
                 }
             }
             _ => (),
