@@ -45,11 +45,18 @@ impl Stand {
 
 /// The moves behind many, and what is known of these.
 pub(super) struct Crowds {
-    behind: Vec<(u32, Row)>,
-    /// From what each has been gone on to.
-    done: HashSet<(u32, Row, Stand)>,
+    /// Each move with its row, and how many of the row's ends it has been gone on to from.
+    behind: Vec<(u32, usize, usize)>,
+    rows: Vec<Ends>,
     /// Arrivals that have been looked at.
     seen: usize,
+}
+
+/// How the robot stands behind a row of moves, each with an arrival that stands so.
+struct Ends {
+    row: Row,
+    stands: HashSet<Stand>,
+    from: Vec<u32>,
 }
 
 /// Whether a move is followed from any of many: of an arc the point on its way must be one.
@@ -68,21 +75,46 @@ pub(super) fn starts(motion: &Move, before: &Before) -> bool {
 
 impl Crowds {
     pub(super) fn of(ground: &Ground) -> Self {
-        let mut behind = Vec::new();
+        let mut crowds = Self {
+            behind: Vec::new(),
+            rows: Vec::new(),
+            seen: 0,
+        };
+        let mut known: HashMap<Row, usize> = HashMap::new();
         for (at, motion) in ground.program.moves.iter().enumerate() {
             for before in ground.program.before(motion) {
                 if let Before::AnyOf { first, end } = *before
                     && is_followed(motion)
                 {
-                    behind.push((short(at), (first, end)));
+                    let row = (first, end);
+                    let rows = &mut crowds.rows;
+                    let ends = *known.entry(row).or_insert_with(|| {
+                        rows.push(Ends {
+                            row,
+                            stands: HashSet::new(),
+                            from: Vec::new(),
+                        });
+                        rows.len() - 1
+                    });
+                    crowds.behind.push((short(at), ends, 0));
                 }
             }
         }
-        Self {
-            behind,
-            done: HashSet::new(),
-            seen: 0,
+        crowds
+    }
+
+    /// Takes in the arrivals that have come since.
+    fn look(&mut self, arrivals: &[Arrival]) {
+        for (at, arrival) in arrivals.iter().enumerate().skip(self.seen) {
+            for ends in &mut self.rows {
+                let (first, end) = ends.row;
+                if (first..end).contains(&arrival.motion) && ends.stands.insert(Stand::of(arrival))
+                {
+                    ends.from.push(short(at));
+                }
+            }
         }
+        self.seen = arrivals.len();
     }
 }
 
@@ -93,19 +125,16 @@ impl Walker<'_, '_> {
             return;
         }
         while crowds.seen != self.arrivals.all.len() {
-            crowds.seen = self.arrivals.all.len();
-            let mut stands: HashMap<Row, Vec<(Stand, u32)>> = HashMap::new();
-            for at in 0..crowds.behind.len() {
-                let (next, row) = crowds.behind[at];
-                let all = stands
-                    .entry(row)
-                    .or_insert_with(|| self.stands(row))
-                    .clone();
-                for (stand, from) in all {
-                    if !crowds.done.insert((next, row, stand)) {
-                        continue;
-                    }
-                    let arrival = self.arrive(next, from);
+            crowds.look(&self.arrivals.all);
+            let Crowds {
+                behind: moves,
+                rows,
+                ..
+            } = crowds;
+            for (next, ends, done) in moves {
+                let from = &rows[*ends].from;
+                for &from in &from[*done..] {
+                    let arrival = self.arrive(*next, from);
                     let arrival = Arrival {
                         from: NOWHERE,
                         direction: [0; 6],
@@ -113,16 +142,9 @@ impl Walker<'_, '_> {
                     };
                     self.add(behind, arrival);
                 }
+                *done = from.len();
             }
             self.run(behind);
         }
-    }
-
-    /// How the robot stands behind a row of moves, each with an arrival that stands so.
-    fn stands(&self, (first, end): Row) -> Vec<(Stand, u32)> {
-        let mut seen = HashSet::new();
-        let all = (first..end).flat_map(|at| self.arrivals.at(at as usize));
-        let each = all.map(|at| (Stand::of(&self.arrivals.all[at]), short(at)));
-        each.filter(|(stand, _)| seen.insert(*stand)).collect()
     }
 }

@@ -6,7 +6,7 @@ use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::printable::shell_word;
 use crate::profile::{Mounted, Profile};
-use crate::program::{Frame, FrameId, Language, Move, Program, Source, Tool, ToolId};
+use crate::program::{Frame, FrameId, Language, Load, Move, Program, Source, Tool, ToolId};
 use std::collections::BTreeMap;
 
 /// Two values of one tool or frame that differ by less than this are the same, metres and radians.
@@ -498,11 +498,13 @@ fn same_pose(a: &Pose, b: &Pose) -> bool {
 }
 
 /// The tool as the files have it, else as the command line or the profile does. Its load is that of
-/// the files; where they give none that of the profile's tool of its name.
+/// the files; where they give none that of the profile's tool of its name. What it carries counts
+/// where its own load is known: where that is not, [`super::plausibility`] says that it counts as
+/// nothing.
 fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
-    let load = tool.load.map(|load| (load.mass_kg, load.cog_m));
     let of_profile = profile.tool(&tool.name);
     let load_by_name = of_profile.as_ref().and_then(|tool| tool.load);
+    let is_in_profile = of_profile.is_some();
     let found = if let Some(flange_from_tool) = tool.flange_from_tool {
         Some(Mounted {
             name: tool.name.clone(),
@@ -515,9 +517,24 @@ fn tool_of(tool: &Tool, profile: &Profile, given: &Given) -> Option<Mounted> {
             .or(of_profile)
             .or_else(|| given.tools.get(&None).cloned())
     };
-    found.map(|found| Mounted {
-        load: load.or(found.load).or(load_by_name),
-        ..found
+    found.map(|found| {
+        let of_profile = found.load.or(load_by_name);
+        let of_profile = of_profile.map(|(mass_kg, cog_m)| Load { mass_kg, cog_m });
+        let empty = is_in_profile.then_some(Load {
+            mass_kg: 0.0,
+            cog_m: [0.0; 3],
+        });
+        let own = tool.load.or(of_profile);
+        let load = match tool.carried {
+            Some(part) => own
+                .or(empty)
+                .map(|own| own.with(part, &found.flange_from_tool)),
+            None => own,
+        };
+        Mounted {
+            load: load.map(|load| (load.mass_kg, load.cog_m)),
+            ..found
+        }
     })
 }
 

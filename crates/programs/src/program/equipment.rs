@@ -11,6 +11,8 @@ pub struct Tool {
     pub flange_from_tool: Option<Pose>,
     /// Its load where the files give one.
     pub load: Option<Load>,
+    /// What it carries as well, its centre of gravity in the tool's own frame.
+    pub carried: Option<Load>,
     /// Where it stands on another tool, metres; `None` where it stands on the flange.
     pub on_tool: Option<Vector>,
 }
@@ -22,6 +24,23 @@ pub struct Load {
     pub mass_kg: f64,
     /// Centre of gravity in the flange frame, metres.
     pub cog_m: Vector,
+}
+
+impl Load {
+    /// Together with what a tool carries, whose centre of gravity is in the tool's frame.
+    #[must_use]
+    pub fn with(self, carried: Self, flange_from_tool: &Pose) -> Self {
+        let mass_kg = self.mass_kg + carried.mass_kg;
+        let part = flange_from_tool.transform(carried.cog_m);
+        let share = if mass_kg > 0.0 {
+            carried.mass_kg / mass_kg
+        } else {
+            0.0
+        };
+        let cog_m =
+            [0, 1, 2].map(|axis| self.cog_m[axis] + share * (part[axis] - self.cog_m[axis]));
+        Self { mass_kg, cog_m }
+    }
 }
 
 /// A work frame that moves name.

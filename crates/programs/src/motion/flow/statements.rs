@@ -388,7 +388,7 @@ impl<'a> Flow<'a> {
         let is_silent = |(atom, _): &(Atom, Site)| match atom {
             Atom::Value(value) => matches!(
                 self.value(*value),
-                Held::Flag(_) | Held::Number(_) | Held::Load(_)
+                Held::Flag(_) | Held::Number(_) | Held::Load(_) | Held::Carried(_)
             ),
             _ => false,
         };

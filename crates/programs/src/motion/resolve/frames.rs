@@ -45,6 +45,7 @@ impl Resolver<'_, '_> {
                 | Held::NearActual
                 | Held::Shift(_)
                 | Held::Load(_)
+                | Held::Carried(_)
                 | Held::Flag(_)
                 | Held::ExternalOffset(_)
                 | Held::AxesOff(_) => Err(Refused::NoFrame),
@@ -101,9 +102,10 @@ impl Resolver<'_, '_> {
             return Ok(*known);
         }
         let named = self.named(atom, true)?;
-        let own_load = match load.map(|load| self.flow.value(load)) {
-            Some(Held::Load(load)) => Some(*load),
-            _ => None,
+        let (own_load, carried) = match load.map(|load| self.flow.value(load)) {
+            Some(Held::Load(load)) => (Some(*load), None),
+            Some(Held::Carried(part)) => (None, *part),
+            _ => (None, None),
         };
         let made = named.map(|frame| {
             let load: Option<Load> = own_load.unwrap_or(frame.load);
@@ -112,6 +114,7 @@ impl Resolver<'_, '_> {
                 name: frame.name.into(),
                 flange_from_tool: frame.pose,
                 load,
+                carried,
                 on_tool: frame.on_tool,
             });
             tools.len() - 1

@@ -327,6 +327,7 @@ impl Resolver<'_, '_> {
             name: String::new(),
             flange_from_tool: None,
             load: None,
+            carried: None,
             on_tool: None,
         });
         let made = tools.len() - 1;

@@ -165,19 +165,6 @@ impl Translator<'_> {
         })
     }
 
-    /// The argument of a move that is its tool.
-    pub(super) fn tool_of_move(&self, verb: Verb, all: &[Argument]) -> Option<usize> {
-        let Verb::Move {
-            path,
-            led,
-            tool_inside,
-        } = verb
-        else {
-            return None;
-        };
-        self.parts(all, path, led, tool_inside)?.tool
-    }
-
     /// Speed and zone of a move with what `\V`, `\T` and `\Z` replace of them: with a time for the
     /// whole path the speed is not known.
     fn switched(&self, all: &[Argument], mut speed_zone: SpeedZone) -> SpeedZone {
@@ -275,7 +262,7 @@ impl Translator<'_> {
             return;
         };
         let load = match parts.load.map_or(Expr::Absent, |at| self.carried(&all[at])) {
-            Expr::Absent => parts.tool.map_or(Expr::Absent, |at| self.gripped(&all[at])),
+            Expr::Absent => self.gripped(),
             load => load,
         };
         let speed_zone = self.switched(all, parts.speed_zone);

@@ -1,7 +1,6 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::EXTERNAL;
-use super::grips::Grips;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
@@ -55,8 +54,10 @@ pub(super) struct Translator<'a> {
     pub variables: HashMap<(Entity, u32), VariableId>,
     pub records: HashMap<Entity, ValueId>,
     pub frame_elements: HashMap<(Entity, [u32; 3]), ValueId>,
-    pub loads: HashMap<[u64; 4], ValueId>,
-    pub grips: Grips,
+    /// By whether a tool carries it and by its numbers.
+    pub loads: HashMap<(bool, Option<[u64; 4]>), ValueId>,
+    /// What the gripper carries.
+    pub gripped: Option<VariableId>,
     pub lists: HashMap<Entity, (u32, u32)>,
     pub tables: HashMap<Entity, TableId>,
     /// The tables of what any element of large arrays has held, by array and by element.
@@ -149,7 +150,7 @@ pub(super) fn translate(
         records: HashMap::new(),
         frame_elements: HashMap::new(),
         loads: HashMap::new(),
-        grips: Grips::default(),
+        gripped: None,
         lists: HashMap::new(),
         tables: HashMap::new(),
         gathered: HashMap::new(),

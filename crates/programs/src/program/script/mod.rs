@@ -248,6 +248,8 @@ pub enum Held {
     },
     /// The load of the flange; none where it is set to nothing.
     Load(Option<Load>),
+    /// What the tool carries as well as its own load; none where it is empty.
+    Carried(Option<Load>),
     /// The number of a tool or frame.
     Number(i64),
     /// On or off.

@@ -224,7 +224,11 @@ fn what_the_controller_keeps_in_mind_lasts_over_the_end_of_a_cycle() {
     let mut masses: Vec<_> = program
         .moves
         .iter()
-        .map(|m| program.tools[m.tool].load.expect("a load").mass_kg)
+        .map(|m| {
+            let tool = &program.tools[m.tool];
+            let carried_kg = tool.carried.map_or(0.0, |part| part.mass_kg);
+            tool.load.expect("a load").mass_kg + carried_kg
+        })
         .collect();
     masses.sort_by(f64::total_cmp);
     assert_eq!(masses, [1.0, 5.0]);

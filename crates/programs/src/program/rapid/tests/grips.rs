@@ -8,7 +8,12 @@ const PART: &str = "PERS loaddata part:=[3,[0,0,80],[1,0,0,0],0,0,0];\nPERS load
 /// The mass and the centre of gravity of the load of each move, by mass.
 fn loads(statements: &str) -> Vec<(f64, [f64; 3])> {
     let program = path(&format!("{PART}{statements}"));
-    let load = |m: &crate::program::Move| program.tools[m.tool].load.expect("a load");
+    let load = |m: &crate::program::Move| {
+        let tool = &program.tools[m.tool];
+        let own = tool.load.expect("a load");
+        let pose = tool.flange_from_tool.expect("a pose");
+        tool.carried.map_or(own, |part| own.with(part, &pose))
+    };
     let load = |m| {
         (
             load(m).mass_kg,
@@ -53,6 +58,18 @@ fn what_the_gripper_carries_adds_to_the_load_of_the_tool() {
     ] {
         assert_eq!(loads(&statements), expected, "{statements}");
     }
+    // the tool of a parameter, of a variable, of an element, and one that the program writes
+    for statements in [
+        "GripLoad part;\ngo t;\nENDPROC\nPROC go(PERS tooldata g)\nMoveL p1,v5,z5,g;",
+        "VAR tooldata g;\ng:=t;\nGripLoad part;\nMoveL p1,v5,z5,g;",
+        "PERS tooldata of{1}:=[[TRUE,[[0,0,100],[1,0,0,0]],[1.5,[0,0,50],[1,0,0,0],0,0,0]]];\nGripLoad \
+         part;\nMoveL p1,v5,z5,of{1};",
+    ] {
+        assert_eq!(loads(statements), [both], "{statements}");
+    }
+    let heavier = "t.tload.mass:=9;\nGripLoad part;\nMoveL p1,v5,z5,t;";
+    // (9 · 50 + 3 · (100 + 80)) / 12 mm
+    assert_eq!(loads(heavier), [(12.0, [0.0, 0.0, 0.0825])]);
     // a tool that points along x of the flange: (3 · 80, 0, 3 · 100) / 4 mm
     let turned = "PERS tooldata u:=[TRUE,[[0,0,100],[0.7071068,0,0.7071068,0]],[1,[0,0,0],[1,0,0,0],0,\
                   0,0]];\nGripLoad part;\nMoveL p1,v5,z5,u;";
@@ -64,13 +81,19 @@ fn loads_that_the_text_does_not_say_are_a_warning_at_their_place() {
     for statements in [
         "GripLoad other;\nMoveL p1,v5,z5,t;",
         "part.mass:=4;\nGripLoad part;\nMoveL p1,v5,z5,t;",
-        "GripLoad part;\nMoveL p1,v5,z5,gun;",
-        "GripLoad part;\ngo t;\nENDPROC\nPROC go(PERS tooldata g)\nMoveL p1,v5,z5,g;",
-        "GripLoad part;\nMoveL p1,v5,z5,t;\nt.tload.mass:=9;",
     ] {
         let program = path(&format!("{PART}{statements}"));
         assert!(ids(&program).contains(&"grip-load"), "{statements}");
     }
+    let program = path(&format!("{PART}GripLoad part;\nMoveL p1,v5,z5,gun;"));
+    assert_eq!(ids(&program), [""; 0]);
+    let tool = &program.tools[program.moves[0].tool];
+    let carried = tool.carried.expect("a part");
+    assert_eq!(
+        (tool.load, carried.mass_kg),
+        (None, 3.0),
+        "the profile may have the rest"
+    );
     let program = path("GripLoad load0;\nMoveL p1,v5,z5,gun;");
     assert_eq!(ids(&program), [""; 0]);
 }
