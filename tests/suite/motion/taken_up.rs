@@ -169,3 +169,40 @@ fn a_joint_that_turns_back_slowly_at_the_end_of_an_arc_comes_from_its_new_side()
     };
     assert_ne!(side(0), side(1));
 }
+
+/// Joint 1 goes 0.0003 deg to one side and back, on an arc of 40 mm: that slowly it goes on both halves.
+#[test]
+fn the_bound_of_a_path_holds_on_both_sides_of_a_slow_joint() {
+    let data: String = [("a", 400.0, 0.0), ("b", 420.0, 0.002), ("c", 440.0, 0.0)]
+        .map(|(name, x, y)| format!("CONST robtarget {name} := [[{x},{y},300],{P};\n"))
+        .concat();
+    let text = rapid(
+        &data,
+        "MoveJ a,v100,fine,tool0;\nMoveC b,c,v100,fine,tool0;",
+    );
+    let sources = [Source::new("t.mod", text.into_bytes())];
+    let scene = poseshift::check::Scene::default();
+    let bound_mm = |theta_deg: f64| {
+        let zero = format!("{{effect: link_geometry, link: 1, theta_deg: {theta_deg}}}");
+        let profile = super::profile(&["{effect: backlash, joint: 1, width_deg: 0.1}", &zero]);
+        let subject = poseshift::check::Subject {
+            language: program::language_of(&sources[0]).expect("a language"),
+            sources: &sources,
+            nominal: None,
+            profile: &profile,
+            scene: &scene,
+        };
+        let options = poseshift::check::Options {
+            given: given().given,
+            ..poseshift::check::Options::default()
+        };
+        let checked = poseshift::check::check(&subject, &options).expect("checked");
+        let paths = checked.moves.iter().filter_map(|m| m.path.as_ref());
+        1e3 * paths.map(|path| path.bound.distance_m).fold(0.0, f64::max)
+    };
+    // the zero takes the backlash of one side away and doubles that of the other: 0.1 deg in 0.42 m
+    for theta_deg in [0.05, -0.05] {
+        let bound = bound_mm(theta_deg);
+        assert!((0.7..0.8).contains(&bound), "{theta_deg}: {bound} mm");
+    }
+}

@@ -2,12 +2,10 @@
 //! that way, since it last turned back, by the width of its backlash or more, over however many
 //! moves.
 
-use super::leg::Leg;
+use super::leg::{Leg, STANDSTILL_RAD};
 
 /// Parts in which a path is looked at on which a joint turns back.
 const PARTS: u32 = 64;
-/// A joint that goes less than this stands, radians.
-const STANDSTILL_RAD: f64 = 1e-6;
 /// A width that is less is none, radians.
 const LEAST_RAD: f64 = 1e-9;
 

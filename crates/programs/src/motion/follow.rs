@@ -3,7 +3,7 @@
 
 use super::arms::Equipped;
 use super::course::{Course, ToolCourse};
-use super::leg::{Leg, STANDSTILL_RAD_M};
+use super::leg::{Leg, STANDSTILL_RAD, STANDSTILL_RAD_M};
 use super::ride::Ride;
 use super::walk::WalkOptions;
 use crate::geometry::Pose;
@@ -13,9 +13,6 @@ use crate::model::{Conditions, Mechanism};
 use crate::program::{Motion, Move};
 use std::sync::Arc;
 
-/// A joint that moves less than this on a joint move keeps the direction in which it moved before,
-/// radians.
-const STANDSTILL_RAD: f64 = 1e-6;
 /// A joint that moves more in a step of a path may have gone round: the step is halved.
 const MOST_STEP_RAD: f64 = 45.0 * DEG;
 /// Nearer to alignment than this is near the wrist's singularity; a path passes it where joint 4 sweeps
@@ -338,8 +335,6 @@ pub(crate) fn leads_wrist(motion: &Move) -> bool {
 
 /// The finest part at the end of a path in which a slow joint is looked at: this many times halved.
 const FINEST: i32 = 10;
-/// A joint that turns by less has not moved, radians.
-const STILL_RAD: f64 = 1e-6;
 
 /// How the joints come to the end of a path.
 #[derive(Clone, Copy, Debug)]
@@ -394,7 +389,7 @@ fn arrival_direction(
         let at = |q: &[f64; 6]| mechanism.commanded(q)[i];
         let stands = [start, &half]
             .iter()
-            .all(|q| (at(q) - to[i]).abs() < STILL_RAD);
+            .all(|q| (at(q) - to[i]).abs() < STANDSTILL_RAD);
         sign(rates[i], STANDSTILL_RAD_M).unwrap_or_else(|| {
             if stands || !equipped.has_backlash[i] {
                 return on_way[i];
@@ -406,7 +401,7 @@ fn arrival_direction(
             }
             let mut turns = ends.iter().map(|from| to[i] - from[i]);
             turns
-                .find_map(|by| sign(by, STILL_RAD))
+                .find_map(|by| sign(by, STANDSTILL_RAD))
                 .unwrap_or(on_way[i])
         })
     });

@@ -15,6 +15,10 @@ const SHORTEST: f64 = 1.0 / 512.0;
 const SHORTEST_TURN: f64 = 1.0 / 256.0;
 /// A joint whose rate is less than this stands, radians per metre.
 pub(super) const STANDSTILL_RAD_M: f64 = 1e-3;
+/// A joint that moves by less keeps the direction in which it moved before, radians.
+pub(super) const STANDSTILL_RAD: f64 = 1e-6;
+/// At the ends of that many parts of a path it is seen whether a joint stands on it.
+const STANDING_PARTS: u32 = 4;
 /// What the search for joints leaves, radians.
 const SLACK_RAD: f64 = 1e-8;
 
@@ -191,18 +195,24 @@ impl Leg<'_> {
     pub(crate) fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut near = self.start;
-        self.split(0.0, 1.0, &mut near, &mut pieces);
+        self.split((0.0, 1.0), &mut near, &self.standing(), &mut pieces);
         pieces
     }
 
-    fn split(&self, from: f64, to: f64, near: &mut [f64; 6], out: &mut Vec<Piece>) {
+    fn split(
+        &self,
+        (from, to): (f64, f64),
+        near: &mut [f64; 6],
+        stands: &[bool; 6],
+        out: &mut Vec<Piece>,
+    ) {
         let middle = self.joints(0.5 * (from + to), near);
         let mut piece = self.enclose(from, to, &middle);
         let end = self.joints(to, &middle);
         piece.certified &= piece.holds(near) && piece.holds(&end);
         piece.start = *near;
         let long = to - from;
-        let sides = self.sides(&piece);
+        let sides = self.sides(&piece, stands);
         let is_one_sided = sides.iter().all(|sides| sides.len() == 1);
         let steady = piece.joints.iter().all(|joint| {
             let change = joint.bend.magnitude() * long;
@@ -215,25 +225,24 @@ impl Leg<'_> {
             each_side(&piece, &sides, out);
         } else {
             let half = 0.5 * (from + to);
-            self.split(from, half, near, out);
-            self.split(half, to, near, out);
+            self.split((from, half), near, stands, out);
+            self.split((half, to), near, stands, out);
         }
     }
 }
 
 impl Leg<'_> {
-    /// From which sides each joint may come in a piece. A joint that stands keeps the side of the
-    /// move's end.
-    fn sides(&self, piece: &Piece) -> [Vec<f64>; 6] {
-        let Course::Tool(course) = &self.course else {
+    /// From which sides each joint may come in a piece. A joint that stands on the whole move keeps
+    /// the side that it has at its end.
+    fn sides(&self, piece: &Piece, stands: &[bool; 6]) -> [Vec<f64>; 6] {
+        let Course::Tool(_) = &self.course else {
             return self.conditions.direction.map(|side| vec![side]);
         };
-        let stands = STANDSTILL_RAD_M * (course.length_m() + course.angle_rad());
         let turning = self.equipped.mechanism.commanded(&piece.joints);
         std::array::from_fn(|i| {
             let slope = &turning[i].slope;
             let (low, high) = (slope.middle - slope.radius, slope.middle + slope.radius);
-            if !self.equipped.has_backlash[i] || (low > -stands && high < stands) {
+            if stands[i] {
                 vec![self.conditions.direction[i]]
             } else if low > 0.0 {
                 vec![1.0]
@@ -243,6 +252,26 @@ impl Leg<'_> {
                 vec![-1.0, 1.0]
             }
         })
+    }
+
+    /// Joints that keep their side on the whole move: those without backlash, and those that stand.
+    fn standing(&self) -> [bool; 6] {
+        let equipped = self.equipped;
+        let mut stands = equipped.has_backlash.map(|has| !has);
+        if stands.contains(&false) {
+            let mut q = self.start;
+            let commanded = |q: &[f64; 6]| equipped.mechanism.commanded(q);
+            let first = commanded(&q);
+            let mut all = [true; 6];
+            for part in 1..=STANDING_PARTS {
+                q = self.joints(f64::from(part) / f64::from(STANDING_PARTS), &q);
+                let here = commanded(&q);
+                all =
+                    std::array::from_fn(|i| all[i] && (here[i] - first[i]).abs() < STANDSTILL_RAD);
+            }
+            stands = std::array::from_fn(|i| stands[i] || all[i]);
+        }
+        stands
     }
 }
 
