@@ -195,7 +195,7 @@ impl Leg<'_> {
     pub(crate) fn pieces(&self) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut near = self.start;
-        self.split((0.0, 1.0), &mut near, &self.standing(), &mut pieces);
+        self.split((0.0, 1.0), &mut near, self.standing(), &mut pieces);
         pieces
     }
 
@@ -203,7 +203,7 @@ impl Leg<'_> {
         &self,
         (from, to): (f64, f64),
         near: &mut [f64; 6],
-        stands: &[bool; 6],
+        stands: [bool; 6],
         out: &mut Vec<Piece>,
     ) {
         let middle = self.joints(0.5 * (from + to), near);
@@ -234,7 +234,7 @@ impl Leg<'_> {
 impl Leg<'_> {
     /// From which sides each joint may come in a piece. A joint that stands on the whole move keeps
     /// the side that it has at its end.
-    fn sides(&self, piece: &Piece, stands: &[bool; 6]) -> [Vec<f64>; 6] {
+    fn sides(&self, piece: &Piece, stands: [bool; 6]) -> [Vec<f64>; 6] {
         let Course::Tool(_) = &self.course else {
             return self.conditions.direction.map(|side| vec![side]);
         };
