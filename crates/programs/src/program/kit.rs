@@ -244,8 +244,9 @@ pub(super) fn judge_base(
         mm_from_m(gap.distance_m),
         gap.angle_rad / DEG
     );
-    let hint = "make `kinematics.base` zero; how the robot is mounted `gravity_m_s2` says, along the \
-        axes of its base";
+    let hint = "make `kinematics.base` zero, and add its `rz_deg` to `theta_deg` of joint 1 where the \
+        pendant shows the poses that `poseshift fk` has with it; how the robot is mounted \
+        `gravity_m_s2` says, along the axes of its base";
     let remark = Remark::error_about(id, message, hint);
     script.say(sources, Place::new(0, 0), remark);
 }
