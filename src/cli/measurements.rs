@@ -37,7 +37,7 @@ pub(super) struct MeasurementFiles {
     #[arg(long, value_name = "NAME")]
     euler: Option<String>,
     /// The rows (of --joints) are in the order in which the robot drove to them: directions
-    /// follow, dir1 to dir6
+    /// follow, dir1 to dir6, and how far each joint moved last
     #[arg(long)]
     driven_in_order: bool,
 }

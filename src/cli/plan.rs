@@ -26,7 +26,7 @@ pub(super) struct PlanCommand {
     /// Joint angles to write (CSV); without it they are printed
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A program that drives there, every joint arriving from below
+    /// A program that drives there, every gearbox arriving from below
     #[arg(long, value_name = "FILE")]
     program: Option<PathBuf>,
     /// Language of the program (default: that of the profile)
@@ -80,7 +80,7 @@ pub(super) struct PlanCommand {
     /// Distance from the joint limits
     #[arg(long, value_name = "DEG", default_value_t = 1.0)]
     margin_deg: f64,
-    /// Every joint arrives from so far below
+    /// Every gearbox arrives from so far below
     #[arg(long, value_name = "DEG", default_value_t = 5.0)]
     approach_deg: f64,
     /// The tool is inside this box of the world wherever it is measured and approached from:

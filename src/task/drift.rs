@@ -5,10 +5,13 @@ use super::diagnose::{Diagnosis, diagnose, of_the_arm};
 use super::failure::Failure;
 use super::measurements::{Rows, identify_failure};
 use super::profile_file::ProfileFile;
-use crate::diagnose::drift::{LEAST_RUNS, changes};
+use crate::diagnose::drift::{LEAST_RUNS, before_last, changes};
 use crate::diagnose::{Options, drift};
+use crate::geometry::units::mm_from_m;
 use crate::identify::measurements::Measurements;
-use crate::identify::validation::{Refit, validate};
+use crate::identify::problem::Row;
+use crate::identify::robust::{limit, scale_of};
+use crate::identify::validation::{Refit, Validation, validate};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
@@ -20,7 +23,17 @@ pub struct Run {
     pub file: String,
     /// Rows of it.
     pub rows: usize,
-    /// Root mean square of their errors.
+    /// Root mean square of their errors; rows that do not fit the others count as rows at the limit
+    /// of what is normal.
+    pub rms_mm: f64,
+}
+
+/// A last run that is not like those before it, where no change is sure yet.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct LastApart {
+    /// Geometric mean of the errors before.
+    pub before_mm: f64,
+    /// Its own error.
     pub rms_mm: f64,
 }
 
@@ -46,6 +59,9 @@ pub struct Drift {
     pub runs: Vec<Run>,
     /// Changes, the oldest first: the rows since the last are diagnosed.
     pub changes: Vec<Change>,
+    /// The last run, where its error is apart from the others and no change is sure yet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_apart: Option<LastApart>,
 }
 
 impl Drift {
@@ -58,21 +74,47 @@ impl Drift {
             before_mm: c.before,
             after_mm: c.after,
         };
-        let changes = changes(&errors).iter().map(change).collect();
-        Self { runs, changes }
+        let last = before_last(&errors).zip(errors.last());
+        Self {
+            changes: changes(&errors).iter().map(change).collect(),
+            last_apart: last.map(|(before_mm, rms_mm)| LastApart {
+                before_mm,
+                rms_mm: *rms_mm,
+            }),
+            runs,
+        }
     }
 
     /// What is to be said of it.
     #[must_use]
     pub fn sentence(&self) -> String {
         let count = self.runs.len();
-        match self.changes.last() {
-            Some(c) => format!(
+        let apart = self.last_apart.as_ref().map(|last| {
+            let word = if last.rms_mm > last.before_mm {
+                "larger"
+            } else {
+                "smaller"
+            };
+            format!(
+                "The error of the last run is {word}: {:.3} mm rms, {:.3} mm before. No change is \
+                 sure yet: measure another run.",
+                last.rms_mm, last.before_mm
+            )
+        });
+        match (self.changes.last(), apart) {
+            (Some(c), apart) => format!(
                 "The error has changed with run {} of {count}, {}: {:.3} mm rms before, {:.3} mm \
-                 since. The rows since are diagnosed.",
-                c.run, c.since, c.before_mm, c.after_mm
+                 since. {}The rows since are diagnosed.",
+                c.run,
+                c.since,
+                c.before_mm,
+                c.after_mm,
+                apart.map_or_else(String::new, |said| said + " ")
             ),
-            None => format!(
+            (None, Some(apart)) => {
+                format!("{apart} The rows of all {count} runs are diagnosed together.")
+            }
+            (None, None) => format!(
                 "The error has not changed in {count} runs. Their rows are diagnosed together."
             ),
         }
@@ -91,6 +133,24 @@ fn by_file(all: &Measurements) -> Vec<Range<usize>> {
     let start = runs.last().map_or(0, |run| run.end);
     runs.push(start..all.rows.len());
     runs
+}
+
+/// Root mean square of the errors of positions, else of distances, metres; a row beyond the limit of
+/// what is normal counts as one at it, as in the diagnosis.
+fn typical_m(found: &Validation) -> f64 {
+    let errors = found.problem.rows.iter().zip(&found.real.misses);
+    let is_position = |row: &Row| row.observed.point_m().is_some();
+    let of_positions = found.problem.rows.iter().any(is_position);
+    let errors = errors.filter(|(row, _)| is_position(row) == of_positions);
+    let (squares, counts): (Vec<f64>, Vec<usize>) = errors
+        .map(|(row, miss)| (miss.length_m.powi(2), row.observed.count().min(3)))
+        .unzip();
+    let scale = scale_of(&squares, counts.iter().copied());
+    let each = squares.iter().zip(&counts);
+    let sum: f64 = each
+        .map(|(square, count)| square.min((scale * limit(*count)).powi(2)))
+        .sum();
+    (sum / squares.len().max(1) as f64).sqrt()
 }
 
 /// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those since the
@@ -129,7 +189,7 @@ pub fn diagnose_runs(
         runs.push(Run {
             file: name,
             rows: part.rows.len(),
-            rms_mm: found.real.quality.main().map_or(0.0, |error| error.rms),
+            rms_mm: mm_from_m(typical_m(&found)),
         });
     }
     let drift = Drift::of(runs);

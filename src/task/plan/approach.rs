@@ -1,8 +1,9 @@
-//! Programs that drive to measuring configurations, every joint arriving from below so that
+//! Programs that drive to measuring configurations, every gearbox arriving from below so that
 //! backlash shows on one side.
 //!
 //! # Source
-//! A. Nubiola, thesis, sec. 2.5: each configuration is approached from 5° less on every joint.
+//! A. Nubiola, thesis, sec. 2.5: each configuration is approached from 5° less on every joint, which
+//! on his arm are the gearboxes.
 
 use crate::program::{LANGUAGES, Language, Settings, Step};
 
@@ -12,17 +13,18 @@ use crate::program::{LANGUAGES, Language, Settings, Step};
 pub(super) struct Stop {
     /// What it goes over.
     pub over: Vec<[f64; 6]>,
+    /// Where it is approached from.
+    pub from: [f64; 6],
     /// Where it is measured.
     pub q: [f64; 6],
 }
 
 /// The moves of all configurations: what they go over, where they are approached from, the
 /// configuration.
-fn steps(stops: &[Stop], approach_rad: f64) -> Vec<Step> {
+fn steps(stops: &[Stop]) -> Vec<Step> {
     let mut steps = Vec::new();
     for (i, stop) in stops.iter().enumerate() {
-        let approach = stop.q.map(|angle| angle - approach_rad);
-        let places = stop.over.iter().chain([&approach, &stop.q]);
+        let places = stop.over.iter().chain([&stop.from, &stop.q]);
         let last = stop.over.len() + 1;
         steps.extend(places.enumerate().map(|(k, q)| Step {
             begins: (k == 0).then_some(i + 1),
@@ -35,16 +37,11 @@ fn steps(stops: &[Stop], approach_rad: f64) -> Vec<Step> {
 
 /// The program's text; `None` in a language that cannot be written, and in INFORM without pulses.
 #[must_use]
-pub(super) fn program(
-    language: &str,
-    stops: &[Stop],
-    approach_rad: f64,
-    settings: &Settings,
-) -> Option<String> {
+pub(super) fn program(language: &str, stops: &[Stop], settings: &Settings) -> Option<String> {
     let language = LANGUAGES
         .iter()
         .find(|known| known.about().id == language)?;
-    language.drive(&steps(stops, approach_rad), settings)
+    language.drive(&steps(stops), settings)
 }
 
 /// Languages that a program can be written in.
@@ -65,9 +62,11 @@ mod tests {
 
     #[test]
     fn every_configuration_is_reached_from_below() {
+        let q = [0.0, 0.1, -0.2, 0.3, 0.4, -0.5];
         let stops = [Stop {
             over: vec![[0.5; 6]],
-            q: [0.0, 0.1, -0.2, 0.3, 0.4, -0.5],
+            from: q.map(|angle| angle - 5.0 * DEG),
+            q,
         }];
         let settings = Settings {
             pulses_per_deg: Some([1000.0, -1000.0, 1000.0, 1000.0, 1000.0, 1000.0]),
@@ -80,8 +79,7 @@ mod tests {
             ]
         );
         for language in languages(&settings) {
-            let text =
-                program(language, &stops, 5.0 * DEG, &settings).expect("a language of the list");
+            let text = program(language, &stops, &settings).expect("a language of the list");
             let [over, first, at, last] = match language {
                 "fanuc" => ["28.648", "-5.000", "0.000", "22.918"],
                 // joint 2 counts in the other direction: 0.1 rad
@@ -96,7 +94,7 @@ mod tests {
             );
         }
         let no_pulses = Settings::default();
-        assert!(program("cobol", &stops, 0.0, &no_pulses).is_none());
-        assert!(program("inform", &stops, 0.0, &no_pulses).is_none());
+        assert!(program("cobol", &stops, &no_pulses).is_none());
+        assert!(program("inform", &stops, &no_pulses).is_none());
     }
 }

@@ -74,7 +74,12 @@ impl<'a> Driving<'a> {
     /// Whether the arm comes to this configuration from where it is approached from, and does not
     /// touch itself on that path, wherever its base is.
     pub(super) fn admits(&self, q: &[f64; 6]) -> bool {
-        self.stands(q) && self.is_clear(&self.constraints.approach(q), q)
+        self.stands(q) && self.is_clear(&self.approach(q), q)
+    }
+
+    /// Where a configuration is approached from.
+    pub(super) fn approach(&self, q: &[f64; 6]) -> [f64; 6] {
+        self.constraints.approach(&self.profile.mechanism, q)
     }
 
     /// Postures along a move of joints, coarse ones first.
@@ -119,7 +124,7 @@ impl<'a> Driving<'a> {
 
     /// An order in which as few moves as possible meet anything.
     pub(super) fn order(&self, joints: &[[f64; 6]]) -> Vec<usize> {
-        route::order(joints, &|q| self.constraints.approach(q), &|from, to| {
+        route::order(joints, &|q| self.approach(q), &|from, to| {
             self.is_free(from, to)
         })
     }
@@ -134,7 +139,7 @@ impl<'a> Driving<'a> {
             .each_ref()
             .map(|joint| 0.0_f64.clamp(joint.min_rad, joint.max_rad));
         let over = joints.windows(2).map(|ends| {
-            let to = self.constraints.approach(&ends[1]);
+            let to = self.approach(&ends[1]);
             route::detour(&ends[0], &to, &zero, joints, &|from, to| {
                 self.is_free(from, to)
             })
@@ -154,9 +159,8 @@ impl<'a> Driving<'a> {
         let mut findings = self.touched(language, file, text, stops);
         let mut at: Option<[f64; 6]> = None;
         for (index, stop) in stops.iter().enumerate() {
-            let approach = self.constraints.approach(&stop.q);
             let mut places: Vec<[f64; 6]> = at.into_iter().chain(stop.over.clone()).collect();
-            places.extend([approach, stop.q]);
+            places.extend([stop.from, stop.q]);
             at = Some(stop.q);
             if places
                 .windows(2)

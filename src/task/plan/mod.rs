@@ -183,21 +183,25 @@ pub fn plan(
             "leave --program out: the table says where the axes stand at each configuration",
         ));
     }
-    let approach_rad = request.constraints.approach_rad;
     let (mut program, mut poses_between, mut findings) = (None, 0, Vec::new());
     if let Some(wanted) = wanted {
         let language = wanted.language.or(profile.language.as_deref());
         let language = language.unwrap_or_default();
         let over = driving.over(&found.joints);
         let stops = found.joints.iter().zip(over);
-        let stops: Vec<Stop> = stops.map(|(q, over)| Stop { over, q: *q }).collect();
+        let stop = |(q, over): (&[f64; 6], Vec<[f64; 6]>)| Stop {
+            over,
+            from: driving.approach(q),
+            q: *q,
+        };
+        let stops: Vec<Stop> = stops.map(stop).collect();
         poses_between = stops.iter().map(|stop| stop.over.len()).sum();
         let settings = Settings {
             pulses_per_deg: profile.pulses_per_deg,
             ..Settings::default()
         };
-        let text = approach::program(language, &stops, approach_rad, &settings)
-            .ok_or_else(|| no_program(language))?;
+        let text =
+            approach::program(language, &stops, &settings).ok_or_else(|| no_program(language))?;
         findings = driving.findings(language, wanted.name, &text, &stops);
         program = Some(text);
     }
@@ -223,7 +227,7 @@ pub fn plan(
     plan.poses_between = poses_between;
     plan.findings = findings;
     plan.program = program;
-    plan.approached = approach_rad > 0.0;
+    plan.approached = request.constraints.approach_rad > 0.0;
     Ok(plan)
 }
 

@@ -234,6 +234,14 @@ fn directions_follow_from_the_order_in_which_the_robot_drove() {
         .collect();
     assert_eq!(directions, [[0.0; 6], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]]);
     assert!(read.has(&["dir1", "dir6"]));
+    // a tracker's file in another order: rows, directions and moves are in that of the joints
+    let (sorted, _) = joined(b"id,x_mm,y_mm,z_mm\n3,4,5,6\n1,1,2,3\n", &order);
+    assert_eq!(places(&sorted), places(&read));
+    for rows in [&sorted.rows, &read.rows] {
+        let moved = rows[1].conditions.moved.map(f64::to_degrees);
+        near(&[[moved[0], moved[1], moved[2]]], &[[1.0, 1.0, 0.0]]);
+        assert_eq!(rows[1].conditions.direction, directions[1]);
+    }
     // readings that differ in the last digits have not moved
     let still = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n0,0,0,0,0,0,1,2,3\n5,0,0,0,0,0,1,2,3\n4.999,-1,0,0,0,0,1,2,3\n";
     let table =

@@ -6,6 +6,7 @@ use poseshift::model::effects::{Effect, Kind, Seen, Site};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
+use std::cell::Cell;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -177,6 +178,34 @@ fn what_no_effect_does_makes_no_profile_worse() {
     }
 }
 
+/// A joint that loses its zero within the session: what is written is no worse for the robot as it is
+/// now.
+#[test]
+fn a_joint_that_jumps_within_the_session_makes_no_profile_worse() {
+    for (joint, from, size) in [(2, 75, 0.02), (1, 60, -0.02), (3, 90, 0.04)] {
+        let row = Cell::new(0);
+        let jumps = |_: &Joints| {
+            row.set(row.get() + 1);
+            let mut off = [0.0; 6];
+            off[joint] = if row.get() > from { size } else { 0.0 };
+            off
+        };
+        let ([.., elsewhere, then], found) = written(&everywhere(31, 150), jumps);
+        let verdict = &found["verdict"];
+        assert!(
+            then < 1.05 * elsewhere,
+            "{joint} {verdict}: {elsewhere} {then}"
+        );
+        let effects = found["effects"].as_array().expect("effects");
+        let is_followed = effects.iter().all(|e| e["in_profile"] == true);
+        let compared = &found["held_out"]["compared"];
+        if verdict == "improved" && !is_followed {
+            let [before, after] = ["before", "after"].map(|of| compared[of]["mean_mm"].as_f64());
+            assert!(after < before, "{compared}");
+        }
+    }
+}
+
 /// Poses measured in cycles are no rows that were not used, wherever in the file they come again.
 #[test]
 fn poses_measured_again_later_do_not_prove_a_model() {
@@ -246,6 +275,15 @@ fn sentences_say_what_there_is_and_which_way() {
         both.contains("1.000 mm") && both.contains("0.115°"),
         "{both}"
     );
+    // a moment has one direction: it bends about one axis or the other, or less about each
+    let bends = [6e-7, -8e-7, 0.0, 0.0, 0.0, 0.0];
+    for kind in [Kind::BaseCompliance, Kind::LinkCompliance] {
+        let said = said(kind, bends);
+        assert!(
+            said.contains("0.0046° at most") || said.contains("4.6e-3° at most"),
+            "{said}"
+        );
+    }
     let moved = said(Kind::PayloadError, [0.0, 0.2, 0.0, 0.0, 0.0, 0.0]);
     assert!(
         moved.contains("200.000 mm") && !moved.contains("kg"),

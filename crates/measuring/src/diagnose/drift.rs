@@ -47,13 +47,25 @@ pub struct Change {
 /// Changes of errors in the order of their runs, by the limit `h`; errors are greater than zero.
 #[must_use]
 pub fn changes_beyond(errors: &[f64], h: f64) -> Vec<Change> {
+    charted(errors, h).0
+}
+
+/// Geometric mean of the errors before the last one, since the last change, where the last is too
+/// rare to be one of them and no change is sure yet.
+#[must_use]
+pub fn before_last(errors: &[f64]) -> Option<f64> {
+    charted(errors, LIMIT).1
+}
+
+fn charted(errors: &[f64], h: f64) -> (Vec<Change>, Option<f64>) {
     let logs: Vec<f64> = errors
         .iter()
         .map(|e| e.max(f64::MIN_POSITIVE).ln())
         .collect();
     let mut found: Vec<Change> = Vec::new();
     let (mut start, mut known) = (0, Spread::default());
-    while let Some(noticed) = alarm(&logs[start..], known, h).map(|n| start + n) {
+    let mut chart = Chart::of(&logs[start..], known, h);
+    while let Some(noticed) = chart.alarm.map(|n| start + n) {
         let since = start + split(&logs[start..=noticed]);
         let before = mean(&logs[start..since]).exp();
         known = known.and(&logs[start..since]);
@@ -67,11 +79,12 @@ pub fn changes_beyond(errors: &[f64], h: f64) -> Vec<Change> {
             after: 0.0,
         });
         start = since;
+        chart = Chart::of(&logs[start..], known, h);
     }
     if let Some(last) = found.last_mut() {
         last.after = mean(&logs[last.since..]).exp();
     }
-    found
+    (found, chart.before_last.map(f64::exp))
 }
 
 /// Changes of errors in the order of their runs.
@@ -103,36 +116,50 @@ impl Spread {
     }
 }
 
-/// The run at which the chart leaves its limits.
-fn alarm(x: &[f64], known: Spread, h: f64) -> Option<usize> {
-    let (mut up, mut down) = (0.0_f64, 0.0_f64);
-    // mean and sum of squares about it, brought up to date run by run
-    let (mut mean, mut squares, mut n) = (0.0, known.squares, 0.0);
-    for (at, x) in x.iter().enumerate() {
-        let freedom = known.freedom + n - 1.0;
-        if n >= 1.0 && freedom >= 1.0 {
-            let spread = (squares / freedom).sqrt().max(LEAST_SPREAD);
-            let u = normal_score((n / (n + 1.0)).sqrt() * (x - mean) / spread, freedom);
-            up = (up + u - ALLOWANCE).max(0.0);
-            down = (down - u - ALLOWANCE).max(0.0);
-            if up.max(down) > h {
-                return Some(at);
+/// What the chart says of some runs.
+#[derive(Default)]
+struct Chart {
+    /// The run at which it leaves its limits.
+    alarm: Option<usize>,
+    /// The mean before the last run, where that is too rare to learn from.
+    before_last: Option<f64>,
+}
+
+impl Chart {
+    fn of(x: &[f64], known: Spread, h: f64) -> Self {
+        let mut own = Self::default();
+        let (mut up, mut down) = (0.0_f64, 0.0_f64);
+        // mean and sum of squares about it, brought up to date run by run
+        let (mut mean, mut squares, mut n) = (0.0, known.squares, 0.0);
+        for (at, x) in x.iter().enumerate() {
+            own.before_last = None;
+            let freedom = known.freedom + n - 1.0;
+            if n >= 1.0 && freedom >= 1.0 {
+                let spread = (squares / freedom).sqrt().max(LEAST_SPREAD);
+                let u = normal_score((n / (n + 1.0)).sqrt() * (x - mean) / spread, freedom);
+                up = (up + u - ALLOWANCE).max(0.0);
+                down = (down - u - ALLOWANCE).max(0.0);
+                if up.max(down) > h {
+                    own.alarm = Some(at);
+                    return own;
+                }
+                let unlikely = if freedom < FEW {
+                    UNLIKELY_OF_FEW
+                } else {
+                    UNLIKELY
+                };
+                if u.abs() > unlikely {
+                    own.before_last = Some(mean);
+                    continue;
+                }
             }
-            let unlikely = if freedom < FEW {
-                UNLIKELY_OF_FEW
-            } else {
-                UNLIKELY
-            };
-            if u.abs() > unlikely {
-                continue;
-            }
+            let step = x - mean;
+            n += 1.0;
+            mean += step / n;
+            squares += step * (x - mean);
         }
-        let step = x - mean;
-        n += 1.0;
-        mean += step / n;
-        squares += step * (x - mean);
+        own
     }
-    None
 }
 
 /// The first run of the second part of the split with the largest sum of squares between its parts.
@@ -195,7 +222,10 @@ mod tests {
             for _ in 0..count {
                 // a spread far above the least one
                 let x: Vec<f64> = (0..8000).map(|_| random.normal() + shift).collect();
-                sum += alarm(&x, Spread::default(), h).expect("in 8000 runs") as f64 - 1.0;
+                sum += Chart::of(&x, Spread::default(), h)
+                    .alarm
+                    .expect("in 8000 runs") as f64
+                    - 1.0;
             }
             let found = sum / f64::from(count);
             assert!((found / runs - 1.0_f64).abs() < 0.08, "{h}: {found} {runs}");
@@ -212,11 +242,11 @@ mod tests {
             while count < 1500.0 {
                 let quiet = (0..400).map(|_| random.normal());
                 let mut x: Vec<f64> = quiet.collect();
-                if alarm(&x, Spread::default(), h).is_some() {
+                if Chart::of(&x, Spread::default(), h).alarm.is_some() {
                     continue;
                 }
                 x.extend((0..300).map(|_| random.normal() + shift));
-                let Some(at) = alarm(&x, Spread::default(), h) else {
+                let Some(at) = Chart::of(&x, Spread::default(), h).alarm else {
                     continue;
                 };
                 sum += at as f64 - 399.0;
@@ -279,6 +309,23 @@ mod tests {
                 part(close)
             );
         }
+    }
+
+    #[test]
+    fn a_last_run_apart_is_said_before_a_change_is_sure() {
+        let mut errors = vec![
+            0.048, 0.050, 0.038, 0.051, 0.055, 0.055, 0.053, 0.054, 0.047,
+        ];
+        assert_eq!(before_last(&errors), None);
+        errors.push(0.216);
+        assert!(changes(&errors).is_empty());
+        let before = before_last(&errors).expect("four times larger");
+        assert!((before - 0.05).abs() < 0.002, "{before}");
+        // and all is well again, or it is sure
+        let again = [&errors[..], &[0.05]].concat();
+        assert_eq!((before_last(&again), changes(&again).len()), (None, 0));
+        let sure = [&errors[..], &[0.2]].concat();
+        assert_eq!((before_last(&sure), changes(&sure).len()), (None, 1));
     }
 
     #[test]

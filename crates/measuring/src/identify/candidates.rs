@@ -3,7 +3,7 @@
 use super::error::IdentifyError;
 use super::random::Random;
 use crate::geometry::{Pose, Vector, dot, norm, sub};
-use crate::model::{Conditions, Model};
+use crate::model::{Conditions, Mechanism, Model};
 use crate::profile::{Mounted, Profile};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ pub type Box3 = [Vector; 2];
 pub struct Constraints {
     /// Distance from the joint limits, radians. Room for the approach comes in addition.
     pub margin_rad: f64,
-    /// Every joint arrives from so far below, radians; 0 without such an approach.
+    /// Every gearbox arrives from so far below, radians; 0 without such an approach.
     pub approach_rad: f64,
     /// The tool must be inside, there and where it is approached from.
     pub inside: Option<Box3>,
@@ -38,10 +38,18 @@ pub struct Constraints {
 }
 
 impl Constraints {
+    /// How far below each of the controller's joints is before it arrives: so far that every gearbox
+    /// comes from [`Self::approach_rad`] below. A joint that counts another one in may be where it
+    /// arrives, or come from above.
+    fn below(&self, arm: &Mechanism) -> [f64; 6] {
+        arm.controller(&[self.approach_rad; 6])
+    }
+
     /// Where every joint is before it arrives.
     #[must_use]
-    pub fn approach(&self, q: &[f64; 6]) -> [f64; 6] {
-        q.map(|angle| angle - self.approach_rad)
+    pub fn approach(&self, arm: &Mechanism, q: &[f64; 6]) -> [f64; 6] {
+        let below = self.below(arm);
+        std::array::from_fn(|i| q[i] - below[i])
     }
 }
 
@@ -209,7 +217,7 @@ impl<'a> Guard<'a> {
         self.is_seen(q)
             && self.breach(q).is_none()
             && (self.constraints.approach_rad == 0.0
-                || self.keeps(&self.constraints.approach(q), q))
+                || self.keeps(&self.constraints.approach(&self.profile.mechanism, q), q))
     }
 }
 
@@ -248,9 +256,10 @@ pub(super) fn candidates_where(
         ..
     } = &guards[0];
     let mut range = [[0.0; 2]; 6];
+    let below = constraints.below(&profile.mechanism);
     for (i, joint) in profile.mechanism.joints.iter().enumerate() {
-        let low = joint.min_rad + constraints.margin_rad + constraints.approach_rad;
-        let high = joint.max_rad - constraints.margin_rad;
+        let low = joint.min_rad + constraints.margin_rad + below[i].max(0.0);
+        let high = joint.max_rad - constraints.margin_rad + below[i].min(0.0);
         if low >= high {
             return Err(IdentifyError::Suspicious {
                 message: format!(
@@ -306,4 +315,46 @@ pub(super) fn candidates_where(
         }
     }
     Ok((found, count as f64 / draws as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::units::DEG;
+    use crate::model::Coupling;
+
+    #[test]
+    fn every_gearbox_comes_from_below_whatever_the_coupling() {
+        let text = include_str!("../../../../robots/abb_irb120_thesis.yaml");
+        let mut profile = Profile::from_yaml(text).expect("a shipped profile");
+        let constraints = Constraints {
+            margin_rad: DEG,
+            approach_rad: 5.0 * DEG,
+            ..Constraints::default()
+        };
+        let plain = profile.mechanism.clone();
+        for (ratio, below_deg) in [(0.0, 5.0), (1.0, 0.0), (-1.0, 10.0), (2.0, -5.0)] {
+            profile.mechanism = plain.clone();
+            if ratio != 0.0 {
+                profile.mechanism.coupling.push(Coupling {
+                    joint: 2,
+                    on: 1,
+                    ratio,
+                });
+            }
+            let arm = &profile.mechanism;
+            let (found, _) = candidates(&profile, &Mounted::flange(), &constraints, 40, 3)
+                .expect("there is room");
+            for q in found {
+                let from = constraints.approach(arm, &q);
+                let (before, after) = (arm.commanded(&from), arm.commanded(&q));
+                for (after, before) in after.iter().zip(before) {
+                    let by = after - before;
+                    assert!((by - 5.0 * DEG).abs() < 1e-12, "{ratio}: {by}");
+                }
+                assert!((q[2] - from[2] - below_deg * DEG).abs() < 1e-12, "{ratio}");
+                assert_eq!(arm.beyond_limit(&from, 0.0), None, "{ratio}");
+            }
+        }
+    }
 }

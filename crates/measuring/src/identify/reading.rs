@@ -282,8 +282,8 @@ impl Cells<'_> {
             time_s: self.optional("time_s")?,
             ..Conditions::default()
         };
-        if let Some(direction) = self.row.direction {
-            conditions.direction = direction;
+        if let Some(motion) = self.row.motion {
+            conditions.direction = motion.direction;
         } else if kinds.directions && plate.is_none() {
             for (slot, column) in conditions.direction.iter_mut().zip(DIRECTION_COLUMNS) {
                 *slot = self.number(column)?;
@@ -507,11 +507,14 @@ impl Measurements {
             return Err(reader.whole_file(MeasurementFault::NoRows));
         }
         if !kinds.moves {
-            let of_tool = |row: &&mut Measurement| row.plate.is_none();
-            let postures: Vec<_> = rows.iter_mut().filter(of_tool).map(|row| row.q).collect();
-            let moves = last_moves(&postures);
-            for (row, moved) in rows.iter_mut().filter(of_tool).zip(moves) {
-                row.conditions.moved = moved;
+            let of_tool = |row: &&Measurement| row.plate.is_none();
+            let postures: Vec<_> = rows.iter().filter(of_tool).map(|row| row.q).collect();
+            let mut moves = last_moves(&postures).into_iter();
+            for (row, cells) in rows.iter_mut().zip(&table.rows) {
+                if row.plate.is_none() {
+                    let before = moves.next().unwrap_or_default();
+                    row.conditions.moved = cells.motion.map_or(before, |own| own.moved);
+                }
             }
         }
         contact::settle(&mut rows).map_err(|conflict| MeasurementError {

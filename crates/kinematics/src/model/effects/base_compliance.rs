@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, length};
+use super::words::{deg, largest};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::{Rotation, Scalar, add, cross, sub};
 
@@ -51,6 +51,6 @@ impl Equation for BaseCompliance {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("The pedestal tilts: {}° under 100 N m", deg(100.0 * length(&effect.parameters[..2])))
+        format!("The pedestal tilts: {}° at most under 100 N m", deg(100.0 * largest(&effect.parameters[..2])))
     }
 }

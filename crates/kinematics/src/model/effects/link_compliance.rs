@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, length};
+use super::words::{deg, largest};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
@@ -41,6 +41,6 @@ impl Equation for LinkCompliance {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("Link {} bends: {}° under 100 N m", effect.site.index + 1, deg(100.0 * length(&effect.parameters[..2])))
+        format!("Link {} bends: {}° at most under 100 N m", effect.site.index + 1, deg(100.0 * largest(&effect.parameters[..2])))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, length};
+use super::words::{deg, largest};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::{Scalar, cross, sub};
 
@@ -48,6 +48,6 @@ impl Equation for ToolCompliance {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("The tool bends at the flange: {}° under 10 N m", deg(10.0 * length(&effect.parameters[..2])))
+        format!("The tool bends at the flange: {}° at most under 10 N m", deg(10.0 * largest(&effect.parameters[..2])))
     }
 }

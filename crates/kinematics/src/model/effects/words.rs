@@ -33,6 +33,11 @@ pub(super) fn length(components: &[f64]) -> f64 {
     components.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
+/// The largest size of the components: of a bending about two axes that which a moment makes at most.
+pub(super) fn largest(components: &[f64]) -> f64 {
+    components.iter().fold(0.0, |most, v| v.abs().max(most))
+}
+
 /// The joint an effect belongs to: `J2`.
 pub(super) fn joint(effect: &Effect) -> String {
     format!("J{}", effect.site.index + 1)

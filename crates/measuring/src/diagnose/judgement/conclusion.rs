@@ -6,7 +6,7 @@ use super::attempt::Attempt;
 use super::in_a_row::beyond;
 use super::poses::{Telling, telling};
 use super::whereabouts::spots;
-use super::{Judged, Standing, is_seldom, judge, stand};
+use super::{Judged, Standing, apart, is_seldom, judge, stand};
 use crate::diagnose::diagnosis::{
     Alternative, Diagnosis, FollowedRow, Found, NoiseSource, Options, OutlierRow, Verdict,
 };
@@ -58,15 +58,18 @@ pub(crate) fn conclude(
     let session = &attempt.session;
     let used = for_choice(measurements);
     progress("checking on rows that were not used");
-    let proof = if options.quick {
+    let mut proof = if options.quick {
         Proof::none(attempt.chosen.len())
     } else {
-        held_out(attempt, measurements, options)
+        held_out(attempt, &attempt.chosen, measurements, options)
     };
-    let spreads = proof.spreads();
+    let mut spreads = proof.spreads();
     let mut found = effects(attempt, options, &proof, &spreads);
     let alternatives = alternatives(attempt);
-    let Judged { reasons, verdict } = judge(attempt, &proof, &found, &alternatives);
+    let Judged {
+        mut reasons,
+        mut verdict,
+    } = judge(attempt, &proof, &found, &alternatives);
     // what competes with a group is reported where the answer is uncertain; else only what explains
     // nearly all
     let world = session.world(&used, &options.accept);
@@ -89,6 +92,17 @@ pub(crate) fn conclude(
         others.remove(i);
         again(&others)
     });
+    // what is written is what is proved: without what the profile does not follow
+    if let Some(followed) = followed_only(attempt, &found, verdict) {
+        let own = held_out(attempt, &followed, measurements, options);
+        if own.is_better() {
+            spreads = put_spreads(&mut found, verdict, &own);
+            proof = own;
+        } else {
+            reasons.extend(not_better(&found, verdict, &own));
+            verdict = Verdict::Undetermined;
+        }
+    }
     let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let together: Vec<_> = attempt
@@ -158,8 +172,58 @@ pub(crate) fn conclude(
     })
 }
 
+/// Whether an effect of the session is not sure enough for the robot to be where it left it.
+fn is_unsure(found: &Found, verdict: Verdict) -> bool {
+    verdict == Verdict::Improved
+        && !found.accepted
+        && found.effect.definition().of_data
+        && found.standing == Standing::Possible
+}
+
+/// The effects found without those of the session that the profile does not follow, where there are
+/// any and some of the arm remain.
+fn followed_only(attempt: &Attempt, found: &[Found], verdict: Verdict) -> Option<Vec<Chosen>> {
+    let both = attempt.chosen.iter().zip(found);
+    let followed = both.filter(|(_, f)| !is_unsure(f, verdict));
+    let followed: Vec<Chosen> = followed.map(|(chosen, _)| chosen.clone()).collect();
+    let is_of_arm = |chosen: &Chosen| !chosen.candidate.effect.definition().of_data;
+    (followed.len() < found.len() && followed.iter().any(is_of_arm)).then_some(followed)
+}
+
+/// Errors on rows not used are those of what is written, step by step; of an effect that the profile
+/// does not follow there are none.
+fn put_spreads(found: &mut [Found], verdict: Verdict, proof: &Proof) -> Vec<Option<Spread>> {
+    let spreads = proof.spreads();
+    let mut step = 1;
+    for one in found {
+        (one.before, one.after) = (None, None);
+        if !is_unsure(one, verdict) {
+            (one.before, one.after) = (spreads[step], spreads[step + 1]);
+            step += 1;
+        }
+    }
+    spreads
+}
+
+/// Why nothing is written: rows left out are not predicted better without what the profile would not
+/// follow.
+fn not_better(found: &[Found], verdict: Verdict, proof: &Proof) -> Option<String> {
+    let judged = proof.judged()?;
+    let unsure = found.iter().filter(|f| is_unsure(f, verdict));
+    let labels: Vec<String> = unsure.map(|f| f.effect.label()).collect();
+    Some(format!(
+        "{} is not sure enough for a profile to follow it, and without it rows left out are not \
+         predicted better beyond chance: {} mm",
+        labels.join(" + "),
+        apart(judged.start.mean, judged.found.mean)
+    ))
+}
+
 /// The values that the improved profile gets, and effects of the session that are not sure enough
 /// for the robot to be where they left it; says of each effect whether the profile has it.
+///
+/// What the profile does not follow was not fitted either: what is fitted along with it is right
+/// only together with it.
 ///
 /// Where not all that was found is believed, an effect that was found again too seldom was not in
 /// the predictions that the answer rests on: the profile is without it, unless all that was found
@@ -173,21 +237,18 @@ fn written(
     let mut unsure = Vec::new();
     for one in found.iter_mut().filter(|f| !f.accepted) {
         let is_improved = verdict == Verdict::Improved;
-        let of_data = one.effect.definition().of_data;
         one.in_profile = all_predict || !(is_improved && is_seldom(one));
-        if of_data && is_improved && one.standing == Standing::Possible {
+        if is_unsure(one, verdict) {
             one.in_profile = false;
             unsure.push(one.effect.clone());
         }
     }
-    // a step or a drift that is there again too seldom is none: the frames are those of all rows
-    let is_kept = |f: &Found| f.in_profile || f.effect.definition().of_data && !is_seldom(f);
     let attempted = (attempt.refit.clone(), attempt.moved.clone());
-    let (own, moved) = if found.iter().all(is_kept) {
+    let (own, moved) = if found.iter().all(|f| f.in_profile) {
         attempted
     } else {
         let kept = attempt.chosen.iter().zip(found.iter());
-        let kept = kept.filter(|(_, f)| is_kept(f)).map(|(c, _)| c.clone());
+        let kept = kept.filter(|(_, f)| f.in_profile).map(|(c, _)| c.clone());
         attempt.refitted(profile, &kept.collect::<Vec<_>>())
     };
     // where nothing of the arm is missing nothing of it is moved

@@ -108,12 +108,10 @@ pub(crate) fn judge(
     let is_possible = !beyond(&attempt.refit).any(|beyond| is_new(attempt, beyond))
         && attempt.strangers().is_none()
         && attempt.hopeless_m().is_none();
-    let is_better = proof.judged().is_some_and(|judged| judged.is_better())
-        && !proof.present.is_some_and(|present| present.is_worse());
     let verdict = match (reasons.is_empty(), found.is_empty()) {
         (true, true) => Verdict::NothingMissing,
         (true, false) => Verdict::Explained,
-        (false, false) if is_better && is_possible => Verdict::Improved,
+        (false, false) if is_possible && proof.is_better() => Verdict::Improved,
         (false, _) => Verdict::Undetermined,
     };
     Judged { reasons, verdict }
@@ -340,7 +338,7 @@ fn nobody_knows(attempt: &Attempt) -> bool {
 }
 
 /// Two figures with three decimals, and more where they would look alike.
-fn apart(before: f64, after: f64) -> String {
+pub(crate) fn apart(before: f64, after: f64) -> String {
     let with = |decimals: usize| [before, after].map(|x| format!("{x:.decimals$}"));
     let differ = |words: &[String; 2]| words[0] != words[1];
     let words = (3..9).map(with).find(differ).unwrap_or_else(|| with(9));

@@ -121,6 +121,13 @@ impl Proof {
         both.copied().min_by(|a, b| a.p_value.total_cmp(&b.p_value))
     }
 
+    /// Rows left out are predicted better than without what was found, beyond chance, and no worse
+    /// than by a profile that has not seen them.
+    pub(crate) fn is_better(&self) -> bool {
+        self.judged().is_some_and(|judged| judged.is_better())
+            && !self.present.is_some_and(|present| present.is_worse())
+    }
+
     /// Statistics of each step, mm.
     pub(crate) fn spreads(&self) -> Vec<Option<Spread>> {
         let of = |lengths: &Vec<f64>| {
@@ -229,12 +236,18 @@ fn again(found: &[Chosen], own: &[Chosen]) -> Vec<bool> {
     found.iter().map(is_again).collect()
 }
 
-/// The choice made again without parts of the measurements, and those predicted.
-pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: &Options) -> Proof {
+/// The choice made again without parts of the measurements, and those predicted with these of the
+/// effects found.
+pub(crate) fn held_out(
+    attempt: &Attempt,
+    chosen: &[Chosen],
+    measurements: &Measurements,
+    options: &Options,
+) -> Proof {
     let session = &attempt.session;
     let choice = for_choice(measurements);
     let parts = Parts::of(measurements, &choice);
-    let steps = 2 + attempt.chosen.len();
+    let steps = 2 + chosen.len();
     let mut lengths = vec![Vec::new(); steps];
     let configurations = measurements.configurations();
     let present = lengths_m(&session.problem, &session.layout, &session.present);
@@ -248,7 +261,7 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
     };
     let choose = |world: &World| -> Vec<Chosen> {
         let mut own = world.search(session.first(world));
-        keep_rows(world, &attempt.chosen, &mut own);
+        keep_rows(world, chosen, &mut own);
         own
     };
     let one = |test: &Vec<usize>| -> Part {
@@ -265,16 +278,16 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
             let is_among = |c: &&Chosen| wanted.iter().any(|w| like(&w.candidate, &c.candidate));
             own.iter().filter(is_among).cloned().collect()
         };
-        for step in 0..=attempt.chosen.len() {
-            lengths.push(predicted(&world, &among(&attempt.chosen[..step])));
+        for step in 0..=chosen.len() {
+            lengths.push(predicted(&world, &among(&chosen[..step])));
         }
-        let found = among(&attempt.chosen);
+        let found = among(chosen);
         let anew = session.world_of(&used, &options.accept, &free);
         Part {
             lengths,
             equal: [predicted(&anew, &[]), predicted(&anew, &found)],
-            all: predicted(&world, &attempt.chosen),
-            again: again(&attempt.chosen, &own),
+            all: predicted(&world, chosen),
+            again: again(chosen, &own),
             configurations: test.iter().map(|r| configurations[*r]).collect(),
         }
     };
@@ -293,15 +306,15 @@ pub(crate) fn held_out(attempt: &Attempt, measurements: &Measurements, options: 
         of_all.extend(part.all);
         flags.extend(parts.are_of_choice.then_some(part.again));
     }
-    if !attempt.chosen.is_empty() {
+    if !chosen.is_empty() {
         flags.extend(parts.left_out.iter().map(|test| {
             let used = without(test);
             let own = choose(&session.world(&used, &options.accept));
-            again(&attempt.chosen, &own)
+            again(chosen, &own)
         }));
     }
     let times = |i: usize| flags.iter().filter(|again| again[i]).count();
-    let again = (0..attempt.chosen.len()).map(|i| (times(i), flags.len()));
+    let again = (0..chosen.len()).map(|i| (times(i), flags.len()));
     let profile = match attempt.trust {
         Trust::Calibrated { .. } => Compared::of(&lengths[0], &lengths[steps - 1], &of_rows, false),
         Trust::Nothing => None,

@@ -86,7 +86,7 @@ impl Table {
             .map(|row| Row {
                 at: [row, row],
                 point: None,
-                direction: None,
+                motion: None,
             })
             .collect())
     }
@@ -95,7 +95,7 @@ impl Table {
         let row_of = |at: usize| Row {
             at: [at, at],
             point: None,
-            direction: None,
+            motion: None,
         };
         let [joints, points] = [0, 1].map(|file| self.grids[file].name.clone());
         let line = |file: usize, at: usize| self.grids[file].rows[at].0;

@@ -25,6 +25,7 @@ use super::fault::{MeasurementError, MeasurementFault};
 use super::input_checks::Remark;
 use super::measurements::{
     DIRECTION_COLUMNS, JOINT_COLUMNS, POSITION_COLUMNS, QUATERNION_COLUMNS, last_directions,
+    last_moves,
 };
 use crate::geometry::units::DEG;
 use crate::model::Mechanism;
@@ -58,8 +59,17 @@ pub struct Row {
     pub at: [usize; 2],
     /// The point on the tool, where points have columns of their own.
     pub point: Option<usize>,
-    /// The direction in which each joint last moved, where it follows from the order.
-    pub direction: Option<[f64; 6]>,
+    /// How each joint last moved, where it follows from the order.
+    pub motion: Option<LastMotion>,
+}
+
+/// How the joints moved last, by the order in which they were driven.
+#[derive(Clone, Copy, Debug)]
+pub struct LastMotion {
+    /// The direction of each.
+    pub direction: [f64; 6],
+    /// How far each moved, radians.
+    pub moved: [f64; 6],
 }
 
 /// A note on how a file was read.
@@ -133,7 +143,7 @@ impl Table {
             all.map(|row| Row {
                 at: [row, row],
                 point: None,
-                direction: None,
+                motion: None,
             })
             .collect()
         };
@@ -144,7 +154,7 @@ impl Table {
         table.euler = euler.map(|(own, _)| own);
         table.spread_points()?;
         if let Some(driven) = &mapping.driven {
-            table.derive_directions(driven)?;
+            table.derive_motions(driven)?;
         }
         table.remarks.extend(table.not_read());
         Ok(table)
@@ -334,9 +344,10 @@ impl Table {
         Ok(())
     }
 
-    /// The direction in which each joint last moved, from one row of the joints to the next: that of
-    /// the angle which turns the joint.
-    fn derive_directions(&mut self, arm: &Mechanism) -> Result<(), MeasurementError> {
+    /// How each joint last moved, from one row of the joints to the next, measured or not: its
+    /// direction is that of the angle which turns the joint. Rows are put into the order of the
+    /// joints' file.
+    fn derive_motions(&mut self, arm: &Mechanism) -> Result<(), MeasurementError> {
         if DIRECTION_COLUMNS
             .iter()
             .any(|column| self.index(column).is_some())
@@ -358,7 +369,7 @@ impl Table {
             let row = Row {
                 at: [at, at],
                 point: None,
-                direction: None,
+                motion: None,
             };
             let mut q = [0.0; 6];
             for ((slot, column), name) in q.iter_mut().zip(&columns).zip(JOINT_COLUMNS) {
@@ -373,10 +384,15 @@ impl Table {
             }
             postures.push(q);
         }
-        let directions = last_directions(arm, &postures);
+        let directions = last_directions(arm, &postures).into_iter();
+        let motions = directions.zip(last_moves(&postures));
+        let motions: Vec<LastMotion> = motions
+            .map(|(direction, moved)| LastMotion { direction, moved })
+            .collect();
         for row in &mut self.rows {
-            row.direction = Some(directions[row.at[file]]);
+            row.motion = Some(motions[row.at[file]]);
         }
+        self.rows.sort_by_key(|row| row.at[file]);
         Ok(())
     }
 }
