@@ -217,7 +217,7 @@ pub(super) const fn load_chosen(id: &'static str, hint: &'static str) -> Remark 
 }
 
 /// Where a profile may have the base of an arm whose controller counts positions from there.
-const MOST_BASE_GAP_M: f64 = 0.1 * MM;
+pub(super) const MOST_BASE_GAP_M: f64 = 0.1 * MM;
 const MOST_BASE_TURN_RAD: f64 = 0.01 * DEG;
 
 /// Refuses a profile that has the base elsewhere than at the origin, where the controller counts

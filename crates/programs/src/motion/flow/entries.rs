@@ -83,12 +83,13 @@ impl Flow<'_> {
                 let (Statement::Call(call) | Statement::Start(call)) = *statement else {
                     continue;
                 };
-                let callees = &script.calls[call as usize].callees;
+                let call = &script.calls[call as usize];
+                let callees = &call.callees;
                 if matches!(statement, Statement::Start(_)) && callees.contains(&routine) {
                     starters.push(at);
                 }
                 for &callee in &**callees {
-                    is_called[callee as usize] |= callee != at;
+                    is_called[callee as usize] |= callee != at && !call.writes_only;
                 }
             }
         }
@@ -101,9 +102,12 @@ impl Flow<'_> {
                 }
             }
         }
+        let perhaps = script.calls.iter().filter(|call| call.writes_only);
+        let perhaps: Vec<RoutineId> = perhaps.flat_map(|call| &*call.callees).copied().collect();
         if with.is_empty() {
             with.extend(0..short(script.routines.len()));
         }
+        with.extend(script.reached_from(&perhaps));
         let with = Rc::new(with);
         self.started_with.insert(routine, Rc::clone(&with));
         with
@@ -134,8 +138,9 @@ impl Flow<'_> {
                 [routine.statements.start as usize..routine.statements.end as usize]
             {
                 if let Statement::Call(call) = statement {
-                    for &callee in &*script.calls[*call as usize].callees {
-                        is_called[callee as usize] |= callee as usize != at;
+                    let call = &script.calls[*call as usize];
+                    for &callee in &*call.callees {
+                        is_called[callee as usize] |= callee as usize != at && !call.writes_only;
                     }
                 }
             }
@@ -353,7 +358,7 @@ impl Flow<'_> {
                     let known = self.instances.iter();
                     let known = known
                         .enumerate()
-                        .find(|(_, i)| i.routine as usize == routine);
+                        .find(|(_, i)| i.routine as usize == routine && !i.writes_only);
                     known.map(|(at, _)| short(at))
                 });
                 let instance =
