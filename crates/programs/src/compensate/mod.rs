@@ -339,11 +339,11 @@ fn with(
     }
     context::leave(&mut program, sources, &mut findings);
     external::settle(
-        language,
+        (language, &settings),
         &mut program,
         sources,
         (profile, &[]),
-        &options.start_external,
+        (&options.given, &options.start_external),
         &mut findings,
     );
     setting::check_measured(&program, &options.given)?;
