@@ -340,11 +340,11 @@ fn with(
     let joints = options.correct_joint_targets;
     context::leave(&mut program, sources, joints, &mut findings);
     external::settle(
-        language,
+        (language, &settings),
         &mut program,
         sources,
         (profile, &[]),
-        &options.start_external,
+        (&options.given, &options.start_external),
         &mut findings,
     );
     setting::check_measured(&program, &options.given)?;
