@@ -138,6 +138,13 @@ fn shown(bytes: &[u8], start: usize, end: usize) -> String {
     }
 }
 
+/// Whether a file's name ends so, in letters of any case.
+pub(super) fn ends_with(name: &str, end: &str) -> bool {
+    let at = name.len().checked_sub(end.len());
+    let tail = at.and_then(|at| name.get(at..));
+    tail.is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+}
+
 /// A file that has nothing of the language that it is read as.
 pub(super) fn not_this_language(about: &'static About, source: &Source) -> ReadError {
     ReadError::NotThisLanguage {

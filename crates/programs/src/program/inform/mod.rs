@@ -109,6 +109,14 @@ impl Language for Inform {
         script(sources, settings)
     }
 
+    fn is_record(&self, file: &str) -> bool {
+        // conditions of weaving, of welding and others
+        let lower = file.to_ascii_lowercase();
+        lower
+            .strip_suffix(".cnd")
+            .is_some_and(|stem| !stem.contains("tool") && !stem.contains("frame"))
+    }
+
     fn turns_through_middle(&self) -> bool {
         true
     }
