@@ -191,8 +191,20 @@ struct Reading<'a> {
     ignored: GlobSet,
     used: &'a RefCell<BTreeSet<usize>>,
     found: Gathered,
+    /// The languages that files of folders are recognised by.
+    spoken: Vec<&'static dyn Language>,
+    /// What in folders may be files of another controller's own.
+    doubtful: Vec<Doubtful>,
     /// What in folders can be neither read nor passed over, with the reason.
     wrong: Vec<String>,
+}
+
+/// A file that ends as programs of some languages do, and has nothing of them.
+struct Doubtful {
+    name: String,
+    known: Vec<&'static dyn Language>,
+    /// Why it is none of them.
+    why: String,
 }
 
 impl Reading<'_> {
@@ -304,7 +316,7 @@ impl Reading<'_> {
             return;
         }
         let file = entry.file_name().to_string_lossy();
-        let known: Vec<&dyn Language> = known_by(self.asked, path).collect();
+        let known: Vec<&'static dyn Language> = known_by(self.asked, path).collect();
         if known.is_empty() {
             self.found.left_out.other.push(name);
             return;
@@ -322,37 +334,74 @@ impl Reading<'_> {
                 return;
             }
         };
-        let why = no_text(&bytes);
+        let no_text = no_text(&bytes);
         let source = Source::new(name, bytes);
-        let recognised = known.iter().any(|language| language.recognises(&source));
-        if let Some(why) = why {
-            self.wrong.push(format!("{}: {why}", source.name));
-        } else if !recognised && known.iter().all(|language| language.is_record(&file)) {
-            self.found.left_out.other.push(source.name);
-        } else if !recognised {
-            let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
-            let why = known.iter().find_map(|language| {
-                let sources = std::slice::from_ref(&source);
-                match language.script(sources, &Settings::default()) {
-                    Ok(_) | Err(ReadError::NotThisLanguage { .. }) => None,
-                    Err(error) => Some(match error.place() {
-                        (_, 0, _) => error.message(),
-                        (_, line, column) => format!("{line}:{column}: {}", error.message()),
-                    }),
-                }
+        let speaks = |language: &&&'static dyn Language| language.accepts(&source);
+        let why = match (no_text, known.iter().find(speaks)) {
+            (None, Some(language)) => {
+                self.spoken.push(*language);
+                self.found.programs.push(ProgramFile {
+                    path: path.to_owned(),
+                    below,
+                    source,
+                });
+                return;
+            }
+            (None, None) if known.iter().all(|language| language.is_record(&file)) => {
+                self.found.left_out.other.push(source.name);
+                return;
+            }
+            (Some(why), _) => why.to_owned(),
+            (None, None) => why_none(&known, &source),
+        };
+        if known
+            .iter()
+            .all(|language| language.may_be_foreign(&source))
+        {
+            self.doubtful.push(Doubtful {
+                name: source.name,
+                known,
+                why,
             });
-            let why = why.unwrap_or_else(|| "truncated?".into());
-            let names = names.join(" or ");
-            let message = format!("it is called as {names}, and is none: {why}");
-            self.wrong.push(format!("{}: {message}", source.name));
         } else {
-            self.found.programs.push(ProgramFile {
-                path: path.to_owned(),
-                below,
-                source,
-            });
+            self.wrong.push(format!("{}: {why}", source.name));
         }
     }
+
+    /// What has nothing of the languages that it is called as is another controller's own file, where
+    /// programs of that one are there and none of these languages.
+    fn judge_doubtful(&mut self) {
+        let spoken = self.spoken.iter().map(|language| language.about().id);
+        // tables are of no controller
+        let has_others = spoken.clone().any(|id| id != "csv");
+        for doubtful in std::mem::take(&mut self.doubtful) {
+            let is_of = |id| doubtful.known.iter().any(|known| known.about().id == id);
+            if has_others && !spoken.clone().any(is_of) {
+                self.found.left_out.other.push(doubtful.name);
+            } else {
+                self.wrong
+                    .push(format!("{}: {}", doubtful.name, doubtful.why));
+            }
+        }
+    }
+}
+
+/// Why a file is none of the languages that it is called as.
+fn why_none(known: &[&'static dyn Language], source: &Source) -> String {
+    let names: Vec<&str> = known.iter().map(|language| language.about().name).collect();
+    let why = known.iter().find_map(|language| {
+        let sources = std::slice::from_ref(source);
+        match language.script(sources, &Settings::default()) {
+            Ok(_) | Err(ReadError::NotThisLanguage { .. }) => None,
+            Err(error) => Some(match error.place() {
+                (_, 0, _) => error.message(),
+                (_, line, column) => format!("{line}:{column}: {}", error.message()),
+            }),
+        }
+    });
+    let why = why.unwrap_or_else(|| "truncated?".into());
+    let names = names.join(" or ");
+    format!("it is called as {names}, and is none: {why}")
 }
 
 /// The languages whose files are called so, of those that are asked for.
@@ -387,6 +436,8 @@ pub(super) fn gather(
             programs: Vec::new(),
             left_out: LeftOut::default(),
         },
+        spoken: Vec::new(),
+        doubtful: Vec::new(),
         wrong: Vec::new(),
     };
     for path in paths {
@@ -397,6 +448,7 @@ pub(super) fn gather(
             reading.file(path)?;
         }
     }
+    reading.judge_doubtful();
     if !reading.wrong.is_empty() {
         return Err(Failure::with_hint(
             format!(

@@ -105,6 +105,13 @@ impl<'a> Circumstances<'a> {
         })
     }
 
+    /// Passes over their columns: a model that knows nothing of them takes the same tables.
+    pub(super) fn pass_over(table: &Table) {
+        let groups = [&DIRECTION_COLUMNS[..], &MOVE_COLUMNS, &FORCE_COLUMNS];
+        table.pass_over(&groups.concat());
+        table.pass_over(&[TEMPERATURE, TIME]);
+    }
+
     /// Whether there are none: every row is as the first.
     pub(super) fn is_none(&self) -> bool {
         !(self.directions || self.moves || self.forces || self.is_of_chain())

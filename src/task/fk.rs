@@ -133,9 +133,12 @@ pub fn fk_telling(
     let profile = &profile.profile;
     let track = Track::of(&table, profile)?;
     // the controller's model knows nothing else of a row
-    let circumstances = is_real
-        .then(|| Circumstances::of(&table, profile))
-        .transpose()?;
+    let circumstances = if is_real {
+        Some(Circumstances::of(&table, profile)?)
+    } else {
+        Circumstances::pass_over(&table);
+        None
+    };
     let mut beyond = BeyondLimits::default();
     let pose = |(number, row): (usize, super::table::Row)| {
         let q = row.joints()?;

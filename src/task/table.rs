@@ -93,6 +93,13 @@ impl<'a> Table<'a> {
         self.index_of(column).is_some()
     }
 
+    /// Counts columns that it may have as read.
+    pub(super) fn pass_over(&self, columns: &[&str]) {
+        for column in columns {
+            self.index_of(column);
+        }
+    }
+
     /// Which column has this name.
     fn index_of(&self, column: &str) -> Option<usize> {
         let index = self.header.iter().position(|name| name == column);

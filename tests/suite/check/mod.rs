@@ -9,6 +9,7 @@ mod mutated;
 mod reach;
 mod rooms;
 mod several;
+mod together;
 mod urdf;
 
 use poseshift::check::cell::Cell;

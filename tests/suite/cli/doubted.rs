@@ -254,6 +254,10 @@ fn a_misspelt_column_does_not_count_as_none() {
     let rows: String = rows.collect();
     write(at, "probed.csv", &rows.replacen(",0.05\n", ",sigma\n", 1));
     refuses("register nominal.csv probed.csv", "sigma", "sigma_mm");
+    // the controller's arm knows nothing of these columns, and takes the same tables
+    joints("tempreature_c", "30");
+    let controller = "fk --profile p.yaml --joints j.csv --model controller";
+    refuses(controller, "tempreature_c", "temperature_c");
     // other columns of a logger are left aside
     joints("operator", "7");
     let (status, ..) = run_in(at, "fk --profile p.yaml --joints j.csv");

@@ -510,3 +510,74 @@ fn what_is_refused_next_to_good_programs_is_named_with_the_reason() {
     assert!(page.contains("1 of 3 programs are written, 2 refused: 1 error"));
     assert!(page.contains("in/Bad.mod, in/Shares.mod"));
 }
+
+/// Writes files, each with its text.
+fn written(folder: &Path, files: &[(&str, &str)]) {
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir_all(folder).expect("scratch");
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text).expect("scratch");
+    }
+}
+
+const LISTING: &str = "/PROG  A\n/ATTR\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n   1:J P[1] 50% FINE ;\n/POS\nP[1]{\n   \
+    GP1:\n\tUF : 0, UT : 1,\n\tJ1=     0.000 deg,\tJ2=     0.000 deg,\tJ3=     0.000 deg,\n\tJ4=     0.000 \
+    deg,\tJ5=   -30.000 deg,\tJ6=     0.000 deg\n};\n/END\n";
+const LIST: &str = "DEFDAT a\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T 2}\nENDDAT\n";
+
+#[test]
+fn files_of_another_controller_are_passed_over_by_name() {
+    let folder = world();
+    let path = folder.path().join("in");
+    let order = ("ORDERFIL.DAT", "! Generated\nH552 Base Software\n");
+    let system = ("SYSTEM.SYS", "/SYSTEM 8\n//DATE : 2023/09/19\n");
+    for (files, is_refused) in [
+        (
+            &[("A.LS", LISTING), order, system, ("e.dat", "")][..],
+            false,
+        ),
+        (&[("A.LS", LISTING), ("a.dat", "XP1"), order], false),
+        (&[("A.LS", LISTING), ("a.dat", "1,\nENDDAT\n")], true),
+        (&[("A.LS", LISTING), ("a.src", "1,\n")], true),
+        // in a folder of KRL, and next to nothing
+        (&[("A.LS", LISTING), ("b.dat", LIST), order], true),
+        (&[("b.dat", LIST), ("a.dat", "")], true),
+        (&[order], true),
+        (
+            &[
+                ("t.csv", "x_mm,y_mm,z_mm,qw,qx,qy,qz\n1,2,3,1,0,0,0\n"),
+                order,
+            ],
+            true,
+        ),
+    ] {
+        written(&path, files);
+        let said = reported(&run(folder.path(), &["check", "in"]));
+        let of_folder = said.contains("passed over in silence");
+        assert_eq!(of_folder, is_refused, "{files:?}: {said}");
+    }
+}
+
+#[test]
+fn programs_that_move_nothing_are_read_in_folders() {
+    let folder = scratch();
+    let path = folder.path();
+    let profile = repository("robots/universal_robots_ur5.yaml");
+    let main = "def a():\n  set_tcp(p[0,0,0,0,0,0])\n  movej([0,-1.5,1.5,-1.5,-1.5,0])\nend\na()\n";
+    let helper = "def helper(x):\n  return x+1\nend\n";
+    for (text, status) in [
+        (helper, 0),
+        ("global n = 2\n", 0),
+        (&helper[..helper.len() - 4], 2),
+    ] {
+        written(&path.join("in"), &[("a.script", main), ("h.script", text)]);
+        let output = poseshift()
+            .current_dir(path)
+            .args(["check", "in", "--profile"])
+            .arg(&profile)
+            .output()
+            .expect("the program starts");
+        let is_refused = output.status.code() == Some(2);
+        assert_eq!(is_refused, status == 2, "{}", reported(&output));
+    }
+}

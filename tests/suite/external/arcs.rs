@@ -4,11 +4,11 @@
 use super::checked::{
     FIRST, at, check, far, joint_move, list, number, place, rails, robot, tooldata,
 };
-use super::landing::joints;
+use super::landing::{inverse, joints};
 use super::measured::put;
-use super::programs::{Said, numbers_of};
-use super::{rapid, run, tool};
-use crate::physics::matrix::M4;
+use super::programs::{Said, numbers_of, pose_of};
+use super::{rapid, run, tool, written};
+use crate::physics::matrix::{M4, frame, times, turn_x, turn_z};
 use crate::physics::{Moment, tool_pose};
 use crate::support::{poseshift, scratch, text};
 use poseshift::model::profile::Profile;
@@ -169,4 +169,150 @@ fn joints_come_to_the_point_of_an_arc_as_they_go_on_it_while_the_rail_moves() {
         let off_mm: f64 = (0..3).map(|k| 1e3 * (moves[k] - stands[k]).abs()).sum();
         assert!(off_mm < 0.01, "{goes_to_mm}: {off_mm}");
     }
+}
+
+/// The tool, another one, and a work frame.
+const TOOL: [f64; 6] = [0.03, -0.02, 0.11, 0.1, 0.2, -0.3];
+const OTHER: [f64; 6] = [-0.02, 0.015, 0.07, 0.3, -0.2, 0.4];
+const WORK: [f64; 6] = [0.2, -0.1, 0.05, 0.02, 0.1, 0.5];
+
+/// As [`on_circle`], and the tool turns on the way.
+fn turning(from: &M4, s: f64) -> M4 {
+    turned_at(&on_circle(from, s), &turn_x(0.3 * s))
+}
+
+/// The tool rotated where it is.
+fn turned_at(pose: &M4, by: &M4) -> M4 {
+    let mut to = times(by, pose);
+    for (row, at) in to.iter_mut().zip(place(pose)) {
+        row[3] = at;
+    }
+    to
+}
+
+fn written_as(pose: &M4) -> String {
+    let n = numbers_of(Said::Rapid, pose);
+    format!("[{}],[{}]", list(&n[..3]), list(&n[3..]))
+}
+
+/// The arc that turns, its point written at a pose with the rail at `e`, behind a move; what else
+/// the program says is given with it.
+fn arc_behind(before: &str, via: &M4, e: f64, from: &M4) -> String {
+    let data = format!(
+        "{}\nPERS tooldata u:=[TRUE,[{}],[2,[10,0,60],[1,0,0,0],0,0,0]];\n\
+         PERS wobjdata w:=[FALSE,TRUE,\"\",[{}],[[0,0,0],[1,0,0,0]]];",
+        tooldata(),
+        written_as(&frame(&OTHER)),
+        written_as(&frame(&WORK))
+    );
+    let [via, end] = [(*via, e), (turning(from, 1.0), ENDS[1])].map(|(at, e)| target(&at, e));
+    let first = joint_move(&FIRST, ENDS[0]);
+    rapid(
+        &data,
+        &format!("{first}{before}MoveC {via},{end},v100,fine,t;\n"),
+    )
+}
+
+#[test]
+fn the_point_lands_in_the_rotation_of_the_path_behind_another_tool_and_work_frame() {
+    let (text, robot, faults) = robot(&tool());
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    let [plain, bent] = rails();
+    let first = at(&robot, &plain, ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let with_other = times(&times(&from, &inverse(&frame(&TOOL))), &frame(&OTHER));
+    let in_work = |pose: &M4| times(&inverse(&frame(&WORK)), pose);
+    let line = |pose: &M4, with: &str| {
+        let start = target(pose, ENDS[0]);
+        format!("MoveL {start},v100,fine,{with};\n")
+    };
+    let befores = [
+        line(&from, "t"),
+        line(&with_other, "u"),
+        line(&in_work(&from), "t\\WObj:=w"),
+        line(&in_work(&with_other), "u\\WObj:=w"),
+        // joints alone
+        String::new(),
+    ];
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    let wanted = turning(&from, PART);
+    for before in befores {
+        for (e, by) in [(passed, 0.0), (passed, 0.4), (ENDS[1], 0.0), (0.9, 0.4)] {
+            let via = turned_at(&wanted, &turn_z(by));
+            let program = arc_behind(&before, &via, e, &from);
+            let files = [("t.mod", program.as_str())];
+            let done = run(&profile, &files).expect("read");
+            let is_said = done.findings.iter().any(|f| f.id == "arc-external");
+            assert_eq!(is_said, e != passed, "{before} {e}: {:?}", done.findings);
+            let text = written(&profile, &files);
+            let arc = text.split("MoveC ").nth(1).expect("an arc");
+            let numbers = arc.split(['[', ']', ',']).filter_map(|n| n.parse().ok());
+            let numbers: Vec<f64> = numbers.take(7).collect();
+            // the controller has the tool there in the rotation of its path
+            let fake = pose_of(Said::Rapid, &numbers);
+            let mut there = times(&times(&fake, &inverse(&via)), &wanted);
+            for (row, at) in there.iter_mut().zip(place(&fake)) {
+                row[3] = at;
+            }
+            let q = joints(&at(&robot, &plain, passed), &there, &FIRST);
+            let robot = at(&robot, &bent, passed);
+            let real = tool_pose(&robot, &faults, &q, &Moment::default());
+            let off_mm = 1e3 * far(place(&real), place(&wanted));
+            assert!(off_mm < 0.002, "{before} {e} {by}: {off_mm}");
+        }
+    }
+}
+
+#[test]
+fn an_arc_that_begins_here_and_there_says_with_which_value_its_point_is_passed() {
+    let (text, robot, _) = robot(&tool());
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    let first = at(&robot, &rails()[0], ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    let program = |second: f64| {
+        let via = target(&on_circle(&from, PART), passed);
+        let end = target(&on_circle(&from, 1.0), ENDS[1]);
+        let to = |e: f64| format!("MoveL {},v100,fine,t;\narc;\n", target(&from, e));
+        let body = joint_move(&FIRST, ENDS[0]) + &to(ENDS[0]) + &to(second);
+        let arc = format!("ENDPROC\nPROC arc()\nMoveC {via},{end},v100,fine,t;\n");
+        rapid(&tooldata(), &(body + &arc))
+    };
+    for (second, is_other) in [(ENDS[0], false), (0.45, true)] {
+        let done = run(&profile, &[("t.mod", &program(second))]).expect("read");
+        let mut said = done.findings.iter().filter(|f| f.id == "arc-external");
+        let message = said.next().map(|f| f.message.as_str()).unwrap_or_default();
+        assert_eq!(
+            message.contains("on another way at 495 mm"),
+            is_other,
+            "{message}"
+        );
+        assert_eq!(said.count(), 0);
+    }
+}
+
+#[test]
+fn a_rail_with_backlash_comes_to_the_point_as_it_goes_on_the_arc() {
+    let (text, robot, _) = robot(&tool());
+    let backlash = "{effect: track_backlash, axis: 1, width_mm: 0.2}";
+    let text = text.replacen("effects: [", &format!("effects: [{backlash}, "), 1);
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    let first = at(&robot, &rails()[0], ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let point = |e: f64| {
+        let before = joint_move(&FIRST, 0.2);
+        let text = rapid(&tooldata(), &(before + &program(&from, e)));
+        let done = run(&profile, &[("t.mod", &text)]).expect("read");
+        let unsure = done
+            .findings
+            .iter()
+            .filter(|f| f.id == "direction-uncertain" && f.message.contains("external axis"));
+        // where the program begins
+        assert!(unsure.count() <= 1, "{:?}", done.findings);
+        let found = done.targets.iter().filter_map(|of| of.fake).nth(1);
+        found.expect("the point").translation
+    };
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    // written behind the beginning, as if the rail went back
+    assert_eq!(point(0.3), point(passed));
 }

@@ -278,3 +278,49 @@ fn a_straight_path_goes_on_where_it_leaves_its_branch() {
         }
     }
 }
+
+#[test]
+fn poses_that_one_posture_of_a_branch_reaches_are_not_reported() {
+    let (folder, file) = cobot();
+    let profile = Profile::from_yaml(&std::fs::read_to_string(&file).expect("a profile"));
+    let profile = profile.expect("a profile");
+    let arm = arm_of(&profile);
+    let mut random = StdRng::seed_from_u64(11);
+    let (mut several, mut path) = (Vec::new(), String::from("id,x_mm,y_mm,z_mm,qw,qx,qy,qz\n"));
+    for line in 2..42_u64 {
+        let q = random_joints(&mut random, &profile);
+        let pose = arm.forward(&q);
+        let answers = arm.solve_all(&pose, &q);
+        // the second answer of a branch
+        if answers.iter().any(|of| of.root == 1) {
+            several.push(line);
+        }
+        let [x, y, z] = pose.translation.map(|m| 1e3 * m);
+        let [w, i, j, k] = pose.rotation.quaternion().0;
+        path += &format!("{line},{x:.6},{y:.6},{z:.6},{w:.10},{i:.10},{j:.10},{k:.10}\n");
+    }
+    let given = folder.path().join("path.csv").display().to_string();
+    std::fs::write(&given, path).expect("scratch");
+    let written = folder.path().join("fake.csv").display().to_string();
+    let (_, json, said) = run(&[
+        "compensate",
+        &given,
+        "--profile",
+        &file,
+        "-o",
+        &written,
+        "--tool",
+        "0,0,0,0,0,0",
+        "--keep-going",
+        "--json",
+    ]);
+    let report: Value = serde_json::from_str(&json).unwrap_or_else(|_| panic!("{said}"));
+    let found = report["findings"].as_array().expect("findings").iter();
+    let found = found.filter(|f| f["id"] == "several-postures");
+    let lines: Vec<u64> = found.filter_map(|f| f["line"].as_u64()).collect();
+    assert!(
+        lines.iter().all(|line| several.contains(line)),
+        "{lines:?} of {several:?}"
+    );
+    assert!((4..20).contains(&lines.len()), "{lines:?}");
+}

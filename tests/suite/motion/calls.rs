@@ -2,7 +2,7 @@
 //! as parameters and as results.
 
 use super::displaced::{misses, of_language, of_urscript};
-use super::{PLAIN, errors, fakes};
+use super::{P, PLAIN, done, errors, fakes, rapid};
 use poseshift::compensate::Compensation;
 
 const ARM: &str = "robots/universal_robots_ur5.yaml";
@@ -243,4 +243,19 @@ fn what_neither_moves_nor_sets_anything_is_called_as_often_as_you_like() {
     let body = format!("tool()\n{}{GO}", "e()\n".repeat(20));
     let found = of(&format!("{functions}{busy}"), &body);
     assert_eq!(fakes(&found), fakes(&of("", &format!("{OTHER}{GO}"))));
+}
+
+/// The operator may start a routine that only text calls that nothing reaches.
+#[test]
+fn routines_that_only_dead_text_calls_are_corrected() {
+    let data = format!("CONST robtarget p := [[400,0,300],{P};\n");
+    let moves = |dead: &str| {
+        let main = format!("WHILE TRUE DO\nWaitTime 1;\nENDWHILE\n{dead}");
+        let clean = "PROC clean()\nwipe;\nENDPROC\nPROC wipe()\nMoveJ p,v100,fine,tool0;";
+        rapid(&data, &format!("{main}\nENDPROC\n{clean}"))
+    };
+    let uncalled = done(&[PLAIN], &[("t.mod", &moves(""))]);
+    let called = done(&[PLAIN], &[("t.mod", &moves("clean;"))]);
+    assert_eq!(fakes(&called), fakes(&uncalled), "{:?}", called.findings);
+    assert_eq!(fakes(&called).len(), 1);
 }

@@ -1,8 +1,9 @@
 //! What a program does by names and by routines that only the controller knows: never wrong without
 //! a word.
 
-use super::{P, PLAIN, done, errors, message, rapid};
-use poseshift::compensate::Compensation;
+use super::{P, PLAIN, done, errors, given, message, profile, profile_of, rapid};
+use poseshift::compensate::{Compensation, Options, compensate};
+use poseshift::program::{Source, language_of};
 
 const DATA: &str = "CONST jointtarget jh:=[[5,10,15,3,60,10],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
      PERS tooldata t1:=[TRUE,[[50,25,100],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];\n\
@@ -143,4 +144,55 @@ fn a_call_that_is_taken_for_a_move_is_corrected_like_one() {
     let (moved, plain) = line(TO_P);
     assert_eq!(line("Pick p,v100,fine,t1\\WObj:=w1;"), (moved, true));
     assert!(!plain);
+}
+
+#[test]
+fn joint_targets_of_context_files_are_refused_where_joints_are_corrected() {
+    let in_rapid = (
+        ("t.mod", rapid("", "MoveAbsJ jRest,v100,fine,tool0;")),
+        (
+            "cell.sys",
+            "MODULE cell\nCONST jointtarget jRest:=[[5,10,15,3,60,10],[9E9,9E9,9E9,9E9,9E9,\
+             9E9]];\nENDMODULE\n",
+        ),
+        profile(&[PLAIN]),
+    );
+    let body = "$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP XREST\n";
+    let in_krl = (
+        ("t.src", format!("DEF t()\n{body}END\n")),
+        (
+            "$config.dat",
+            "DEFDAT $CONFIG\nDECL E6AXIS XREST={A1 8.0,A2 -77.0,A3 88.0,A4 28.0,A5 48.0,A6 \
+             23.0}\nENDDAT\n",
+        ),
+        profile_of("robots/kuka_kr6_r900.yaml", &[PLAIN]),
+    );
+    for ((name, text), (context, declared), profile) in [in_rapid, in_krl] {
+        let run = |joints: bool, as_program: bool| {
+            let declared = declared.as_bytes().to_vec();
+            let sources = [
+                Source::new(name, text.clone().into_bytes()),
+                if as_program {
+                    Source::new(context, declared)
+                } else {
+                    Source::context(context, declared)
+                },
+            ];
+            let language = language_of(&sources[0]).expect("a language");
+            let options = Options {
+                correct_joint_targets: joints,
+                ..given()
+            };
+            compensate(language, &sources, &profile, &options).expect("read")
+        };
+        let refused = run(true, false);
+        assert_eq!(errors(&refused), ["target-in-context"], "{name}");
+        let said = message(&refused, "target-in-context");
+        assert!(said.contains(&format!("{context} line 2")), "{said}");
+        // they stay anyway, or their file is written too
+        assert_eq!(errors(&run(false, false)), [""; 0], "{name}");
+        let corrected = run(true, true);
+        assert_eq!(errors(&corrected), [""; 0], "{name}");
+        assert_eq!(corrected.summary.compensated, 1, "{name}");
+    }
 }

@@ -71,6 +71,7 @@ pub fn refine(
         .into_par_iter()
         .map(|index| job.refine_move(index))
         .collect();
+    let at_unknown_points = job.off_at_unknown_points(&changes);
     let changes = job.one_each(changes);
     let refusals: Vec<Option<Finding>> = changes
         .iter()
@@ -84,6 +85,7 @@ pub fn refine(
             Some(job.failed(motion, change.whole_m, &why))
         })
         .collect();
+    compensation.findings.extend(at_unknown_points);
     for file in 0..subject.sources.len() {
         let (mut insertions, mut refused) = (Vec::new(), Vec::new());
         let of_file = changes.iter().zip(&refusals);

@@ -171,11 +171,11 @@ impl Walk {
         let mut findings = std::mem::take(&mut program.findings);
         let plates = &subject.scene.plates;
         external::settle(
-            language,
+            (language, &settings),
             &mut program,
             sources,
             (profile, plates),
-            &options.start_external,
+            (&options.given, &options.start_external),
             &mut findings,
         );
         let has_numbers = |program: &Program, motion: &Move| {

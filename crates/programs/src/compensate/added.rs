@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 impl Compensation {
     /// Puts moves and targets into a file, in the place of what was to be changed there; for each
     /// insertion whether its move can be written so. A move that was given a target of its own
-    /// before keeps it.
+    /// before keeps it, but for the point on the way of an arc that passes through other points now.
     pub fn insert(
         &mut self,
         language: &dyn Language,
@@ -36,7 +36,8 @@ impl Compensation {
         }
         // what cannot be written goes back to what was there before, if anything
         let (spans, elsewhere) = loop {
-            let list: Vec<Insertion> = wanted.values().cloned().collect();
+            let passed = |one: &&Insertion| !is_passed_elsewhere(program, &wanted, one);
+            let list: Vec<Insertion> = wanted.values().filter(passed).cloned().collect();
             let text = language.insert(&Insertions {
                 sources,
                 program,
@@ -61,6 +62,12 @@ impl Compensation {
                 wanted.extend(earlier.map(|earlier| (motion, earlier.clone())));
             }
         };
+        let gone: Vec<usize> = wanted
+            .values()
+            .filter(|one| is_passed_elsewhere(program, &wanted, one))
+            .map(|one| one.motion)
+            .collect();
+        wanted.retain(|motion, _| !gone.contains(motion));
         let is_done = |one: &Insertion| {
             let written = wanted.get(&one.motion);
             written.is_some_and(|written| written.between == one.between)
@@ -180,4 +187,17 @@ impl Compensation {
             self.added.targets.push(numbers);
         }
     }
+}
+
+/// Whether a target of its own for the point on the way of an arc is needed no more: the arc's parts
+/// pass through other points.
+fn is_passed_elsewhere(
+    program: &Program,
+    wanted: &BTreeMap<usize, Insertion>,
+    one: &Insertion,
+) -> bool {
+    let via = &program.moves[one.motion];
+    let mut arcs = wanted.values().filter(|other| other.is_arc());
+    via.motion == Motion::ArcVia
+        && arcs.any(|arc| program.moves[arc.motion].instruction == via.instruction + 1)
 }

@@ -201,8 +201,8 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
     sort(&mut approaches);
     if !job.options.split_targets {
         drop_same(job, &mut approaches);
-        drop_served(job, arrivals, &mut approaches, findings);
     }
+    drop_served(job, arrivals, &mut approaches, findings);
     approaches
 }
 
@@ -248,8 +248,9 @@ fn drop_same(job: &Job, approaches: &mut Vec<Approach>) {
     approaches.truncate(kept);
 }
 
-/// Leaves out approaches from a point that only the running program knows, so that nobody knows
-/// from which side joints come, where the numbers of another approach serve them.
+/// Leaves out approaches of which nobody knows from which side some joints come, from where a program
+/// starts or from a point that only the running program knows, where the numbers of another approach
+/// serve them. A target that is written out at each move is served by those of its line.
 fn drop_served(
     job: &Job,
     arrivals: &Arrivals,
@@ -261,38 +262,50 @@ fn drop_served(
     }
     let all = approaches.clone();
     approaches.retain(|approach| {
-        if !begins_unknown(job, arrivals, approach) {
+        if !solve::has_unknown_side(job, approach) {
             return true;
         }
         let first = all.partition_point(|other| other.target < approach.target);
         let of_target = all[first..]
             .iter()
             .take_while(|other| other.target == approach.target);
-        let Some(other) = of_target.into_iter().find(|o| serves(job, o, approach)) else {
+        let mut of_line = of_target.filter(|other| {
+            !job.options.split_targets || instruction(job, other) == instruction(job, approach)
+        });
+        let other = of_line.find(|other| serves(job, other, approach));
+        let Some(other) = other.filter(|_| begins_unknown(job, arrivals, approach)) else {
             return true;
         };
-        findings.push(solve::unknown_side(job, arrivals, approach, Some(other)));
+        let found = solve::unknown_side(job, arrivals, approach, Some(other));
+        if findings.last() != Some(&found) {
+            findings.push(found);
+        }
         false
     });
 }
 
-/// Whether nobody knows from which side a joint with backlash comes, since it comes from a point
-/// that only the running program knows.
+/// Whether the robot comes from where a program starts, or from a point that only the running program
+/// knows.
 fn begins_unknown(job: &Job, arrivals: &Arrivals, approach: &Approach) -> bool {
-    solve::has_unknown_side(job, approach)
-        && arrivals
-            .unknown_before(job.ground.program, approach.arrival)
-            .is_some()
+    let (program, at) = (job.ground.program, approach.arrival);
+    arrivals.unknown_before(program, at).is_some() || arrivals.is_from_start(program, at)
 }
 
-/// Whether an approach whose sides are known goes as another one does, as far as anybody knows.
+/// The move of the text that an approach is of.
+pub(super) fn instruction(job: &Job, approach: &Approach) -> Option<u32> {
+    let motion = job.ground.program.moves.get(approach.motion as usize);
+    motion.map(|motion| motion.instruction)
+}
+
+/// Whether an approach goes as another one of which less is known, as far as anybody knows.
 fn serves(job: &Job, known: &Approach, other: &Approach) -> bool {
     let has_backlash = job.ground.arm_with(known.tool as usize).has_backlash;
-    let agrees = |i: usize| {
-        let (known, other) = (known.direction[i], other.direction[i]);
-        known != 0 && (other == 0 || other == known)
-    };
-    has_same_posture(job, known, other) && (0..6).all(|i| !has_backlash[i] || agrees(i))
+    let sides = (0..6).filter(|i| has_backlash[*i]);
+    let mut sides = sides.map(|i| (known.direction[i], other.direction[i]));
+    let knows_more = sides.clone().any(|(known, other)| known != 0 && other == 0);
+    knows_more
+        && sides.all(|(known, other)| other == 0 || other == known)
+        && has_same_posture(job, known, other)
 }
 
 /// Whether two approaches of one target ask for the same numbers.

@@ -4,8 +4,14 @@ use crate::finding::{Finding, Severity};
 use crate::program::{Program, Shape, Source};
 use std::collections::HashSet;
 
-/// Leaves the targets of such files; a move of another file that goes to one is refused.
-pub(super) fn leave(program: &mut Program, sources: &[Source], findings: &mut Vec<Finding>) {
+/// Leaves the targets of such files; a move of another file that goes to one is refused, to a joint
+/// target where these are corrected too.
+pub(super) fn leave(
+    program: &mut Program,
+    sources: &[Source],
+    joints: bool,
+    findings: &mut Vec<Finding>,
+) {
     if !sources.iter().any(|source| source.is_context) {
         return;
     }
@@ -16,7 +22,8 @@ pub(super) fn leave(program: &mut Program, sources: &[Source], findings: &mut Ve
             continue;
         };
         let declared = &sources[target.file as usize];
-        let stays = !declared.is_context || target.blocked || target.layout.shape == Shape::Joints;
+        let is_uncorrected = target.layout.shape == Shape::Joints && !joints;
+        let stays = !declared.is_context || target.blocked || is_uncorrected;
         if source.is_context || stays || !reported.insert((motion.file, motion.offset)) {
             continue;
         }

@@ -54,16 +54,17 @@ pub(super) fn limit_m(job: &Job) -> f64 {
 
 /// Adds a finding for each move to a displaced target; `fakes` has the fake targets of those that
 /// points are derived from. Of the displacements with which one statement is come to the worst is
-/// reported.
+/// reported. Gives how far off the points may land that only the running program knows, by move.
 pub(super) fn check(
     job: &Job,
     arrivals: &BTreeMap<usize, Vec<Arrival>>,
     approaches: &[Approach],
     fakes: &BTreeMap<usize, Pose>,
     findings: &mut Vec<Finding>,
-) {
+) -> BTreeMap<usize, f64> {
     let ground = &job.ground;
     let mut judged = Judged::default();
+    let mut unknown = BTreeMap::new();
     let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
     let mut of_joints = BTreeSet::new();
     for (&at, arrivals) in arrivals {
@@ -97,6 +98,9 @@ pub(super) fn check(
         let Some(verdict) = base.judge(&motion.displacement, &mut judged) else {
             continue;
         };
+        if !matches!(motion.displacement, Displacement::By(_)) {
+            unknown.insert(at, verdict.off_m);
+        }
         let statement = (motion.file, motion.offset, verdict.id, target);
         let (_, verdicts) = of_statements
             .entry(statement)
@@ -124,6 +128,7 @@ pub(super) fn check(
                 Some(ground.at_use(worst.id, worst.severity, motion, message, hint))
             }),
     );
+    unknown
 }
 
 /// Of a point that is derived from joints which stay as they are: it is a pose all the same, and

@@ -337,18 +337,18 @@ fn with(
         let hint = "a program that calls others is compensated together with them";
         findings.push(source.finding(0, "no-targets", Severity::Warning, message, hint));
     }
-    context::leave(&mut program, sources, &mut findings);
+    let joints = options.correct_joint_targets;
+    context::leave(&mut program, sources, joints, &mut findings);
     external::settle(
-        language,
+        (language, &settings),
         &mut program,
         sources,
         (profile, &[]),
-        &options.start_external,
+        (&options.given, &options.start_external),
         &mut findings,
     );
     setting::check_measured(&program, &options.given)?;
     setting::check_given(language, profile, &[&program], &options.given)?;
-    let joints = options.correct_joint_targets;
     unreached::leave(
         language,
         &mut program,
@@ -453,7 +453,7 @@ fn with(
         needed,
     } = rewrite_all(&job, &approaches, &outcomes, &mut findings);
     limit::advise(&mut findings, &needed);
-    displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
+    let derived_off = displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
     deciding::check(&job, &shifts, &mut findings);
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
@@ -475,6 +475,7 @@ fn with(
         put_in: BTreeMap::new(),
         inserted: BTreeMap::new(),
         own_joints: BTreeMap::new(),
+        derived_off,
         shift_limits,
         meant,
         decided: (options.max_shift.iter())

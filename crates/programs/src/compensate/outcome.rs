@@ -38,6 +38,9 @@ pub struct Compensation {
     pub(super) inserted: BTreeMap<usize, Insertion>,
     /// The controller's joints at targets that moves were given for their own, by move.
     pub(crate) own_joints: BTreeMap<usize, [f64; 6]>,
+    /// How far off the point may land that only the running program knows, by the move to it, metres;
+    /// infinite where nothing bounds it.
+    pub(crate) derived_off: BTreeMap<usize, f64>,
     /// How far targets with each tool may be shifted; none for tools without a target that is.
     pub(crate) shift_limits: Vec<Option<Separation>>,
     /// Configuration data that were written: index in the program's numbers, and the value.

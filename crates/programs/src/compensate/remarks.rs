@@ -6,6 +6,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::inverse::{Outcome, Status};
+use crate::model::Conditions;
 use crate::motion::ground::Ground;
 use crate::program::{Motion, Move, Role, Shape};
 use std::collections::BTreeMap;
@@ -267,14 +268,18 @@ pub(super) fn other_posture(job: &Job, approach: &Approach, outcome: &Outcome) -
         .layout
         .shape
         == Shape::Pose;
-    let only = job
-        .ground
-        .arm_with(approach.tool as usize)
-        .inverse
-        .arm
-        .is_only_posture(&outcome.margins);
-    if !is_pose || only {
+    let equipped = job.ground.arm_with(approach.tool as usize);
+    let arm = &equipped.inverse.arm;
+    if !is_pose || arm.is_only_posture(&outcome.margins) {
         return None;
+    }
+    if arm.passes_axis_4() {
+        let pose = (equipped.controller).forward(&outcome.q, &Conditions::default());
+        let branch = arm.posture(&outcome.q).0;
+        let answers = arm.solve_all(&pose, &outcome.q);
+        if answers.iter().filter(|of| of.branch == branch).count() < 2 {
+            return None;
+        }
     }
     let q: Vec<String> = outcome
         .q
@@ -282,8 +287,8 @@ pub(super) fn other_posture(job: &Job, approach: &Approach, outcome: &Outcome) -
         .map(|q| format!("{:.1}", q / DEG))
         .collect();
     let message = format!(
-        "{} is near a singularity, where this arm can have another posture on the same branch: \
-         joints {} deg are meant",
+        "this arm reaches {}, or a pose near it, in another posture on the same branch, too: joints {} \
+         deg are meant",
         job.ground.name_of(approach.target as usize),
         q.join(", ")
     );

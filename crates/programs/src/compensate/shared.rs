@@ -2,7 +2,7 @@
 
 use super::approach::{Approach, Solved};
 use super::rewrite::largest;
-use super::{Job, differing, displaced};
+use super::{Job, approach, differing, displaced};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::geometry::{Pose, Rotation, Separation, add, scale};
@@ -192,8 +192,7 @@ fn refused(job: &Job, group: &[Solved], mean: &Fake) -> Finding {
 fn is_one_text_unlike(job: &Job, group: &[Solved]) -> bool {
     let mut each: BTreeMap<Option<u32>, Vec<Solved>> = BTreeMap::new();
     for one in group {
-        let motion = job.ground.program.moves.get(one.approach.motion as usize);
-        let instruction = motion.map(|motion| motion.instruction);
+        let instruction = approach::instruction(job, one.approach);
         each.entry(instruction).or_default().push(*one);
     }
     each.values().any(|alone| !best(job, alone).1)

@@ -138,7 +138,11 @@ pub(super) fn unknown_side(
             sides::from_middle_m(equipped, q, &conditions),
         ),
         Some(other) => (
-            format!(" come as in line {}", line_of(other.motion)),
+            if line_of(other.motion) == line_of(approach.motion) {
+                " come as it does at other times".to_owned()
+            } else {
+                format!(" come as in line {}", line_of(other.motion))
+            },
             2.0 * sides::from_middle_m(equipped, q, &conditions),
         ),
     };

@@ -8,8 +8,9 @@
 //! A move with a stand gets a work frame of its own ([`Program::frames`]): what comes behind knows
 //! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
-use super::external_values::{CameFrom, Known, followed, has_backlash, width};
-use super::passed;
+use super::external_values::{CameFrom, Known, directed, followed, has_backlash, width};
+use super::passed::Arcs;
+use super::setting::{Given, Setting};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
@@ -73,11 +74,11 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
 /// limits: of the track, of what carries their work frames, and of the positioners next to the
 /// profile, by index.
 pub(crate) fn settle(
-    language: &dyn Language,
+    (language, settings): (&dyn Language, &Settings),
     program: &mut Program,
     sources: &[Source],
     (profile, positioners): (&Profile, &[usize]),
-    start: &[f64],
+    (given, start): (&Given, &[f64]),
     findings: &mut Vec<Finding>,
 ) {
     program.stands_at_start = start.iter().copied().map(Some).collect();
@@ -86,9 +87,18 @@ pub(crate) fn settle(
         return;
     }
     let own = own_values(language, program, &axes);
-    let (mut values, directions) = followed(program, profile, &own, axes.len());
-    let stands = (&own[..], &mut values[..]);
-    passed::pass_arcs(language, program, sources, &axes, stands, findings);
+    let mut values = followed(program, &own, axes.len());
+    let arcs = Arcs {
+        language,
+        settings,
+        program,
+        sources,
+        profile,
+        setting: Setting::of(language, program, profile, given),
+        axes: &axes,
+    };
+    arcs.pass(&own, &mut values, findings);
+    let directions = directed(program, profile, &values, axes.len());
     let is = |known: &Known| match known {
         Known::Is(value) => Some(*value),
         _ => None,
@@ -328,7 +338,7 @@ impl Settler<'_> {
                     values: stand.as_slice().into(),
                     directions: directions.into(),
                     positioner,
-                    on_base: !own.on.is_empty() && !own.is_carried(),
+                    on_base: own.rides_on_base(),
                     of_joints,
                     from_other_side: other,
                 });
@@ -452,7 +462,7 @@ impl Settler<'_> {
 /// # Errors
 /// The program says that a unit carries it, and the profile does not know the unit: the finding and
 /// why.
-fn carrier(
+pub(super) fn carrier(
     frame: &Frame,
     external: &ExternalAxes,
 ) -> Result<Option<usize>, (&'static str, String)> {

@@ -69,14 +69,8 @@ impl CameFrom {
     }
 }
 
-/// The value of each axis at each move, kept from the moves before where it says nothing itself,
-/// and the direction in which it moves there.
-pub(super) fn followed(
-    program: &Program,
-    profile: &Profile,
-    own: &[Option<f64>],
-    count: usize,
-) -> (Vec<Known>, Vec<CameFrom>) {
+/// The value of each axis at each move, kept from the moves before where it says nothing itself.
+pub(super) fn followed(program: &Program, own: &[Option<f64>], count: usize) -> Vec<Known> {
     let mut values: Vec<Known> = own
         .iter()
         .map(|value| match value {
@@ -94,19 +88,13 @@ pub(super) fn followed(
             }
         }
     }
+    if own.iter().all(Option::is_some) {
+        return values;
+    }
     // and an interrupt's own moves lead them there before any other move
     let led_by: Vec<(&[u32], Vec<Known>)> = (program.interrupts.iter())
         .map(|of| (&*of.moves, led_to(own, &of.moves, count)))
         .collect();
-    let mut directions = vec![CameFrom::Open; values.len()];
-    let directed = has_backlash(&profile.effects, None);
-    let widths: Vec<f64> = (0..count)
-        .map(|axis| width(&profile.effects, axis))
-        .collect();
-    let all_own = own.iter().all(Option::is_some);
-    if all_own && !directed {
-        return (values, directions);
-    }
     // what is open becomes known, and what is known unknown: this ends
     let mut changed = true;
     while changed {
@@ -115,39 +103,80 @@ pub(super) fn followed(
             let is_own = |of: &[u32]| of.binary_search(&short(at)).is_ok();
             for k in 0..count {
                 let here = at * count + k;
-                let (mut value, mut direction) = (Known::Open, CameFrom::Open);
+                if own[here].is_some() {
+                    continue;
+                }
+                let mut value = Known::Open;
                 for (_, to) in led_by.iter().filter(|(of, _)| !is_own(of)) {
                     value = value.and(to[k]);
                 }
                 for before in program.before(motion) {
-                    let (from, moved) = match before {
-                        Before::One(before) => {
-                            let from = *before as usize * count + k;
-                            (values[from], directions[from])
-                        }
-                        Before::Start => match program.stands_at_start.get(k) {
-                            Some(Some(start)) => (Known::Is(*start), CameFrom::Unknown),
-                            _ => (Known::Unknown, CameFrom::Unknown),
-                        },
-                        Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => {
-                            (Known::Unknown, CameFrom::Unknown)
-                        }
-                    };
-                    value = value.and(from);
-                    direction = direction.and(moved.then(from, values[here], widths[k]));
+                    value = value.and(from_of(program, &values, before, (k, count)));
                 }
-                if own[here].is_none() && values[here] != values[here].and(value) {
+                if values[here] != values[here].and(value) {
                     values[here] = values[here].and(value);
                     changed = true;
                 }
-                if directed && directions[here] != directions[here].and(direction) {
+            }
+        }
+    }
+    values
+}
+
+/// From where each axis comes to its value at each move.
+pub(super) fn directed(
+    program: &Program,
+    profile: &Profile,
+    values: &[Known],
+    count: usize,
+) -> Vec<CameFrom> {
+    let mut directions = vec![CameFrom::Open; values.len()];
+    if !has_backlash(&profile.effects, None) {
+        return directions;
+    }
+    let widths: Vec<f64> = (0..count)
+        .map(|axis| width(&profile.effects, axis))
+        .collect();
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for (at, motion) in program.moves.iter().enumerate() {
+            for k in 0..count {
+                let here = at * count + k;
+                let mut direction = CameFrom::Open;
+                for before in program.before(motion) {
+                    let moved = match before {
+                        Before::One(before) => directions[*before as usize * count + k],
+                        _ => CameFrom::Unknown,
+                    };
+                    let from = from_of(program, values, before, (k, count));
+                    direction = direction.and(moved.then(from, values[here], widths[k]));
+                }
+                if directions[here] != directions[here].and(direction) {
                     directions[here] = directions[here].and(direction);
                     changed = true;
                 }
             }
         }
     }
-    (values, directions)
+    directions
+}
+
+/// The value of an axis where a move begins behind another one.
+fn from_of(
+    program: &Program,
+    values: &[Known],
+    before: &Before,
+    (axis, count): (usize, usize),
+) -> Known {
+    match before {
+        Before::One(before) => values[*before as usize * count + axis],
+        Before::Start => match program.stands_at_start.get(axis) {
+            Some(Some(start)) => Known::Is(*start),
+            _ => Known::Unknown,
+        },
+        Before::Anywhere | Before::Several(_) | Before::AnyOf { .. } => Known::Unknown,
+    }
 }
 
 /// Where moves lead each axis; open where none of them does.

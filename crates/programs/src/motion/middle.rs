@@ -7,6 +7,7 @@
 use super::arms::Equipped;
 use super::course::{ToolCourse, ToolRotation};
 use super::ground::Ground;
+use super::passed;
 use super::ride::Ride;
 use super::walk::{Arrival, WalkOptions};
 use crate::finding::{Finding, Severity};
@@ -43,22 +44,39 @@ pub(super) fn middle(
         return None;
     }
     let ends: Vec<_> = ends_of(ground, at).collect();
-    let (_, end, _) = *ends.first().filter(|(.., moves_axes)| !moves_axes)?;
     let equipped = ground.equipped(motion.tool)?;
     let from = start_pose(ground, equipped, start, walk_options);
-    let to = |end: &Pose| ToolCourse::arc(&from, wanted.translation, end, walk_options.turning);
-    let course = to(&end);
-    let there = rotation_on(&course, wanted);
-    let others = ends[1..].iter().map(|(_, other, _)| {
-        let rotation = rotation_on(&to(other), wanted);
-        (there.transpose() * rotation).angle()
+    let of = |(end_at, end, _): &(usize, Pose, bool)| {
+        let ride = ground.ride(Some(start.motion), &ground.program.moves[*end_at]);
+        let ride = ride.filter(|ride| ride.moves());
+        let on_part = |ride: &Ride, s: f64, pose: &Pose| ride.home_from_part(s).inverse() * *pose;
+        let point = ground.ride(None, motion);
+        let [from, via, end] = match ride.zip(point) {
+            // it is an arc on the part
+            Some((ride, point)) => [
+                on_part(&ride, 0.0, &from),
+                on_part(&point, 1.0, wanted),
+                on_part(&ride, 1.0, end),
+            ],
+            None => [from, *wanted, *end],
+        };
+        let course = ToolCourse::arc(&from, via.translation, &end, walk_options.turning);
+        (course, via, end)
+    };
+    let (course, via, end) = of(ends.first()?);
+    let there = rotation_on(&course, &via);
+    // as seen from the point: parts differ
+    let middle = via.rotation.transpose() * there;
+    let others = ends[1..].iter().map(|other| {
+        let (course, via, _) = of(other);
+        let other = via.rotation.transpose() * rotation_on(&course, &via);
+        (middle.transpose() * other).angle()
     });
     let apart = others.fold(0.0, f64::max);
     if apart > SAME_RAD && !ground.language.turns_through_middle() {
         findings.push(ends_otherwise(ground, motion, apart));
     }
-    let middle = wanted.rotation.transpose() * there;
-    if let Some(angle) = other_way(ground, &course, &end, wanted, &there) {
+    if let Some(angle) = other_way(ground, &course, &end, &via, &there) {
         findings.push(turns_otherwise(ground, motion, angle));
     }
     if ground.language.turns_through_middle() {
@@ -156,28 +174,17 @@ fn start_pose(
 /// The moves that end the arc through the point of a move, where they end, and whether external axes
 /// move on them: several where a routine is called with several. None where nobody knows.
 fn ends_of(ground: &Ground, at: usize) -> impl Iterator<Item = (usize, Pose, bool)> {
-    let program = ground.program;
-    let via = &program.moves[at];
-    // moves of one statement follow each other, once for each state in which the robot comes there
-    let behind = (at + 1..).zip(&program.moves[at + 1..]);
-    let mut behind = behind
-        .skip_while(|(_, of)| of.instruction == via.instruction)
-        .peekable();
-    let last = behind.peek().map(|(_, of)| of.instruction);
-    let ends = behind.take_while(move |(_, of)| Some(of.instruction) == last);
-    ends.filter_map(move |(end_at, end)| {
-        let (pose, moves_axes) = end_of(ground, at, end)?;
+    passed::ends_of(ground.program, at).filter_map(move |end_at| {
+        let (pose, moves_axes) = end_of(ground, at, &ground.program.moves[end_at])?;
         Some((end_at, pose, moves_axes))
     })
 }
 
 /// Where the arc through the point of a move ends with another one, and whether external axes move on
-/// it; `None` where nobody knows, or where it is no end of it.
+/// it; `None` where nobody knows.
 fn end_of(ground: &Ground, at: usize, end: &Move) -> Option<(Pose, bool)> {
     let program = ground.program;
-    let via = crate::program::script::short(at);
-    let is_arc = end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(via));
-    end.target.filter(|_| is_arc)?;
+    end.target?;
     ground.equipped(end.tool)?;
     let frame = ground.frame_of(end);
     if ground.setting.frames[frame].is_none() || ground.is_adrift(end) {

@@ -1,118 +1,258 @@
 //! Where external axes stand when the robot passes the point of an arc.
 //!
 //! They go evenly from the beginning of the arc to its end; the values that are written for the
-//! point are not looked at.
+//! point are not looked at. The arc begins where the move before ends, seen with its own tool in its
+//! own work frame.
 //!
 //! # Source
 //! ABB, Technical reference manual RAPID Instructions, `MoveC`: the external axes of the circle
 //! point are not used. KUKA, `CIRC`: only the position of the auxiliary point counts.
 
 use super::course::{ToolCourse, ToolRotation};
+use super::external::carrier;
 use super::external_values::Known;
+use super::placed::Placed;
+use super::setting::Setting;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Vector};
+use crate::model::Conditions;
 use crate::model::external::Listed;
-use crate::program::{Before, Displacement, Language, Motion, Move, Program, Role, Shape, Source};
+use crate::profile::Profile;
+use crate::program::{
+    Before, Displacement, FrameId, Language, Motion, Program, Settings, Source, Stand, Value,
+};
 
 /// Values that differ by less are the same: metres, and radians.
 const SAME_M: f64 = 1e-3;
 const SAME_RAD: f64 = 0.1 * DEG;
 
-/// Puts the values with which arcs pass their points in the place of those that are written, or kept
-/// where nothing is.
-pub(super) fn pass_arcs(
-    language: &dyn Language,
-    program: &Program,
-    sources: &[Source],
-    axes: &[Listed],
-    (own, values): (&[Option<f64>], &mut [Known]),
-    findings: &mut Vec<Finding>,
-) {
-    let only_before = |motion: &Move| match program.before(motion) {
-        [Before::One(before)] => Some(*before as usize),
-        _ => None,
-    };
-    for (end, motion) in program.moves.iter().enumerate() {
-        let via = only_before(motion).filter(|_| motion.motion == Motion::ArcEnd);
-        let via = via.filter(|via| program.moves[*via].motion == Motion::ArcVia);
-        let arc = via.and_then(|via| Some([only_before(&program.moves[via])?, via, end]));
-        let Some(part) = arc.and_then(|arc| part_at(language, program, arc)) else {
-            continue;
-        };
-        let [start, via, end] = arc.expect("an arc has a part");
-        let mut is_reported = false;
-        for (k, axis) in axes.iter().enumerate() {
-            let at = |motion: usize| motion * axes.len() + k;
-            let (Known::Is(from), Known::Is(to)) = (values[at(start)], values[at(end)]) else {
-                continue;
-            };
-            let passed = from + part * (to - from);
-            let written = std::mem::replace(&mut values[at(via)], Known::Is(passed));
-            let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
-            match written {
-                Known::Is(written)
-                    if own[at(via)].is_some()
-                        && (written - passed).abs() > same
-                        && !is_reported =>
-                {
+/// An arc through a point: the moves where it begins and ends, and the part of it at the point.
+struct Arc {
+    start: usize,
+    end: usize,
+    part: f64,
+}
+
+/// The arcs of a program.
+pub(super) struct Arcs<'a> {
+    pub language: &'a dyn Language,
+    pub settings: &'a Settings,
+    pub program: &'a Program,
+    pub sources: &'a [Source],
+    pub profile: &'a Profile,
+    pub setting: Setting,
+    pub axes: &'a [Listed<'a>],
+}
+
+impl Arcs<'_> {
+    /// Puts the values with which arcs pass their points in the place of those that are written, or
+    /// kept where nothing is.
+    pub(super) fn pass(
+        &self,
+        own: &[Option<f64>],
+        values: &mut [Known],
+        findings: &mut Vec<Finding>,
+    ) {
+        let count = self.axes.len();
+        for via in 0..self.program.moves.len() {
+            let arcs = self.through(via, values);
+            let mut is_reported = false;
+            for (k, axis) in self.axes.iter().enumerate() {
+                let value = |at: usize| match values[at * count + k] {
+                    Known::Is(value) => Some(value),
+                    _ => None,
+                };
+                let passed = arcs.iter().filter_map(|arc| {
+                    let (from, to) = (value(arc.start)?, value(arc.end)?);
+                    Some(from + arc.part * (to - from))
+                });
+                let passed: Vec<f64> = passed.collect();
+                let Some(&first) = passed.first() else {
+                    continue;
+                };
+                let here = via * count + k;
+                let written = own[here].and(value(via));
+                values[here] = Known::Is(first);
+                let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
+                let differs = |other: &f64| (other - first).abs() > same;
+                let finding = match written.filter(differs) {
+                    Some(written) => Some(self.elsewhere(via, axis, [written, first])),
+                    None => (passed.iter().copied().find(differs))
+                        .map(|other| self.several(via, axis, [first, other])),
+                };
+                if let Some(finding) = finding.filter(|_| !is_reported) {
                     is_reported = true;
-                    let motion = &program.moves[via];
-                    findings.push(elsewhere(motion, sources, axis, [written, passed]));
+                    findings.push(finding);
                 }
-                _ => {}
             }
         }
     }
-}
 
-/// The part of an arc at the point on its way; `None` where its three points are not written in one
-/// frame for one tool.
-fn part_at(language: &dyn Language, program: &Program, arc: [usize; 3]) -> Option<f64> {
-    let position = |at: usize| -> Option<Vector> {
-        let motion = &program.moves[at];
-        let target = program.target_of(motion)?;
-        let is_plain =
-            target.layout.shape == Shape::Pose && motion.displacement == Displacement::None;
-        let roles = language.roles(target.layout).iter();
-        let numbers = program.numbers_of(target).iter().zip(roles);
-        let mut of = numbers.filter(|(_, role)| **role == Role::Position);
-        let mut next = || of.next().map(|(number, _)| number.value);
-        is_plain.then_some([next()?, next()?, next()?])
-    };
-    let [start, via, end] = arc.map(|at| &program.moves[at]);
-    let is_alike = |other: &Move| (other.frame, other.tool) == (via.frame, via.tool);
-    if !is_alike(start) || !is_alike(end) {
-        return None;
+    /// The arcs through the point of a move, as far as they are known: several where a routine is
+    /// called several times.
+    fn through(&self, via: usize, values: &[Known]) -> Vec<Arc> {
+        let motion = &self.program.moves[via];
+        if motion.motion != Motion::ArcVia {
+            return Vec::new();
+        }
+        let starts = self.program.before(motion).iter();
+        let starts = starts.filter_map(|before| match before {
+            Before::One(start) => Some(*start as usize),
+            _ => None,
+        });
+        let ends = || ends_of(self.program, via);
+        let arcs = starts.flat_map(|start| ends().map(move |end| (start, end)));
+        arcs.filter_map(|(start, end)| {
+            let part = self.part_at([start, via, end], values)?;
+            Some(Arc { start, end, part })
+        })
+        .collect()
     }
-    let [start, via, end] = arc.map(position);
-    let at = |translation: Vector| Pose {
-        translation,
-        ..Pose::identity()
-    };
-    let course = ToolCourse::arc(&at(start?), via?, &at(end?), ToolRotation::Slerp);
-    Some(course.part_at(via?))
+
+    /// The part of an arc at the point on its way; `None` where one of its three points is not known.
+    fn part_at(&self, [start, via, end]: [usize; 3], values: &[Known]) -> Option<f64> {
+        let [point, last] = [via, end].map(|at| &self.program.moves[at]);
+        if (point.frame, point.tool) != (last.frame, last.tool) {
+            return None;
+        }
+        let from = self.start_of(start, via, values)?;
+        let [via, end] = [via, end].map(|at| match self.value(at) {
+            Some(Value::Pose(pose)) => Some(pose.translation),
+            _ => None,
+        });
+        let at = |translation: Vector| Pose {
+            translation,
+            ..Pose::identity()
+        };
+        let course = ToolCourse::arc(&at(from), via?, &at(end?), ToolRotation::Slerp);
+        Some(course.part_at(via?)).filter(|part| part.is_finite())
+    }
+
+    /// Where an arc begins in its own work frame: its own tool where the move before ends.
+    fn start_of(&self, start: usize, via: usize, values: &[Known]) -> Option<Vector> {
+        let value = self.value(start)?;
+        let [start_move, arc] = [start, via].map(|at| &self.program.moves[at]);
+        if let Value::Pose(pose) = &value
+            && (start_move.frame, start_move.tool) == (arc.frame, arc.tool)
+        {
+            return Some(pose.translation);
+        }
+        let count = self.axes.len();
+        let values = &values[start * count..(start + 1) * count];
+        let tool = self.setting.tools[arc.tool].as_ref()?;
+        let home_from_tool = match value {
+            Value::Joints(q) => {
+                let controller = self.profile.controller_model(tool);
+                controller.forward(&q, &Conditions::default())
+            }
+            Value::Pose(pose) => {
+                let before = self.setting.tools[start_move.tool].as_ref()?;
+                let home_from_flange = self.home_from_frame(start_move.frame, values)?
+                    * pose
+                    * before.flange_from_tool.inverse();
+                home_from_flange * tool.flange_from_tool
+            }
+        };
+        let from = self.home_from_frame(arc.frame, values)?.inverse() * home_from_tool;
+        Some(from.translation)
+    }
+
+    /// What the target of a move means, displaced as the text says; `None` where only the running
+    /// program knows.
+    fn value(&self, at: usize) -> Option<Value> {
+        let motion = &self.program.moves[at];
+        let target = motion.target?;
+        let value = crate::program::value(self.language, self.program, self.settings, target)?;
+        match (value, &motion.displacement) {
+            (value, Displacement::None) => Some(value),
+            (Value::Pose(pose), Displacement::By(shift)) => Some(Value::Pose(shift.apply(&pose))),
+            _ => None,
+        }
+    }
+
+    /// A work frame as the controller's arm at home sees it, with external axes at these values.
+    fn home_from_frame(&self, of: FrameId, values: &[Known]) -> Option<Pose> {
+        let frame = &self.program.frames[of];
+        let world_from_frame = self.setting.frames[of].as_ref()?.nominal;
+        let value = |known: &Known| match known {
+            Known::Is(value) => *value,
+            _ => f64::NAN,
+        };
+        let stand = Stand {
+            values: values.iter().map(value).collect(),
+            directions: values.iter().map(|_| 0.0).collect(),
+            positioner: carrier(frame, &self.profile.external).ok()?,
+            on_base: frame.rides_on_base(),
+            of_joints: false,
+            from_other_side: None,
+        };
+        Some(Placed::at(self.profile, &stand, world_from_frame).nominal)
+    }
+
+    /// That the point of an arc is written for other values than those with which the robot passes
+    /// it.
+    fn elsewhere(&self, via: usize, axis: &Listed, values: [f64; 2]) -> Finding {
+        let [written, passed] = values.map(|value| shown(axis, value));
+        let message = format!(
+            "the point of this arc is written for external axis {} at {written}, and the robot \
+             passes it at {passed} if the axis goes evenly from the beginning of the arc to its \
+             end: it is taken to be there",
+            axis.name()
+        );
+        self.finding(
+            via,
+            message,
+            "write the value with which the robot passes the point",
+        )
+    }
+
+    /// That the robot passes the point of an arc with several values.
+    fn several(&self, via: usize, axis: &Listed, values: [f64; 2]) -> Finding {
+        let [first, other] = values.map(|value| shown(axis, value));
+        let message = format!(
+            "this arc begins or ends at several places: the robot passes its point with external \
+             axis {} at {first}, and on another way at {other}: the point is corrected for the \
+             first",
+            axis.name()
+        );
+        self.finding(
+            via,
+            message,
+            "write the arc out for each way, with a point of its own",
+        )
+    }
+
+    fn finding(&self, via: usize, message: String, hint: &str) -> Finding {
+        let motion = &self.program.moves[via];
+        let source = &self.sources[motion.file as usize];
+        let (id, severity) = ("arc-external", Severity::Warning);
+        source.finding(motion.offset as usize, id, severity, message, hint)
+    }
 }
 
-/// That the point of an arc is written for other values than those with which the robot passes it.
-fn elsewhere(motion: &Move, sources: &[Source], axis: &Listed, values: [f64; 2]) -> Finding {
-    let unit = if axis.is_linear() { "mm" } else { "deg" };
-    let [written, passed] = values.map(|value| {
-        let value = if axis.is_linear() {
-            mm_from_m(value)
-        } else {
-            value / DEG
-        };
-        (value * 1e3).round() / 1e3
-    });
-    let message = format!(
-        "the point of this arc is written for external axis {} at {written} {unit}, and the robot \
-         passes it at {passed} {unit} if the axis goes evenly from the beginning of the arc to its \
-         end: it is taken to be there",
-        axis.name()
-    );
-    let hint = "write the value with which the robot passes the point";
-    let source = &sources[motion.file as usize];
-    let (id, severity) = ("arc-external", Severity::Warning);
-    source.finding(motion.offset as usize, id, severity, message, hint)
+/// The moves that end the arc through the point of a move.
+pub(super) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usize> {
+    let moves = &program.moves;
+    // moves of one statement follow each other, once for each state in which the robot comes there
+    let mut behind = (via + 1..moves.len())
+        .skip_while(move |at| moves[*at].instruction == moves[via].instruction)
+        .peekable();
+    let last = behind.peek().map(|at| moves[*at].instruction);
+    let ends = behind.take_while(move |at| Some(moves[*at].instruction) == last);
+    let this = crate::program::script::short(via);
+    ends.filter(move |at| {
+        let end = &moves[*at];
+        end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(this))
+    })
+}
+
+/// A value as programs write it.
+fn shown(axis: &Listed, value: f64) -> String {
+    let (value, unit) = if axis.is_linear() {
+        (mm_from_m(value), "mm")
+    } else {
+        (value / DEG, "deg")
+    };
+    format!("{} {unit}", (value * 1e3).round() / 1e3)
 }

@@ -73,7 +73,10 @@ fn starts(script: &Script, entries: &[RoutineId]) -> Vec<From> {
             let range = &script.routines[routine as usize].statements;
             for statement in &script.statements[range.start as usize..range.end as usize] {
                 if let Statement::Call(call) = statement {
-                    open.extend_from_slice(&script.calls[*call as usize].callees);
+                    let call = &script.calls[*call as usize];
+                    if !call.writes_only {
+                        open.extend_from_slice(&call.callees);
+                    }
                 }
             }
         }

@@ -127,6 +127,19 @@ impl Arrivals {
         None
     }
 
+    /// Whether an arrival goes back, by moves whose ends are known, to where a program starts.
+    pub(crate) fn is_from_start(&self, program: &Program, arrival: u32) -> bool {
+        let mut at = self.all.get(arrival as usize);
+        while let Some(arrival) = at.filter(|arrival| arrival.known) {
+            if arrival.from == NOWHERE {
+                let motion = &program.moves[arrival.motion as usize];
+                return program.before(motion).contains(&Before::Start);
+            }
+            at = self.all.get(arrival.from as usize);
+        }
+        false
+    }
+
     /// The joints in which the robot stood last, as far as that is known, else those of the move
     /// that was looked at last: from a position that only the running program knows it most likely
     /// goes on in the same posture.

@@ -65,6 +65,12 @@ impl Frame {
     pub fn is_carried(&self) -> bool {
         self.on.first().is_some_and(|unit| **unit != *BASE_UNIT)
     }
+
+    /// Whether the robot's own base carries it.
+    #[must_use]
+    pub fn rides_on_base(&self) -> bool {
+        !self.on.is_empty() && !self.is_carried()
+    }
 }
 
 /// Where external axes stand at a move.

@@ -138,6 +138,13 @@ fn shown(bytes: &[u8], start: usize, end: usize) -> String {
     }
 }
 
+/// Whether a file's name ends so, in letters of any case.
+pub(super) fn ends_with(name: &str, end: &str) -> bool {
+    let at = name.len().checked_sub(end.len());
+    let tail = at.and_then(|at| name.get(at..));
+    tail.is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+}
+
 /// A file that has nothing of the language that it is read as.
 pub(super) fn not_this_language(about: &'static About, source: &Source) -> ReadError {
     ReadError::NotThisLanguage {
@@ -217,7 +224,7 @@ pub(super) const fn load_chosen(id: &'static str, hint: &'static str) -> Remark 
 }
 
 /// Where a profile may have the base of an arm whose controller counts positions from there.
-const MOST_BASE_GAP_M: f64 = 0.1 * MM;
+pub(super) const MOST_BASE_GAP_M: f64 = 0.1 * MM;
 const MOST_BASE_TURN_RAD: f64 = 0.01 * DEG;
 
 /// Refuses a profile that has the base elsewhere than at the origin, where the controller counts

@@ -46,6 +46,19 @@ pub trait Language: Sync {
     /// tell).
     fn recognises(&self, source: &Source) -> bool;
 
+    /// Whether a file whose name ends as programs of this language do is one: also one that has nothing
+    /// of this language alone, such as a function that moves nothing.
+    fn accepts(&self, source: &Source) -> bool {
+        self.recognises(source)
+    }
+
+    /// Whether a file may be one of another controller's own: its name ends as files of others do, too,
+    /// and nothing in it is of this language.
+    fn may_be_foreign(&self, source: &Source) -> bool {
+        let _ = source;
+        false
+    }
+
     /// Translates program files that belong together into statements: data in one may be used in
     /// another. The files are texts of at most 4 GiB.
     ///
@@ -92,7 +105,7 @@ pub trait Language: Sync {
     }
 
     /// Whether a file of this name is a record of the controller that ends as programs do: a log in a
-    /// backup.
+    /// backup, conditions that no target depends on.
     fn is_record(&self, file: &str) -> bool {
         let _ = file;
         false

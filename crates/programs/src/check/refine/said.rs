@@ -1,11 +1,14 @@
 //! What is said of moves between whose targets none can be put, or where the robot stops then.
 
-use super::{Job, TAKEN_UP};
+use super::{Change, Job, TAKEN_UP};
 use crate::check::Subject;
 use crate::check::walk::Walk;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
-use crate::program::{Insertion, Move};
+use crate::program::{Before, Insertion, Motion, Move};
+use std::collections::BTreeMap;
+
+const KEPT: &str = "path-from-kept-target";
 
 /// What is said of a file where moves that end in an exact stop were repeated: the robot stops at
 /// each of the new targets.
@@ -44,21 +47,74 @@ pub(super) fn stops<'a>(
 impl Job<'_> {
     /// No targets between help where a target itself is off.
     pub(super) fn off_at_an_end(&self, motion: &Move, ends_m: f64) -> Finding {
+        self.kept_at_an_end(motion, &format!("{:.3} mm", mm_from_m(ends_m)))
+    }
+
+    fn kept_at_an_end(&self, motion: &Move, how_far: &str) -> Finding {
         let message = format!(
-            "this move begins or ends {:.3} mm off its wanted path (limit {:.3} mm), at a target \
+            "this move begins or ends {how_far} off its wanted path (limit {:.3} mm), at a target \
              that stays as it is or is off itself: no targets are inserted",
-            mm_from_m(ends_m),
             mm_from_m(self.limit_m)
         );
         let hint = "--joint-targets correct shifts joint targets, too; give a point that is \
             derived from another a target of its own";
-        self.subject.finding(
-            motion,
-            "path-from-kept-target",
-            Severity::Warning,
-            message,
-            hint,
-        )
+        self.subject
+            .finding(motion, KEPT, Severity::Warning, message, hint)
+    }
+
+    /// Likewise where a move begins or ends at a point that only the running program knows: once for
+    /// each move of the text, unless one of the changes says so already.
+    pub(super) fn off_at_unknown_points(&self, changes: &[Option<Change>]) -> Vec<Finding> {
+        let derived_off = &self.compensation.derived_off;
+        if derived_off.is_empty() {
+            return Vec::new();
+        }
+        let program = &self.walk.program;
+        let off_m = |at: usize| derived_off.get(&at).copied().unwrap_or(0.0);
+        let off_before_m = |before: &Before| match *before {
+            Before::One(at) => off_m(at as usize),
+            Before::AnyOf { first, end } => {
+                let all = derived_off.range(first as usize..end as usize);
+                all.map(|(_, off_m)| *off_m).fold(0.0, f64::max)
+            }
+            Before::Start | Before::Anywhere | Before::Several(_) => 0.0,
+        };
+        let begins_m = |motion: &Move| {
+            let before = program.before(motion).iter();
+            before.map(off_before_m).fold(0.0, f64::max)
+        };
+        let mut worst: BTreeMap<u32, (f64, &Move)> = BTreeMap::new();
+        for (at, motion) in program.moves.iter().enumerate() {
+            // an arc begins where the point on its way is gone to from
+            let first = match (motion.motion, at.checked_sub(1)) {
+                (Motion::ArcVia, _) => continue,
+                (Motion::ArcEnd, Some(via)) if program.moves[via].motion == Motion::ArcVia => {
+                    &program.moves[via]
+                }
+                _ => motion,
+            };
+            let ends_m = off_m(at).max(begins_m(first));
+            let known = worst.entry(motion.instruction).or_insert((0.0, motion));
+            if ends_m > known.0 {
+                *known = (ends_m, motion);
+            }
+        }
+        for (stop, change) in changes.iter().enumerate() {
+            let finding = change.as_ref().and_then(|change| change.finding.as_ref());
+            if finding.is_some_and(|finding| finding.id == KEPT) {
+                worst.remove(&self.walk.motion(stop).instruction);
+            }
+        }
+        let worst = worst.into_values().filter(|of| of.0 > self.limit_m);
+        worst
+            .map(|(ends_m, motion)| {
+                if ends_m.is_finite() {
+                    self.kept_at_an_end(motion, &format!("up to {:.3} mm", mm_from_m(ends_m)))
+                } else {
+                    self.kept_at_an_end(motion, "by what the text does not bound")
+                }
+            })
+            .collect()
     }
 
     /// Joints with backlash reverse where a move begins.

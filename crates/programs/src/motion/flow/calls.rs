@@ -5,6 +5,7 @@ use crate::motion::before::ANYWHERE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{Call, Expr, How, RoutineId, Statement, VariableId, Written, short};
 use foldhash::{HashMap, HashMapExt};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 impl Flow<'_> {
@@ -143,7 +144,9 @@ impl Flow<'_> {
         let call = &self.script.calls[call as usize];
         let start = self.at_calls.get(&(instance, statement))?.clone();
         let mut behind = call.foreign.then(|| start.clone());
-        for &routine in &*call.callees {
+        // what only writes goes to no others of that kind
+        let is_within = call.writes_only && self.instances[instance as usize].writes_only;
+        for &routine in call.callees.iter().filter(|_| !is_within) {
             if self.idle[routine as usize] {
                 behind = Some(match behind {
                     Some(other) => self.join(&other, &start),
@@ -152,7 +155,11 @@ impl Flow<'_> {
                 continue;
             }
             let callee = self.called(instance, statement, routine);
-            let entry = self.entry_of(call, routine, statement, &start);
+            let writes_only = self.instances[callee as usize].writes_only;
+            let mut entry = self.entry_of(call, routine, statement, &start);
+            if writes_only {
+                (entry.before, entry.led) = (self.sets.one(ANYWHERE), None);
+            }
             let waiting = &mut self.instances[callee as usize].waiting;
             waiting.insert((instance, statement));
             self.enter(callee, &entry);
@@ -160,9 +167,12 @@ impl Flow<'_> {
                 let back = self.back_from(&start, &raised, call, routine, instance);
                 self.catch(instance, statement, &back);
             }
-            let Some(exit) = self.instances[callee as usize].exit.clone() else {
+            let Some(mut exit) = self.instances[callee as usize].exit.clone() else {
                 continue;
             };
+            if writes_only {
+                exit = self.with_written(&start, &exit, routine);
+            }
             let back = self.back_from(&start, &exit, call, routine, instance);
             behind = Some(match behind {
                 Some(other) => self.join(&other, &back),
@@ -226,6 +236,60 @@ impl Flow<'_> {
             }
             self.started.insert(routine, entry);
         }
+    }
+
+    /// Whether what a statement calls counts by what it writes alone.
+    pub(super) fn counts_by_writes(&self, caller: u32, statement: u32) -> bool {
+        let is_said = match self.script.statements[statement as usize] {
+            Statement::Call(call) => self.script.calls[call as usize].writes_only,
+            _ => false,
+        };
+        is_said || self.instances[caller as usize].writes_only
+    }
+
+    /// The slots of what a routine may write, and all that it calls.
+    fn slots_written(&mut self, routine: RoutineId) -> Rc<[u32]> {
+        if let Some(known) = self.slots_written.get(&routine) {
+            return Rc::clone(known);
+        }
+        let script = self.script;
+        let mut slots = BTreeSet::new();
+        let mut add = |variable: VariableId| slots.extend(self.slots[variable as usize]);
+        for routine in script.reached_from(&[routine]) {
+            let own = &script.routines[routine as usize].statements;
+            for statement in &script.statements[own.start as usize..own.end as usize] {
+                match *statement {
+                    Statement::Write(write) => match script.writes[write as usize].variable {
+                        Written::One(variable) => add(variable),
+                        Written::AnyOf(table) => {
+                            let entries = &script.tables[table as usize].entries;
+                            entries.values().for_each(|variable| add(*variable));
+                        }
+                    },
+                    Statement::Call(call) => {
+                        let given = self.arguments(&script.calls[call as usize]);
+                        given.iter().filter_map(|one| one.back).for_each(&mut add);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let slots: Rc<[u32]> = slots.into_iter().collect();
+        self.slots_written.insert(routine, Rc::clone(&slots));
+        slots
+    }
+
+    /// The state behind a routine that counts by what it writes alone.
+    fn with_written(&mut self, start: &State, exit: &State, routine: RoutineId) -> State {
+        let mut state = start.clone();
+        for &slot in &*self.slots_written(routine) {
+            let slot = slot as usize;
+            self.outdate(&mut state, self.tracked[slot]);
+            if state.holds[slot] != exit.holds[slot] {
+                Rc::make_mut(&mut state.holds)[slot] = exit.holds[slot];
+            }
+        }
+        state
     }
 
     /// The state that a routine leaves, with the caller's own variables as they were.

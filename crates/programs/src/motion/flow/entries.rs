@@ -83,12 +83,13 @@ impl Flow<'_> {
                 let (Statement::Call(call) | Statement::Start(call)) = *statement else {
                     continue;
                 };
-                let callees = &script.calls[call as usize].callees;
+                let call = &script.calls[call as usize];
+                let callees = &call.callees;
                 if matches!(statement, Statement::Start(_)) && callees.contains(&routine) {
                     starters.push(at);
                 }
                 for &callee in &**callees {
-                    is_called[callee as usize] |= callee != at;
+                    is_called[callee as usize] |= callee != at && !call.writes_only;
                 }
             }
         }
@@ -101,9 +102,12 @@ impl Flow<'_> {
                 }
             }
         }
+        let perhaps = script.calls.iter().filter(|call| call.writes_only);
+        let perhaps: Vec<RoutineId> = perhaps.flat_map(|call| &*call.callees).copied().collect();
         if with.is_empty() {
             with.extend(0..short(script.routines.len()));
         }
+        with.extend(script.reached_from(&perhaps));
         let with = Rc::new(with);
         self.started_with.insert(routine, Rc::clone(&with));
         with
@@ -134,8 +138,9 @@ impl Flow<'_> {
                 [routine.statements.start as usize..routine.statements.end as usize]
             {
                 if let Statement::Call(call) = statement {
-                    for &callee in &*script.calls[*call as usize].callees {
-                        is_called[callee as usize] |= callee as usize != at;
+                    let call = &script.calls[*call as usize];
+                    for &callee in &*call.callees {
+                        is_called[callee as usize] |= callee as usize != at && !call.writes_only;
                     }
                 }
             }
@@ -159,24 +164,51 @@ impl Flow<'_> {
         }
         let state = self.declared_state(START);
         let mut instances = Vec::with_capacity(entries.len());
-        for &routine in &entries {
-            let instance = self.instance(routine, 0, NO_INSTANCE);
-            self.enter(instance, &state);
-            instances.push(instance);
-        }
-        for _ in 0..MOST_ROUNDS {
-            self.run_work();
-            let mut changed = false;
-            for &instance in &instances {
-                changed |= self.keep(instance);
+        while !entries.is_empty() {
+            for &routine in &entries {
+                let instance = self.instance(routine, 0, NO_INSTANCE);
+                self.enter(instance, &state);
+                instances.push(instance);
             }
-            if !changed {
-                break;
+            for _ in 0..MOST_ROUNDS {
+                self.run_work();
+                let mut changed = false;
+                for &instance in &instances {
+                    changed |= self.keep(instance);
+                }
+                if !changed {
+                    break;
+                }
             }
+            entries = self.never_called();
         }
-        if entries.len() > 1 {
+        if instances.len() > 1 {
             self.note_operators(&instances);
         }
+    }
+
+    /// Routines that only text calls that nothing reaches, and that the operator may start all the
+    /// same: those that no other of them calls.
+    fn never_called(&self) -> Vec<RoutineId> {
+        let script = self.script;
+        let reached: HashSet<RoutineId> = self.instances.iter().map(|of| of.routine).collect();
+        let all = (0..).zip(&script.routines);
+        let unreached = all.filter(|(at, of)| of.start == Start::Called && !reached.contains(at));
+        let mut unreached: Vec<RoutineId> = unreached.map(|(at, _)| at).collect();
+        let mut inner: HashSet<RoutineId> = HashSet::default();
+        for &at in &unreached {
+            let own = script.routines[at as usize].statements.clone();
+            for statement in &script.statements[own.start as usize..own.end as usize] {
+                if let Statement::Call(call) = statement {
+                    let callees = script.calls[*call as usize].callees.iter();
+                    inner.extend(callees.filter(|callee| **callee != at));
+                }
+            }
+        }
+        if unreached.iter().any(|at| !inner.contains(at)) {
+            unreached.retain(|at| !inner.contains(at));
+        }
+        unreached
     }
 
     /// What the controller keeps from run to run is there when the routine starts again; whether
@@ -326,7 +358,7 @@ impl Flow<'_> {
                     let known = self.instances.iter();
                     let known = known
                         .enumerate()
-                        .find(|(_, i)| i.routine as usize == routine);
+                        .find(|(_, i)| i.routine as usize == routine && !i.writes_only);
                     known.map(|(at, _)| short(at))
                 });
                 let instance =

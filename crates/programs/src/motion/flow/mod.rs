@@ -86,6 +86,8 @@ struct Instance {
     exit: Option<State>,
     /// Where it ends with an error.
     raised: Option<State>,
+    /// It counts by what it writes alone ([`Call::writes_only`]): its moves are passed over.
+    writes_only: bool,
     /// Calls that wait for its end: instance and statement.
     waiting: BTreeSet<(u32, u32)>,
 }
@@ -180,7 +182,10 @@ pub(super) struct Flow<'a> {
     changing: Vec<u32>,
     instances: Vec<Instance>,
     by_call: HashMap<(u32, u32, RoutineId), u32>,
-    merged: HashMap<RoutineId, u32>,
+    /// Instances for several calls; those that count by what they write alone on their own.
+    merged: HashMap<(RoutineId, bool), u32>,
+    /// Slots of what such routines may write.
+    slots_written: HashMap<RoutineId, Rc<[u32]>>,
     at_labels: HashMap<(u32, Label), (State, bool)>,
     at_calls: HashMap<(u32, u32), State>,
     work: BinaryHeap<Item>,
@@ -259,6 +264,7 @@ impl<'a> Flow<'a> {
             instances: Vec::new(),
             by_call: HashMap::new(),
             merged: HashMap::new(),
+            slots_written: HashMap::new(),
             at_labels: HashMap::new(),
             at_calls: HashMap::new(),
             work: BinaryHeap::new(),

@@ -77,6 +77,7 @@ impl<'a> Flow<'a> {
             entry: None,
             exit: None,
             raised: None,
+            writes_only: false,
             waiting: BTreeSet::new(),
         });
         short(self.instances.len() - 1)
@@ -88,6 +89,7 @@ impl<'a> Flow<'a> {
         if let Some(&known) = self.by_call.get(&key) {
             return known;
         }
+        let writes_only = self.counts_by_writes(caller, statement);
         let depth = self.instances[caller as usize].depth + 1;
         let mut chain = caller;
         let mut is_recursive = false;
@@ -97,16 +99,18 @@ impl<'a> Flow<'a> {
         }
         let most = MOST_TIMES * self.script.statements.len() + MOST_MORE;
         let length = self.script.routines[routine as usize].statements.len();
-        let is_own = depth <= DEEPEST && !is_recursive && self.size + length <= most;
+        let is_own =
+            !writes_only && depth <= DEEPEST && !is_recursive && self.size + length <= most;
         let made = if is_own {
             let made = self.instance(routine, depth, caller);
             self.instances[made as usize].same = self.given_by(caller, statement, routine);
             made
-        } else if let Some(&known) = self.merged.get(&routine) {
+        } else if let Some(&known) = self.merged.get(&(routine, writes_only)) {
             known
         } else {
             let made = self.instance(routine, DEEPEST + 1, NO_INSTANCE);
-            self.merged.insert(routine, made);
+            self.instances[made as usize].writes_only = writes_only;
+            self.merged.insert((routine, writes_only), made);
             made
         };
         self.by_call.insert(key, made);
@@ -236,6 +240,7 @@ impl<'a> Flow<'a> {
             // a label is visited where its state is gone on with
             self.visited[at as usize] |= !matches!(statement, Statement::Label(_));
             match statement {
+                Statement::Move(_) if self.instances[instance as usize].writes_only => {}
                 Statement::Move(instruction) => self.go(instance, instruction, at, &mut state),
                 Statement::Write(write) => {
                     let write = &script.writes[write as usize];

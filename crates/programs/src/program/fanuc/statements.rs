@@ -341,6 +341,7 @@ impl Reader<'_> {
             callees: callees.collect(),
             foreign: true,
             leads: true,
+            writes_only: false,
             name: called(&text[..word_length(text)]),
             arguments: first..short(self.builder.script.arguments.len()),
         });

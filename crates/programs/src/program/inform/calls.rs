@@ -5,7 +5,8 @@ use super::lines::{Line, words};
 use super::reader::Reader;
 use super::remarks::Cause;
 use crate::program::Source;
-use crate::program::script::{Argument, Call, RoutineId, Written, short};
+use crate::program::script::{Argument, Call, RoutineId, Script, Statement, Written, short};
+use foldhash::HashSet;
 
 /// Arguments that a call gives at most.
 ///
@@ -75,7 +76,12 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn call(&mut self, line: Line<'a>, name: &'a [u8]) -> Call {
-        let (callees, is_foreign) = self.callees(Callee::of(name));
+        let callee = Callee::of(name);
+        let (callees, is_foreign) = self.callees(callee);
+        if callee == Callee::Macro {
+            let next = self.builder.script.calls.len();
+            self.macros.push((next, self.routine()));
+        }
         for callee in &callees {
             self.numbers.calls(*callee);
         }
@@ -135,4 +141,53 @@ impl<'a> Reader<'a> {
             ..Call::of(place, callees, Source::text(name), first..end)
         }
     }
+
+    // ---- when all jobs are read
+
+    /// A macro runs a job that no call or jump names, and that does not come to the macro itself:
+    /// what these write may be written there.
+    pub(super) fn settle_macros(&mut self) {
+        let macros = std::mem::take(&mut self.macros);
+        if macros.is_empty() {
+            return;
+        }
+        let script = &mut self.builder.script;
+        let names = script.calls.iter();
+        let named: HashSet<&str> = names
+            .filter_map(|of| of.name.strip_prefix("JOB:"))
+            .collect();
+        let jobs = (0..).zip(&script.routines);
+        let unnamed = jobs.filter(|(_, job)| !named.contains(&*job.name));
+        let unnamed = unnamed.map(|(job, _)| (job, script.reached_from(&[job])));
+        let writing: Vec<(RoutineId, HashSet<RoutineId>)> = unnamed
+            .filter(|(_, reached)| reached.iter().any(|job| writes_shared(script, *job)))
+            .collect();
+        for (job, number) in writing.iter().flat_map(|(job, _)| {
+            let numbers = 1..=MOST_ARGUMENTS;
+            numbers.map(move |number| (*job, number))
+        }) {
+            self.numbers.give(job, number, None);
+        }
+        for (at, caller) in macros {
+            let others = writing
+                .iter()
+                .filter(|(_, reached)| !reached.contains(&caller));
+            let call = &mut script.calls[at];
+            call.callees = others.map(|(job, _)| *job).collect();
+            call.writes_only = true;
+        }
+    }
+}
+
+/// Whether a job writes what is not its own.
+fn writes_shared(script: &Script, job: RoutineId) -> bool {
+    let own = &script.routines[job as usize].statements;
+    let mut own = script.statements[own.start as usize..own.end as usize].iter();
+    own.any(|statement| match *statement {
+        Statement::Write(write) => match script.writes[write as usize].variable {
+            Written::One(variable) => script.variables[variable as usize].routine.is_none(),
+            Written::AnyOf(_) => true,
+        },
+        _ => false,
+    })
 }

@@ -8,6 +8,7 @@ pub(super) static MANNER: Deciding = Deciding {
     decides: &[
         b"IF",
         b"IFEXP",
+        b"IFEXPRESS",
         b"IFTHEN",
         b"IFTHENEXP",
         b"ELSEIF",

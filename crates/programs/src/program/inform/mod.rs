@@ -10,7 +10,7 @@
 //!
 //! Each job is a routine: CALL JOB goes to jobs of the files and comes back, JUMP JOB does not;
 //! PSTART runs concurrently. A job that an input group or a variable names is any of the files whose
-//! name is a number, or another; which one a macro runs is not in the files. What a P variable holds, which frame MFRAME and which tool SETTOOL
+//! name is a number, or another; a macro runs one that nothing names, or another. What a P variable holds, which frame MFRAME and which tool SETTOOL
 //! made, and whether a shift is on, and by what, is followed through them. A move to a place where
 //! the robot itself stood (`GETS PX001 $PX001`) is right as it is; one to a place that the running
 //! program computes stays, and is reported.
@@ -19,7 +19,7 @@
 //!
 //! # Limits
 //!
-//! Shifts that a job switches on which is not given are not seen, nor those of macros.
+//! Shifts that a job switches on which is not given are not seen, nor those of macros in macros.
 //! The first of successive MOVC is taken for a line, the others for arcs through each two; MOVS for
 //! lines. Robots with seven axes are refused in pulses; the elbow angle of their rectangular
 //! positions is left. BASE and ROBOT are the world of the profile: its base has to stand at zero.
@@ -36,6 +36,7 @@ mod insert;
 mod instruction;
 mod job;
 mod judge;
+mod jumps;
 mod lines;
 mod moves;
 mod numbers;
@@ -47,15 +48,15 @@ mod remarks;
 mod shifts;
 mod variables;
 
-use super::kit::{judge_base, line_behind, not_this_language};
+use super::kit::{MOST_BASE_GAP_M, judge_base, line_behind, not_this_language};
 use super::notation;
-use super::script::{Script, short};
+use super::script::{Place, Remark, Script, short};
 use super::{
     About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, ReadError,
-    Role, Settings, Source, Step,
+    Role, Settings, Shape, Source, Step,
 };
 use crate::geometry::Pose;
-use crate::geometry::units::DEG;
+use crate::geometry::units::{DEG, mm_from_m};
 
 /// Yaskawa INFORM.
 #[derive(Debug)]
@@ -106,6 +107,14 @@ impl Language for Inform {
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
         script(sources, settings)
+    }
+
+    fn is_record(&self, file: &str) -> bool {
+        // conditions of weaving, of welding and others
+        let lower = file.to_ascii_lowercase();
+        lower
+            .strip_suffix(".cnd")
+            .is_some_and(|stem| !stem.contains("tool") && !stem.contains("frame"))
     }
 
     fn turns_through_middle(&self) -> bool {
@@ -218,8 +227,29 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
             settings,
             ("base-not-of-controller", true),
         );
+        judge_height(&mut script, sources, settings);
     }
     Ok(script)
+}
+
+/// Says from where positions count where that is not the robot's base.
+fn judge_height(script: &mut Script, sources: &[Source], settings: &Settings) {
+    let base = settings.world_from_base.filter(|_| !sources.is_empty());
+    let height_m = base.map_or(0.0, |base| base.translation[2]);
+    let mut shapes = script.targets.iter().map(|target| target.layout.shape);
+    if height_m.abs() <= MOST_BASE_GAP_M || !shapes.any(|shape| shape == Shape::Pose) {
+        return;
+    }
+    let side = if height_m > 0.0 { "below" } else { "above" };
+    let message = format!(
+        "positions are taken to count from the world's origin, which the profile has {:.1} mm {side} \
+         the robot's base (`kinematics.base`)",
+        mm_from_m(height_m.abs())
+    );
+    let hint = "right only if the pendant shows the flange at the height that `poseshift fk` has at \
+        the same joints; else correct `z_mm` of `kinematics.base`";
+    let remark = Remark::warning_about("base-height", message, hint);
+    script.say(sources, Place::new(0, 0), remark);
 }
 
 /// Behind the NOP of the first job, where none has one before the last END, else at the end.

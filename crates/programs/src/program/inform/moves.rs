@@ -2,7 +2,7 @@
 
 use super::instruction::{Kind, Operand, is_move};
 use super::job::{Coordinates, Header, Origin};
-use super::lines::{Line, placed_words};
+use super::lines::{Line, placed_words, words};
 use super::rconf;
 use super::reader::{Arc, Reader};
 use super::remarks::Cause;
@@ -144,6 +144,10 @@ impl<'a> Reader<'a> {
                 self.go_alone(&words, base, station);
             }
         }
+        let mut behind = words(line.text).skip_while(|word| *word != b"TRAP");
+        if let Some(label) = behind.nth(1) {
+            self.trap(self.place(line.start), label);
+        }
     }
 
     /// `MOVJ EC00002 VJ=5.00`: the robot stands where it is.
@@ -237,14 +241,7 @@ impl<'a> Reader<'a> {
         modal.guards = self.variables.guards(&mut self.builder, &reasons);
         self.builder.go(instruction, modal);
         if words.may_stop {
-            // where the robot stands then is known to nobody
-            let Modal { tool, frame, .. } = modal;
-            let stopped = Modal {
-                tool,
-                frame,
-                ..Modal::default()
-            };
-            self.builder.go(Instruction::at(place), stopped);
+            self.stop(place);
         }
     }
 
@@ -342,6 +339,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
+        self.settle_macros();
         self.settle_indexed();
         self.place_variables();
         self.follow_copies();

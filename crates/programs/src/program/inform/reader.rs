@@ -5,6 +5,7 @@ use super::cnd::Conditions;
 use super::indexed::Indexed;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
+use super::jumps::{is_conditional, is_label};
 use super::lines::{Line, Lines, words};
 use super::numbers::{Known, shared};
 use super::parts::{Added, Computed, known_numbers};
@@ -12,7 +13,6 @@ use super::relative::{Frames, Given, are_of_several_robots, given, is_relative};
 use super::remarks::Cause;
 use super::shifts::Shifted;
 use super::variables::{Variables, always};
-use crate::program::kit::label_key;
 use crate::program::number::whole;
 use crate::program::script::{
     Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, TableId, ValueId, Variable,
@@ -49,6 +49,7 @@ pub(super) fn script<'a>(
         all_written: HashSet::new(),
         starts: Vec::new(),
         called: HashSet::new(),
+        macros: Vec::new(),
         indexed: Indexed::default(),
         shifts: false,
         tracks_seams: false,
@@ -97,6 +98,9 @@ pub(super) struct Here {
     pub is_relative: bool,
     /// User frames that calls give it.
     pub frames: Frames,
+    /// Keys of its labels so far; it has a jump to any of them.
+    pub labels: Vec<u64>,
+    pub jumps_anywhere: bool,
     /// It has been said that RCONF of the post is not used.
     pub said_rconf: bool,
     /// Reasons against moves with base and station axes that do not stand at zero.
@@ -136,6 +140,8 @@ pub(super) struct Reader<'a> {
     pub starts: Vec<(RoutineId, Place)>,
     /// Jobs that others call.
     pub called: HashSet<RoutineId>,
+    /// Calls of macros, and the jobs that have them.
+    pub(super) macros: Vec<(usize, RoutineId)>,
     /// Moves to P variables by a number that is not written out.
     pub(super) indexed: Indexed,
     /// Whether any job switches a shift or a seam tracker on.
@@ -204,15 +210,12 @@ impl<'a> Reader<'a> {
         for line in Lines::from(&source.bytes[..range.end], range.start) {
             match line.text {
                 [] | [b'\'' | b'/', ..] => {}
-                [b'*', name @ ..] => {
-                    let key = label_key(first_word(name));
-                    self.numbers.label(key);
-                    self.builder.label(key);
-                }
+                [b'*', name @ ..] => self.label(first_word(name)),
                 _ => self.line(line),
             }
         }
         self.end_arc();
+        self.end_labels();
         self.builder.close();
     }
 
@@ -274,16 +277,10 @@ impl<'a> Reader<'a> {
 
     /// An instruction that may have a condition behind it.
     fn instruction(&mut self, line: Line<'a>, first: &'a [u8]) {
-        let conditional = words(line.text).skip(1).any(|word| word == b"IF");
+        let conditional = is_conditional(line.text);
         let second = words(line.text).nth(1).unwrap_or_default();
-        if let (b"JUMP", [b'*', name @ ..]) = (first, second) {
-            self.numbers.jump(label_key(name));
-            if conditional {
-                self.builder.may_go_to(label_key(name));
-            } else {
-                self.builder.go_to(label_key(name));
-            }
-            return;
+        if first == b"JUMP" && is_label(second) {
+            return self.jump(second, conditional);
         }
         if conditional {
             self.numbers.open(Some(1), None);

@@ -7,6 +7,7 @@
 
 use super::instruction::{Operand, numbered};
 use super::job::{Coordinates, Origin};
+use super::jumps::is_condition;
 use super::lines::{Line, words};
 use super::numbers::Amounts;
 use super::reader::Reader;
@@ -61,7 +62,7 @@ impl Reader<'_> {
 
     /// Notes what the next write switches on, until all jobs are read.
     fn note_shift(&mut self, line: Line) {
-        let mut words = words(line.text).take_while(|word| *word != b"IF");
+        let mut words = words(line.text).take_while(|word| !is_condition(word));
         let (first, second, third) = (words.next(), words.next(), words.next());
         let operand = second.and_then(Operand::of);
         let frame = match third {

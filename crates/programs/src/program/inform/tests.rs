@@ -8,6 +8,8 @@ use crate::program::{Motion, Posture, Program, Shape, Value};
 mod deciding;
 mod followed;
 mod indexed;
+mod jumps;
+mod macros;
 mod parts;
 mod posts;
 mod robust;

@@ -75,7 +75,7 @@ static ABOUT: About = About {
         "poses behind LEFTY, RIGHTY, ABOVE, BELOW, UWRIST, DWRIST until joints are gone to",
         "searches (XMOVE)",
     ],
-    has: ".PROGRAM, .TRANS or .JOINTS",
+    has: ".PROGRAM, .TRANS, .JOINTS or another section",
 };
 
 impl Language for Kawasaki {
@@ -85,6 +85,10 @@ impl Language for Kawasaki {
 
     fn recognises(&self, source: &Source) -> bool {
         sections::recognises(&source.bytes)
+    }
+
+    fn accepts(&self, source: &Source) -> bool {
+        self.recognises(source) || sections::accepts(source)
     }
 
     fn script(&self, sources: &[Source], _: &Settings) -> Result<Script, ReadError> {

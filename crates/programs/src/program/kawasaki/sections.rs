@@ -160,31 +160,91 @@ const OWN: &[&[u8]] = &[
     b"TWAIT",
     b"ACCURACY",
 ];
-/// Bytes that are looked at.
+/// Moves of another language with `.PROGRAM` (V+).
+const OTHER: &[&[u8]] = &[
+    b"MOVE", b"MOVES", b"APPRO", b"APPROS", b"DEPART", b"DEPARTS",
+];
+/// Sections with what a controller is set to, which end with `.END`; numbers may stand behind these
+/// words.
+const SETTINGS: &[&[u8]] = &[
+    b".ROBOTDATA",
+    b".OPE_INFO",
+    b".CONDITION",
+    b".AUXDATA",
+    b".SIG_COMMENT",
+    b".INTER_PANEL_TITLE",
+    b".INTER_PANEL_D",
+    b".INTER_PANEL_COLOR_D",
+];
+/// Bytes in which a zero says that it is no text.
 const LOOKED_AT: usize = 1 << 16;
 
-/// Whether bytes look like a file of this language.
+/// The keyword in the first column without numbers behind it.
+fn section(line: &[u8]) -> &[u8] {
+    let end = line
+        .iter()
+        .position(|b| b.is_ascii_whitespace() || *b == b';');
+    let mut word = &line[..end.unwrap_or(line.len())];
+    while let [front @ .., b'0'..=b'9'] = word {
+        word = front;
+    }
+    word
+}
+
+/// Whether bytes look like a file of this language. In whole saves programs stand behind much that
+/// the controller is set to.
 pub(super) fn recognises(bytes: &[u8]) -> bool {
-    let head = &bytes[..bytes.len().min(LOOKED_AT)];
-    if memchr::memchr(0, head).is_some() {
+    if memchr::memchr(0, &bytes[..bytes.len().min(LOOKED_AT)]).is_some() {
         return false;
     }
-    let (mut opened, mut own) = (false, false);
+    let mut opened = false;
     let mut found = Vec::new();
-    for line in lines(head, content_start(head)..head.len()) {
-        opened |= opens(line.text, b".PROGRAM");
-        let mut sections = [&b".TRANS"[..], b".JOINTS", b".REALS"].into_iter();
-        if sections.any(|section| opens(line.text, section)) {
-            return true;
+    for line in lines(bytes, content_start(bytes)..bytes.len()) {
+        if line.text.first() == Some(&b'.') {
+            opened |= opens(line.text, b".PROGRAM");
+            let word = section(line.text);
+            let own = [
+                &b".TRANS"[..],
+                b".JOINTS",
+                b".REALS",
+                b".SYSDATA",
+                b".NETCONF",
+            ];
+            if own.contains(&word) || SETTINGS.contains(&word) {
+                return true;
+            }
         }
-        let words = line.words(head, &mut found);
-        own |= (0..2).any(|at| OWN.iter().any(|own| words.is_word(at, own)));
-        own |= (0..words.len()).any(|at| words.is(at, b'#') && words.is(at + 1, b'['));
-        if opened && own {
-            return true;
+        if opened {
+            let words = line.words(bytes, &mut found);
+            if (0..2).any(|at| OWN.iter().any(|own| words.is_word(at, own)))
+                || (0..words.len()).any(|at| words.is(at, b'#') && words.is(at + 1, b'['))
+            {
+                return true;
+            }
         }
     }
     false
+}
+
+/// Whether a file that is called as programs of this language are is one, though it may move nothing.
+pub(super) fn accepts(source: &Source) -> bool {
+    let bytes = &source.bytes;
+    let mut sections = Sections::default();
+    if !sections.read(source, 0).is_ok_and(|is_one| is_one) {
+        return false;
+    }
+    let mut is_other = false;
+    for program in &sections.programs {
+        program.each(
+            bytes,
+            |_| true,
+            |statement| {
+                let words = statement.words;
+                is_other |= OTHER.iter().any(|other| words.is_word(0, other)) && !words.is(1, b'=');
+            },
+        );
+    }
+    !is_other
 }
 
 impl<'a> Sections<'a> {
@@ -196,6 +256,7 @@ impl<'a> Sections<'a> {
             System,
             Reals,
             Program,
+            Settings,
             Other,
         }
         let bytes = &source.bytes;
@@ -211,6 +272,10 @@ impl<'a> Sections<'a> {
                 (open, opened_at, is_one) = (Open::Program, line.start, true);
             } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
                 (open, opened_at, is_one) = (Open::Entries, line.start, true);
+            } else if matches!(open, Open::Nothing | Open::Other)
+                && SETTINGS.contains(&section(text))
+            {
+                (open, opened_at, is_one) = (Open::Settings, line.start, true);
             } else if matches!(open, Open::Nothing | Open::Other) && text.starts_with(b".") {
                 // a line such as `.*header` or `.NETCONF …` has no end of its own
                 let is_system = opens(text, b".SYSDATA");
@@ -220,7 +285,7 @@ impl<'a> Sections<'a> {
                     () => Open::Other,
                 };
                 opened_at = line.start;
-                is_one |= !matches!(open, Open::Other);
+                is_one |= !matches!(open, Open::Other) || section(text) == b".NETCONF";
             } else if matches!(open, Open::System) {
                 if text.starts_with(b"TOOL ") || text.starts_with(b"BASE ") {
                     self.saved.extend(entry(line, file).ok().flatten());
@@ -238,7 +303,7 @@ impl<'a> Sections<'a> {
         match open {
             // others may be a line alone
             Open::Nothing | Open::Other | Open::Reals => Ok(is_one),
-            Open::Entries | Open::System | Open::Program => Err(Fault::unclosed(
+            Open::Entries | Open::System | Open::Program | Open::Settings => Err(Fault::unclosed(
                 opened_at,
                 "the section (its last line is .END)",
             )),

@@ -9,6 +9,7 @@ mod deciding;
 mod inserted;
 mod numbers;
 mod others;
+mod recognised;
 mod robust;
 mod runs;
 

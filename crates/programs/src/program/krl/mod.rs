@@ -51,7 +51,7 @@ mod targets;
 mod tokens;
 mod turning;
 
-use super::kit::not_this_language;
+use super::kit::{ends_with, not_this_language};
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
@@ -107,6 +107,10 @@ impl Language for Krl {
 
     fn recognises(&self, source: &Source) -> bool {
         sniff::recognises(&source.bytes)
+    }
+
+    fn may_be_foreign(&self, source: &Source) -> bool {
+        ends_with(&source.name, ".dat") && !sniff::has_words(&source.bytes)
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {

@@ -84,6 +84,26 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     false
 }
 
+/// Whether a line begins with a word that lines of programs and data lists begin with.
+pub(super) fn has_words(bytes: &[u8]) -> bool {
+    lines(bytes, content_start(bytes)).any(|(at, end)| {
+        let mut cursor = Cursor { bytes, at, end };
+        if matches!(cursor.blanks(), b'&' | b'$') {
+            return true;
+        }
+        let is_comment = cursor.take(b';');
+        let word = cursor.next();
+        let mut buffer = [0; 24];
+        match capitals(cursor.text(word), &mut buffer) {
+            b"FOLD" | b"ENDFOLD" => is_comment,
+            b"DEF" | b"DEFFCT" | b"DEFDAT" | b"ENDDAT" | b"DECL" | b"GLOBAL" | b"EXT"
+            | b"EXTFCT" | b"STRUC" | b"ENUM" | b"E6POS" | b"E6AXIS" | b"E3POS" | b"POS"
+            | b"AXIS" | b"FRAME" => !is_comment,
+            _ => false,
+        }
+    })
+}
+
 /// Where the marker goes, and its text: behind the line that opens the first routine or the data
 /// list, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {

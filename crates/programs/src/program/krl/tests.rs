@@ -2,6 +2,7 @@
 
 mod deciding;
 mod flow;
+mod foreign;
 mod frames;
 mod loads;
 mod nested;

@@ -282,6 +282,7 @@ impl Translator<'_> {
             callees: callees.routines.clone().into(),
             foreign: callees.foreign,
             leads: leads && is_foreign,
+            writes_only: false,
             name,
             arguments,
         });

@@ -50,7 +50,7 @@ mod translate;
 mod values;
 mod verbs;
 
-use super::kit::not_this_language;
+use super::kit::{ends_with, not_this_language};
 use super::names::Symbols;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
@@ -101,6 +101,10 @@ impl Language for Rapid {
 
     fn recognises(&self, source: &Source) -> bool {
         sniff::recognises(&source.bytes)
+    }
+
+    fn may_be_foreign(&self, source: &Source) -> bool {
+        ends_with(&source.name, ".sys") && !sniff::has_words(&source.bytes)
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {

@@ -71,6 +71,18 @@ pub(super) fn plain(argument: &Argument) -> Option<Symbol> {
     }
 }
 
+/// Whether an argument is what a function gives, or a part of a record.
+fn is_given(argument: &Argument) -> bool {
+    matches!(
+        argument.expression,
+        Expression::Member { .. }
+            | Expression::Point {
+                base: Base::Function(_),
+                ..
+            }
+    )
+}
+
 /// The index of the argument with this option.
 fn option(all: &[Argument], word: Option<Symbol>) -> Option<usize> {
     let word = word?;
@@ -108,10 +120,20 @@ impl Translator<'_> {
                 .filter(|(_, argument)| argument.option.is_none())
         };
         let candidates = || positional().skip(usize::from(led.first()));
-        let start = candidates()
+        let mut start = candidates()
             .find(|(_, argument)| self.is_target(argument))
             .or_else(|| candidates().next())?
             .0;
+        if path == Path::Arc
+            && let Some((before, _)) = candidates().take_while(|(at, _)| *at < start).last()
+            && !positional()
+                .find(|(at, _)| *at > start)
+                .is_some_and(|(_, behind)| self.is_target(behind) || is_given(behind))
+        {
+            // the first that is known to be a target ends the arc: a function's result, a part of
+            // a record or a name that is not declared is the point on its way
+            start = before;
+        }
         let end = if path == Path::Arc {
             let next = positional().find(|(at, _)| *at > start);
             next.map_or(start + 1, |(at, _)| at + 1)

@@ -73,6 +73,17 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
     bytes_ok && (0..all.len()).any(|at| module(at) || data(at) || goes(at))
 }
 
+/// Whether a line begins with a word that modules and what they hold begin with.
+pub(super) fn has_words(bytes: &[u8]) -> bool {
+    let lines = bytes.split(|b| matches!(b, b'\n' | b'\r'));
+    lines.map(<[u8]>::trim_ascii_start).any(|line| {
+        let end = line.iter().position(|b| !b.is_ascii_alphanumeric());
+        let word = &line[..end.unwrap_or(line.len())];
+        let is = |own: &str| word.eq_ignore_ascii_case(own.as_bytes());
+        is("module") || CONTENT.into_iter().any(is)
+    })
+}
+
 /// Where the marker goes, and its text: behind the line that opens the module, else at the top.
 pub(super) fn mark(source: &Source, marker: &Marker) -> (usize, Vec<u8>) {
     let bytes = &source.bytes;

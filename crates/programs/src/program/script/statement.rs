@@ -337,6 +337,9 @@ pub struct Call {
     /// It may leave the robot elsewhere than the text says; of a start: what runs then may move the
     /// robot.
     pub leads: bool,
+    /// Which of them it is the files do not say, and perhaps none: each counts by what it writes
+    /// alone, and as one that nothing calls.
+    pub writes_only: bool,
     /// What is called, for messages.
     pub name: Box<str>,
     /// In [`super::Script::arguments`].
@@ -356,6 +359,7 @@ impl Call {
             place,
             foreign: callees.is_empty(),
             leads: callees.is_empty(),
+            writes_only: false,
             callees,
             name: name.into(),
             arguments,

@@ -91,7 +91,7 @@ static ABOUT: About = About {
         "targets that functions outside the file are given, servoing to poses",
         "conveyor tracking and path offsets",
     ],
-    has: "function, move or set_tcp",
+    has: "function, move, set_tcp or assignment",
 };
 
 /// Calls are written again with a pose written out.
@@ -112,6 +112,13 @@ impl Language for UrScript {
 
     fn recognises(&self, source: &Source) -> bool {
         sniff::recognises(&source.bytes)
+    }
+
+    fn accepts(&self, source: &Source) -> bool {
+        self.recognises(source)
+            || Reader::new(source)
+                .read()
+                .is_ok_and(|reader| reader.is_program())
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
@@ -188,9 +195,7 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     let mut alone = Vec::with_capacity(sources.len());
     for source in sources {
         let reader = Reader::new(source).read()?;
-        // a library of poses and of what makes them moves nothing itself
-        let has_poses = reader.parsed.has_poses();
-        if !reader.recognised && !has_poses {
+        if !reader.is_program() {
             return Err(not_this_language(&ABOUT, source));
         }
         alone.push(reader.parsed);

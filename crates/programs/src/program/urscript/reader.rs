@@ -46,7 +46,7 @@ pub(super) struct Reader<'a> {
     pub(super) may_pass: bool,
     /// Where the next file of the text begins.
     files: std::iter::Peekable<std::vec::IntoIter<u32>>,
-    /// The file has a function, a move or another word of the language.
+    /// The file has a function, a move, another word of the language or an assignment.
     pub recognised: bool,
 }
 
@@ -75,6 +75,12 @@ impl<'a> Reader<'a> {
     pub(super) fn of_files(mut self, starts: impl Iterator<Item = u32>) -> Self {
         self.files = starts.collect::<Vec<u32>>().into_iter().peekable();
         self
+    }
+
+    /// Whether what is read is a program: a library of poses and of what makes them moves nothing
+    /// itself.
+    pub(super) fn is_program(&self) -> bool {
+        self.recognised || self.parsed.has_poses()
     }
 
     /// The text outside functions of a file that begins before a byte.
@@ -436,6 +442,7 @@ impl<'a> Reader<'a> {
         if let Some(known) = alone.and_then(number::parse) {
             value = self.parsed.add(Expr::Number(known));
         }
+        self.recognised = true;
         let text = self.text(name);
         // `a.b = …` changes a part of a
         let (symbol, member) = self.member(text);

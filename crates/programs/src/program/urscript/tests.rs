@@ -8,6 +8,7 @@ use crate::program::{
 mod deciding;
 mod flow;
 mod posts;
+mod recognised;
 mod robust;
 mod samples;
 mod steps;

@@ -326,6 +326,13 @@ impl Arm {
         Some(sine.abs().min(1.0).asin())
     }
 
+    /// Whether axis 6 passes axis 4 at a distance: [`Arm::is_only_posture`] knows of no posture that
+    /// it is.
+    #[must_use]
+    pub fn passes_axis_4(&self) -> bool {
+        self.wrist == Wrist::Offset && self.d5_m != 0.0
+    }
+
     /// Whether a posture is the only one of its branch that reaches its pose, as far as can be
     /// known from how far it is from the branch's borders. Where axis 6 passes axis 4 at a
     /// distance that cannot be known: [`Arm::solve_all`] counts them.

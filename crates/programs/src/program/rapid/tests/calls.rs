@@ -117,6 +117,36 @@ fn functions_give_positions_and_move() {
 }
 
 #[test]
+fn what_stands_before_the_end_of_an_arc_is_the_point_on_its_way() {
+    let read = |via: &str, end: &str, rest: &str| {
+        path(&format!(
+            "MoveL p1,v5,z5,t;\nMoveC {via},{end},v5,z5,t;\nENDPROC\n{rest}\nPROC last()"
+        ))
+    };
+    let chosen = "FUNC robtarget f(num k)\nIF k=1 RETURN p2;\nRETURN p1;\nENDFUNC";
+    for (via, end, rest) in [
+        ("f(1)", "p3", chosen),
+        ("f(1)", "Offs(p3,0,0,5)", chosen),
+        ("CRobT()", "p3", ""),
+        ("fElsewhere(1)", "p3", ""),
+        ("rPart.target", "p3", ""),
+        ("pElsewhere", "p3", ""),
+        ("p3", "f(2)", chosen),
+        ("f(1)", "f(2)", chosen),
+    ] {
+        let program = read(via, end, rest);
+        let kinds: Vec<_> = program.instructions.iter().map(|one| one.motion).collect();
+        let expected = [Motion::Linear, Motion::ArcVia, Motion::ArcEnd];
+        assert_eq!(kinds, expected, "{via} {end}");
+        let said: Vec<_> = program.findings.iter().map(|of| &of.message).collect();
+        assert!(said.iter().all(|of| !of.contains("v5")), "{via}: {said:?}");
+        if end.ends_with("p3") {
+            assert_eq!(to(&program).last(), Some(&"p3"), "{via}");
+        }
+    }
+}
+
+#[test]
 fn routines_that_are_not_in_the_files_may_do_anything_with_targets() {
     for call in [
         "Pick p1;",
