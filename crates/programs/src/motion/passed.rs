@@ -68,11 +68,14 @@ impl Arcs<'_> {
                     Some(from + arc.part * (to - from))
                 });
                 let passed: Vec<f64> = passed.collect();
-                let Some(&first) = passed.first() else {
-                    continue;
-                };
                 let here = via * count + k;
                 let written = own[here].and(value(via));
+                // of several the one that it is written for
+                let off = |passed: &f64| written.map_or(0.0, |written| (passed - written).abs());
+                let nearest = passed.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+                let Some(&first) = nearest else {
+                    continue;
+                };
                 values[here] = Known::Is(first);
                 let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
                 let differs = |other: &f64| (other - first).abs() > same;

@@ -172,10 +172,13 @@ const SETTINGS: &[&[u8]] = &[
     b".CONDITION",
     b".AUXDATA",
     b".SIG_COMMENT",
-    b".INTER_PANEL_TITLE",
-    b".INTER_PANEL_D",
-    b".INTER_PANEL_COLOR_D",
 ];
+
+/// Whether a keyword begins such a section: also of the panel, whose sections have several names.
+fn is_setting(word: &[u8]) -> bool {
+    SETTINGS.contains(&word) || word.starts_with(b".INTER_PANEL")
+}
+
 /// Bytes in which a zero says that it is no text.
 const LOOKED_AT: usize = 1 << 16;
 
@@ -210,7 +213,7 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
                 b".SYSDATA",
                 b".NETCONF",
             ];
-            if own.contains(&word) || SETTINGS.contains(&word) {
+            if own.contains(&word) || is_setting(word) {
                 return true;
             }
         }
@@ -272,9 +275,7 @@ impl<'a> Sections<'a> {
                 (open, opened_at, is_one) = (Open::Program, line.start, true);
             } else if opens(text, b".TRANS") || opens(text, b".JOINTS") {
                 (open, opened_at, is_one) = (Open::Entries, line.start, true);
-            } else if matches!(open, Open::Nothing | Open::Other)
-                && SETTINGS.contains(&section(text))
-            {
+            } else if matches!(open, Open::Nothing | Open::Other) && is_setting(section(text)) {
                 (open, opened_at, is_one) = (Open::Settings, line.start, true);
             } else if matches!(open, Open::Nothing | Open::Other) && text.starts_with(b".") {
                 // a line such as `.*header` or `.NETCONF …` has no end of its own
