@@ -263,7 +263,9 @@ impl Flow<'_> {
                         Written::One(variable) => add(variable),
                         Written::AnyOf(table) => {
                             let entries = &script.tables[table as usize].entries;
-                            entries.values().for_each(|variable| add(*variable));
+                            for variable in entries.values() {
+                                add(*variable);
+                            }
                         }
                     },
                     Statement::Call(call) => {
