@@ -296,6 +296,32 @@ fn an_arc_that_begins_here_and_there_says_with_which_value_its_point_is_passed()
 }
 
 #[test]
+fn an_arc_that_begins_in_either_branch_says_both_values() {
+    let (text, robot, _) = robot(&tool());
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    let first = at(&robot, &rails()[0], ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
+    let via = target(&on_circle(&from, PART), passed);
+    let end = target(&on_circle(&from, 1.0), ENDS[1]);
+    let to = |e: f64| format!("MoveL {},v100,fine,t;\n", target(&from, e));
+    let branch = format!(
+        "IF DInput(di1)=1 THEN\n{}ELSE\n{}ENDIF\n",
+        to(ENDS[0]),
+        to(0.45)
+    );
+    let body = joint_move(&FIRST, ENDS[0]) + &branch + &format!("MoveC {via},{end},v100,fine,t;\n");
+    let done = run(&profile, &[("t.mod", &rapid(&tooldata(), &body))]).expect("read");
+    let said = done.findings.iter().filter(|f| f.id == "arc-external");
+    let said: Vec<&str> = said.map(|f| f.message.as_str()).collect();
+    assert!(
+        matches!(said[..], [one] if one.contains("at 460 mm or at 495 mm")),
+        "{said:?} {:?}",
+        done.findings
+    );
+}
+
+#[test]
 fn a_rail_with_backlash_comes_to_the_point_as_it_goes_on_the_arc() {
     let (text, robot, _) = robot(&tool());
     let backlash = "{effect: track_backlash, axis: 1, width_mm: 0.2}";

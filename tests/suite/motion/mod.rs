@@ -25,6 +25,7 @@ mod tipped;
 mod wrist;
 
 use crate::support::repository;
+use poseshift::check::{Check, Scene, Subject, check};
 use poseshift::compensate::{CompensateError, Compensation, Given, Options, compensate};
 use poseshift::finding::Severity;
 use poseshift::geometry::Pose;
@@ -106,6 +107,23 @@ fn rapid(data: &str, body: &str) -> String {
 
 const P: &str = "[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
+/// What `check` says of programs, next to those that they were made of.
+fn checked(profile: &Profile, sources: &[Source], nominal: Option<&[Source]>) -> Check {
+    let scene = Scene::default();
+    let subject = Subject {
+        language: program::language_of(&sources[0]).expect("a language"),
+        sources,
+        nominal,
+        profile,
+        scene: &scene,
+    };
+    let options = poseshift::check::Options {
+        given: given().given,
+        ..poseshift::check::Options::default()
+    };
+    check(&subject, &options).expect("checked")
+}
+
 /// The farthest that a written program lands from where the original wants the tool at targets that
 /// are poses, mm.
 fn landings(effects: &[&str], written: &[(&str, &str)], original: &[(&str, &str)]) -> f64 {
@@ -117,19 +135,7 @@ fn landings(effects: &[&str], written: &[(&str, &str)], original: &[(&str, &str)
     };
     let (written, original) = (read(written), read(original));
     let profile = profile(effects);
-    let scene = poseshift::check::Scene::default();
-    let subject = poseshift::check::Subject {
-        language: program::language_of(&original[0]).expect("a language"),
-        sources: &written,
-        nominal: Some(&original),
-        profile: &profile,
-        scene: &scene,
-    };
-    let options = poseshift::check::Options {
-        given: given().given,
-        ..poseshift::check::Options::default()
-    };
-    let checked = poseshift::check::check(&subject, &options).expect("checked");
+    let checked = checked(&profile, &written, Some(&original));
     let poses = checked
         .moves
         .iter()

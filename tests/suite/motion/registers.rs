@@ -1,8 +1,7 @@
 //! What FANUC programs write into registers displaces points as far as the text tells.
 
 use super::displaced::{misses, unknown};
-use super::{PLAIN, errors, given, message, profile_of};
-use poseshift::check::{Options as CheckOptions, Scene, Subject, check};
+use super::{PLAIN, checked, errors, given, message, profile_of};
 use poseshift::compensate::{Compensation, compensate};
 use poseshift::geometry::units::{DEG, mm_from_m};
 use poseshift::geometry::{Pose, Rotation};
@@ -75,19 +74,7 @@ fn truth(by: &Pose, in_tool: bool) -> f64 {
     };
     let (written, nominal) = (source(moved(fake)), source(moved(original)));
     let profile = profile_of(ARM, &[PLAIN]);
-    let scene = Scene::default();
-    let subject = Subject {
-        language: language_of(&nominal[0]).expect("FANUC"),
-        sources: &written,
-        nominal: Some(&nominal),
-        profile: &profile,
-        scene: &scene,
-    };
-    let options = CheckOptions {
-        given: given().given,
-        ..CheckOptions::default()
-    };
-    let checked = check(&subject, &options).expect("checked");
+    let checked = checked(&profile, &written, Some(&nominal));
     mm_from_m(checked.moves[1].target_error.distance_m)
 }
 

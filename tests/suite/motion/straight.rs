@@ -7,7 +7,7 @@
 mod above;
 mod forms;
 
-use super::given;
+use super::{checked, given};
 use crate::physics::{Fault, Moment, Robot, matrix, tool_pose};
 use crate::support::repository;
 use forms::FORMS;
@@ -361,20 +361,7 @@ fn bounds_hold_where_a_joint_turns_back_on_the_way() {
         if !turns_back {
             continue;
         }
-        let scene = poseshift::check::Scene::default();
-        let subject = poseshift::check::Subject {
-            language: program::language_of(&sources[0]).expect("a language"),
-            sources: &sources,
-            nominal: None,
-            profile: &profile,
-            scene: &scene,
-        };
-        let options = given();
-        let options = poseshift::check::Options {
-            given: options.given,
-            ..poseshift::check::Options::default()
-        };
-        let checked = poseshift::check::check(&subject, &options).expect("checked");
+        let checked = checked(&profile, &sources, None);
         let path = checked.moves[1].path.expect("a path");
         assert!(path.certified);
         let bound = path.bound.distance_m;

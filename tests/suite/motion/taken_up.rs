@@ -1,7 +1,7 @@
 //! A joint that turns back comes from its new side once it has gone by the width of its backlash.
 
 use super::displaced::miss_mm;
-use super::{BACKLASH, P, done, errors, given, message, rapid};
+use super::{BACKLASH, P, checked, done, errors, given, message, rapid};
 use poseshift::compensate::{Compensation, compensate};
 use poseshift::geometry::Pose;
 use poseshift::program::{self, Source};
@@ -181,22 +181,10 @@ fn the_bound_of_a_path_holds_on_both_sides_of_a_slow_joint() {
         "MoveJ a,v100,fine,tool0;\nMoveC b,c,v100,fine,tool0;",
     );
     let sources = [Source::new("t.mod", text.into_bytes())];
-    let scene = poseshift::check::Scene::default();
     let bound_mm = |theta_deg: f64| {
         let zero = format!("{{effect: link_geometry, link: 1, theta_deg: {theta_deg}}}");
         let profile = super::profile(&["{effect: backlash, joint: 1, width_deg: 0.1}", &zero]);
-        let subject = poseshift::check::Subject {
-            language: program::language_of(&sources[0]).expect("a language"),
-            sources: &sources,
-            nominal: None,
-            profile: &profile,
-            scene: &scene,
-        };
-        let options = poseshift::check::Options {
-            given: given().given,
-            ..poseshift::check::Options::default()
-        };
-        let checked = poseshift::check::check(&subject, &options).expect("checked");
+        let checked = checked(&profile, &sources, None);
         let paths = checked.moves.iter().filter_map(|m| m.path.as_ref());
         1e3 * paths.map(|path| path.bound.distance_m).fold(0.0, f64::max)
     };

@@ -215,14 +215,13 @@ impl Arcs<'_> {
         let [first, other] = values.map(|value| shown(axis, value));
         let message = format!(
             "this arc begins or ends at several places: the robot passes its point with external \
-             axis {} at {first}, and on another way at {other}: the point is corrected for the \
-             first",
+             axis {} at {first} or at {other}: the point is corrected for {first}",
             axis.name()
         );
         self.finding(
             via,
             message,
-            "write the arc out for each way, with a point of its own",
+            "write the arc out for each place, with a point of its own",
         )
     }
 

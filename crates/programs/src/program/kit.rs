@@ -5,6 +5,7 @@ use super::{About, MOST_ANGLE_DEG, Marker, ReadError, Settings, Source};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use std::ops::Range;
+use std::path::Path;
 
 /// No text has a zero byte, and places are kept in 32 bits.
 ///
@@ -138,11 +139,10 @@ fn shown(bytes: &[u8], start: usize, end: usize) -> String {
     }
 }
 
-/// Whether a file's name ends so, in letters of any case.
-pub(super) fn ends_with(name: &str, end: &str) -> bool {
-    let at = name.len().checked_sub(end.len());
-    let tail = at.and_then(|at| name.get(at..));
-    tail.is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+/// Whether a file's name has this ending, in letters of any case.
+pub(super) fn has_ending(name: &str, ending: &str) -> bool {
+    let own = Path::new(name).extension();
+    own.is_some_and(|own| own.eq_ignore_ascii_case(ending))
 }
 
 /// A file that has nothing of the language that it is read as.

@@ -174,7 +174,10 @@ const SETTINGS: &[&[u8]] = &[
     b".SIG_COMMENT",
 ];
 
-/// Whether a keyword begins such a section: also of the panel, whose sections have several names.
+/// Sections that no other language has.
+const SECTIONS: &[&[u8]] = &[b".TRANS", b".JOINTS", b".REALS", b".SYSDATA", b".NETCONF"];
+
+/// Whether a keyword begins a section of settings: also of the panel, whose sections have several names.
 fn is_setting(word: &[u8]) -> bool {
     SETTINGS.contains(&word) || word.starts_with(b".INTER_PANEL")
 }
@@ -206,14 +209,7 @@ pub(super) fn recognises(bytes: &[u8]) -> bool {
         if line.text.first() == Some(&b'.') {
             opened |= opens(line.text, b".PROGRAM");
             let word = section(line.text);
-            let own = [
-                &b".TRANS"[..],
-                b".JOINTS",
-                b".REALS",
-                b".SYSDATA",
-                b".NETCONF",
-            ];
-            if own.contains(&word) || is_setting(word) {
+            if SECTIONS.contains(&word) || is_setting(word) {
                 return true;
             }
         }

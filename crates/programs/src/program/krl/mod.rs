@@ -51,7 +51,7 @@ mod targets;
 mod tokens;
 mod turning;
 
-use super::kit::{ends_with, not_this_language};
+use super::kit::{has_ending, not_this_language};
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
@@ -110,7 +110,7 @@ impl Language for Krl {
     }
 
     fn may_be_foreign(&self, source: &Source) -> bool {
-        ends_with(&source.name, ".dat") && !sniff::has_words(&source.bytes)
+        has_ending(&source.name, "dat") && !sniff::has_words(&source.bytes)
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {

@@ -50,7 +50,7 @@ mod translate;
 mod values;
 mod verbs;
 
-use super::kit::{ends_with, not_this_language};
+use super::kit::{has_ending, not_this_language};
 use super::names::Symbols;
 use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
@@ -104,7 +104,7 @@ impl Language for Rapid {
     }
 
     fn may_be_foreign(&self, source: &Source) -> bool {
-        ends_with(&source.name, ".sys") && !sniff::has_words(&source.bytes)
+        has_ending(&source.name, "sys") && !sniff::has_words(&source.bytes)
     }
 
     fn script(&self, sources: &[Source], settings: &Settings) -> Result<Script, ReadError> {
