@@ -153,6 +153,41 @@ fn a_relative_move_of_krl_moves_its_external_axes() {
     }
 }
 
+/// The last factor of a product decides its type: a FRAME has no external axes, which stay where
+/// they stand.
+#[test]
+fn a_product_of_krl_that_ends_with_a_frame_leaves_its_external_axes() {
+    let rail = profile(&rail("E1"), &[SCALE]);
+    let pose = "X 640.000,Y 200.000,Z 700.000,A 10.000,B 5.000,C 170.000";
+    for (product, x) in [
+        ("LIN XA", 640.9),
+        ("LIN {X 0,Y 0,Z 1,A 0,B 0,C 0}:XA", 640.9),
+        ("LIN XA:{X 0,Y 0,Z 1,A 0,B 0,C 0}", 640.8),
+        ("PTP XA:FR", 640.8),
+    ] {
+        let text = format!(
+            "DEF t()\nDECL E6POS XA={{{pose},E1 100}}\nDECL FRAME FR={{X 0,Y 0,Z 1,A 0,B 0,C 0}}\n\
+             $TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 \
+             100}}\nPTP {{{pose},E1 200}}\n{product}\nPTP {{{pose}}}\nEND\n"
+        );
+        let done = run(&rail, &[("t.src", &text)]).expect("read");
+        let stands = errors(&done);
+        assert!(stands.is_empty(), "{product}: {:?}", done.findings);
+        let found = xs(&written(&rail, &[("t.src", &text)]));
+        let last = found.last().expect("a position");
+        assert!((last - x).abs() < ROUNDING_MM, "{product}: {last}");
+    }
+    for assigned in ["XB=XA:FR", "XB=XA:{X 0,Y 0,Z 1,A 0,B 0,C 0,E1 300}"] {
+        let text = format!(
+            "DEF t()\nDECL E6POS XB\nDECL E6POS XA={{{pose},E1 100}}\nDECL FRAME FR={{X 0,Y 0,Z 1,A 0,B \
+             0,C 0}}\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP XA\n{assigned}\nPTP XB\nEND\n"
+        );
+        let done = run(&rail, &[("t.src", &text)]).expect("read");
+        let said: Vec<&str> = done.findings.iter().map(|finding| finding.id).collect();
+        assert!(said.contains(&"run-time-target"), "{assigned}: {said:?}");
+    }
+}
+
 #[test]
 fn a_position_of_krl_whose_axis_is_written_is_refused_by_name() {
     let rail = profile(&rail("E1"), &[SCALE]);

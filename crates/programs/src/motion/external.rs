@@ -153,7 +153,8 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
             }
         };
         let of_move = part_of(&program.externals_of_moves, motion.instruction);
-        for (_, external) in of_target {
+        let stay = program.axes_stay.binary_search(&motion.instruction).is_ok();
+        for (_, external) in of_target.iter().filter(|_| !stay) {
             slots[usize::from(external.axis)] = Some(external.value);
         }
         for (_, external) in of_move {

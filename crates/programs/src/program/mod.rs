@@ -454,6 +454,9 @@ pub struct Program {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by [`Move::instruction`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
+    /// Moves after which external axes stand where they stood before, whatever their targets say, by
+    /// [`Move::instruction`].
+    pub axes_stay: Vec<u32>,
     /// What moves add to where their targets say that external axes stand, by
     /// [`Move::instruction`].
     pub external_shifts: Vec<(u32, External)>,

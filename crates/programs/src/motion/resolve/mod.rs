@@ -41,11 +41,13 @@ pub(super) fn resolve(
         named: std::mem::take(&mut script.named),
         externals: std::mem::take(&mut script.externals),
         externals_of_moves: std::mem::take(&mut script.externals_of_moves),
+        axes_stay: std::mem::take(&mut script.axes_stay),
         external_shifts: std::mem::take(&mut script.external_shifts),
         ..Program::default()
     };
     program.externals.sort_by_key(|(target, _)| *target);
     program.externals_of_moves.sort_by_key(|(at, _)| *at);
+    program.axes_stay.sort_unstable();
     program.external_shifts.sort_by_key(|(at, _)| *at);
     let is_joints = |target: &Target| target.layout.shape == Shape::Joints;
     let flow = Flow::of(&script, program.targets.iter().map(is_joints).collect());

@@ -148,9 +148,15 @@ impl Reader {
                 let before = std::mem::replace(&mut self.heading, heading);
                 may_turn = before.is_none() || before != self.heading;
             }
-            let modal = self.modal_of(place, motion, point.target, &rest, may_turn);
+            let mut modal = self.modal_of(place, motion, point.target, &rest, may_turn);
             let mut instruction = move_to(point.target, place, motion, &rest);
             instruction.displacement = point.displacement;
+            if point.is_frame {
+                modal.configured = Expr::Absent;
+                // external axes stay where they stand
+                let script = &mut self.builder.script;
+                script.axes_stay.push(short(script.instructions.len()));
+            }
             if point.is_plain && !rest.has_angle && !is_referred {
                 instruction.target_span = point.span;
             }

@@ -5,7 +5,7 @@ use super::components::part_of;
 use super::frames::{State, pose_of};
 use super::names::{DataKind, Index};
 use super::reader::Reader;
-use super::remarks::{COMPUTED, COPIED};
+use super::remarks::{COMPUTED, COPIED, WITHOUT_AXES};
 use super::states::inside;
 use super::tokens::{Cursor, Kind, Read, capitals};
 use crate::geometry::Pose;
@@ -28,6 +28,9 @@ pub(super) struct Point {
     pub is_plain: bool,
     /// It is a pose, as far as is known.
     pub is_pose: bool,
+    /// A product whose last factor is a FRAME: that factor decides the type, so no S, no T and no
+    /// external axis of the position counts.
+    pub is_frame: bool,
     pub span: Span,
 }
 
@@ -94,6 +97,7 @@ impl Reader {
             is_here: false,
             is_plain: false,
             is_pose: false,
+            is_frame: false,
             span: Span { start, end },
         };
         match operands.get(..count) {
@@ -239,6 +243,18 @@ impl Reader {
                 return;
             }
         };
+        point.is_frame = at + 1 < operands.len();
+        if let Some(Operand::Inline(last)) = operands[at + 1..].last()
+            && self
+                .builder
+                .script
+                .externals
+                .last()
+                .is_some_and(|(of, _)| of == last)
+        {
+            point.target = self.computed(true);
+            return;
+        }
         let before = self.constant_product(&operands[..at]);
         let behind = self.constant_product(&operands[at + 1..]);
         let exactly = before
@@ -346,6 +362,9 @@ impl Reader {
 
     /// What a position is after an assignment.
     pub(super) fn value_of(&mut self, point: &Point) -> Expr {
+        if point.is_frame && !self.external.listed.is_empty() {
+            return self.unknown(WITHOUT_AXES);
+        }
         self.builder
             .script
             .displaced(point.target, point.displacement)

@@ -125,6 +125,9 @@ pub struct Script {
     pub externals: Vec<(TargetId, External)>,
     /// Likewise moves, by index in [`Script::instructions`]: they go before their targets.
     pub externals_of_moves: Vec<(u32, External)>,
+    /// Moves after which external axes stand where they stood before, whatever their targets say, by index in
+    /// [`Script::instructions`].
+    pub axes_stay: Vec<u32>,
     /// What moves add to where their targets say that external axes stand, likewise.
     pub external_shifts: Vec<(u32, External)>,
     /// Joints, radians, near which moves that never run say that they come to a target: programs
@@ -176,6 +179,7 @@ impl Default for Script {
             own_frames: Vec::new(),
             externals: Vec::new(),
             externals_of_moves: Vec::new(),
+            axes_stay: Vec::new(),
             external_shifts: Vec::new(),
             expected: vec![Box::default()],
             is_closed: false,
