@@ -139,6 +139,9 @@ pub struct Calibration {
     pub shared_factor: f64,
     /// Whether the standard deviations of the rows are assumed.
     pub sigma_assumed: bool,
+    /// Orientations without `sigma_deg` weigh as positions this far away, by what they scatter; null
+    /// where there are none, or too few.
+    pub orientation_lever_mm: Option<f64>,
     /// Root mean square error that these sigmas let expect over the joint limits.
     pub expected_error_mm: Option<f64>,
     /// `world_from_base`.
@@ -286,6 +289,7 @@ fn of_found(
         applied_factor: u.applied_factor,
         shared_factor: u.shared_factor,
         sigma_assumed: found.problem.sigma_assumed,
+        orientation_lever_mm: found.orientation_lever_m.map(mm_from_m),
         expected_error_mm: found.expected_m.map(mm_from_m),
         base: (&found.world_from_base).into(),
         base_replaced: found.base_replaced,

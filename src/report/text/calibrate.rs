@@ -68,6 +68,12 @@ pub(super) fn text(found: &Calibration, style: Style) -> String {
             found.shared_factor
         );
     }
+    if let Some(lever_mm) = found.orientation_lever_mm {
+        out += &format!(
+            "orientations without sigma_deg weigh by what they scatter, as positions {lever_mm:.0} mm \
+             away\n"
+        );
+    }
     if let Some(expected_mm) = found.expected_error_mm {
         out += &format!(
             "expected error over the joint limits, by these sigmas: {expected_mm:.4} mm rms\n"

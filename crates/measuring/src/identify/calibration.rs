@@ -11,10 +11,11 @@ use super::levelled::by_the_device;
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
 use super::off::Off;
+use super::orientations;
 use super::outlying::of_fit;
 use super::parameters::{Level, Parameter, Selection, Subject};
 use super::pick::Pick;
-use super::problem::{Estimate, Problem};
+use super::problem::{Estimate, LEVER_M, Problem};
 use super::robust::Shape;
 use super::solver::{Solution, Stop, solve, solve_telling};
 use super::start::{self, Start, base_gap};
@@ -90,6 +91,9 @@ pub struct Calibration {
     pub frame_from_device: Pose,
     /// How well it is known.
     pub uncertainty: Uncertainty,
+    /// Orientations of which no column says how sure they are weigh as a position at this distance,
+    /// metres, by what they scatter; `None` where there are none, or too few.
+    pub orientation_lever_m: Option<f64>,
     /// Error of position that is to be expected over the joint limits, root mean square, metres.
     pub expected_m: Option<f64>,
     /// How well the configurations show the parameters.
@@ -373,14 +377,24 @@ pub(super) fn identify(
     };
     let frames_only_misses = misses(&problem, &frames_only.estimate);
     let frames_only_quality = Quality::of(&problem.rows, &frames_only_misses);
-    let mut solution = solve_telling(
-        &problem,
-        frames_only.estimate.clone(),
-        options.shape,
-        sought,
-        tell,
-    )
-    .map_err(|error| screening::check_rest(error, &guess))?;
+    let mut solve = |problem: &Problem| {
+        let start = frames_only.estimate.clone();
+        solve_telling(problem, start, options.shape, sought, tell)
+            .map_err(|error| screening::check_rest(error, &guess))
+    };
+    let mut solution = solve(&problem)?;
+    let mut orientation_lever_m = None;
+    for _ in 0..orientations::TURNS {
+        let Some(times) = orientations::rescaled(&problem, &fit, &solution) else {
+            break;
+        };
+        orientations::scale(&mut problem, &fit, times);
+        orientation_lever_m = Some(orientation_lever_m.unwrap_or(LEVER_M) / times);
+        solution = solve(&problem)?;
+        if (times - 1.0).abs() < orientations::AT_REST {
+            break;
+        }
+    }
     let uncertainty = Uncertainty::of(&problem, &solution);
     let after_misses = misses(&problem, &solution.estimate);
     let after = Quality::of(&problem.rows, &after_misses);
@@ -451,6 +465,7 @@ pub(super) fn identify(
         fit,
         frame_from_device: world_from_device,
         expected_m,
+        orientation_lever_m,
         uncertainty,
         before,
         before_misses,

@@ -70,6 +70,7 @@ mod imagined;
 pub mod input_checks;
 mod levelled;
 mod line;
+pub(crate) mod orientations;
 mod pairs;
 mod reading;
 mod repeated;

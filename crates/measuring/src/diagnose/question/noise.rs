@@ -12,6 +12,7 @@ use crate::diagnose::estimator::chances::{chi_squared_quantile, f_tail};
 use crate::diagnose::estimator::fit::{Fit, Normal};
 use crate::diagnose::estimator::table::{Column, Layout, table};
 use crate::identify::measurements::{Measurements, Observed};
+use crate::identify::orientations::is_unsure;
 use crate::identify::problem::{Estimate, PointRef, Problem, Row};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -174,12 +175,8 @@ pub(crate) struct Orientations {
 
 impl Orientations {
     pub(crate) fn of(problem: &Problem, measurements: &Measurements, used: &[bool]) -> Self {
-        let is_unsure = |row: &Row| {
-            matches!(row.observed, Observed::Pose(_))
-                && measurements.rows[row.measurement].sigma_rad.is_none()
-        };
         let rows = problem.rows.iter().enumerate();
-        let unsure = rows.filter(|(number, row)| used[*number] && is_unsure(row));
+        let unsure = rows.filter(|(number, row)| used[*number] && is_unsure(row, measurements));
         Self {
             rows: unsure.map(|(number, _)| number).collect(),
         }

@@ -453,6 +453,7 @@ pub fn calibrate_plates(
         device: profile.device,
         frame_from_device: profile.world_from_device(),
         expected_m: None,
+        orientation_lever_m: None,
         observability: observability_of(&problem, &solution, &fit),
         before: Quality::of(&problem.rows, &before_misses),
         before_misses,
