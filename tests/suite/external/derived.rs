@@ -177,14 +177,33 @@ fn a_product_of_krl_that_ends_with_a_frame_leaves_its_external_axes() {
         let last = found.last().expect("a position");
         assert!((last - x).abs() < ROUNDING_MM, "{product}: {last}");
     }
-    for assigned in ["XB=XA:FR", "XB=XA:{X 0,Y 0,Z 1,A 0,B 0,C 0,E1 300}"] {
+    for (of, becomes, x) in [
+        ("FRAME", "XA", 640.8),
+        ("FRAME", "XA:FR", 640.8),
+        ("POS", "XA", 640.8),
+        ("E6POS", "XA", 640.9),
+        ("E6POS", "FR:XA", 640.9),
+    ] {
+        let text = format!(
+            "DEF t()\nDECL {of} XB\nDECL E6POS XA={{{pose},E1 100}}\nDECL FRAME FR={{X 0,Y 0,Z 1,A 0,B \
+             0,C 0}}\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 10,A4 0,A5 60,A6 0,E1 \
+             100}}\nPTP {{{pose},E1 200}}\nXB={becomes}\nPTP XB\nPTP {{{pose}}}\nEND\n"
+        );
+        let found = xs(&written(&rail, &[("t.src", &text)]));
+        let last = found.last().expect("a position");
+        assert!((last - x).abs() < ROUNDING_MM, "{of}={becomes}: {last}");
+    }
+    for (assigned, id) in [
+        ("XB=XA:FR", "run-time-target"),
+        ("XB=XA:{X 0,Y 0,Z 1,A 0,B 0,C 0,E1 300}", "target-copied"),
+    ] {
         let text = format!(
             "DEF t()\nDECL E6POS XB\nDECL E6POS XA={{{pose},E1 100}}\nDECL FRAME FR={{X 0,Y 0,Z 1,A 0,B \
              0,C 0}}\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP XA\n{assigned}\nPTP XB\nEND\n"
         );
         let done = run(&rail, &[("t.src", &text)]).expect("read");
-        let said: Vec<&str> = done.findings.iter().map(|finding| finding.id).collect();
-        assert!(said.contains(&"run-time-target"), "{assigned}: {said:?}");
+        let said = errors(&done);
+        assert!(said.contains(&id), "{assigned}: {said:?}");
     }
 }
 

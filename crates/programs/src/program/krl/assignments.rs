@@ -162,7 +162,7 @@ impl Reader {
                     self.write_element(owner, at, how);
                     return Ok(());
                 }
-                _ => self.value_of(&point),
+                _ => self.value_of(&point, self.kind_of(owner)),
             };
             How::Whole(value)
         };
@@ -170,14 +170,17 @@ impl Reader {
         Ok(())
     }
 
-    fn is_frame(&self, owner: Owner) -> bool {
-        matches!(owner, Owner::Datum(datum)
-            if self.names.data[datum as usize].kind == DataKind::Frame)
+    fn kind_of(&self, owner: Owner) -> DataKind {
+        match owner {
+            Owner::Datum(datum) => self.names.data[datum as usize].kind,
+            // as most are that moves go to
+            Owner::Nobody(_) => DataKind::Position,
+        }
     }
 
     /// `BF.Z=120` of a FRAME, which may be a tool or base.
     fn part_written(&mut self, owner: Owner, part: &[u8], cursor: Cursor) -> Option<How> {
-        if !self.is_frame(owner) {
+        if self.kind_of(owner) != DataKind::Frame {
             return None;
         }
         let how = self.part_of_frame(self.here, part, cursor)?;
@@ -193,7 +196,7 @@ impl Reader {
         let name = cursor.next();
         let mut buffer = [0; 24];
         let word = capitals(cursor.text(name), &mut buffer);
-        self.is_frame(owner)
+        self.kind_of(owner) == DataKind::Frame
             && (Table::named(word).is_some()
                 || matches!(State::named(word), Some(State::Tool | State::Base))
                 || matches!(word, b"$NULLFRAME" | b"$WORLD" | b"$ROBROOT"))

@@ -3,7 +3,7 @@
 use super::frames::{State, Table};
 use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
-use super::remarks::{COMPUTED, FRAME_ASSIGNED, carried, conveyor};
+use super::remarks::{COMPUTED, FRAME_ASSIGNED, WITHOUT_AXES, carried, conveyor};
 use super::sensors::leads;
 use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
@@ -153,7 +153,7 @@ enum Given {
     /// A part of a position: `XP1.Z`.
     Part(Symbol, Index, Box<[u8]>),
     /// A position that is written out, or a product.
-    Position(Expr),
+    Position(Expr, DataKind),
     Number(u32),
     Other,
 }
@@ -295,6 +295,13 @@ impl Reader {
         }
     }
 
+    /// Whether a parameter has external axes of which what it is given has none.
+    fn lacks_axes(&self, given: DataKind, parameter: Option<(u32, bool)>) -> bool {
+        let of = |(datum, _): (u32, bool)| self.names.data[datum as usize].kind;
+        let has = parameter.is_some_and(|parameter| of(parameter) == DataKind::Position);
+        has && matches!(given, DataKind::Frame | DataKind::Pos) && !self.external.listed.is_empty()
+    }
+
     /// Whether a routine may write what it is given.
     fn may_write(&self, callee: Option<u32>, parameter: Option<(u32, bool)>) -> bool {
         match parameter {
@@ -362,6 +369,9 @@ impl Reader {
                 (_, Some(DataKind::Frame)) if callee.is_none() => Expr::Absent,
                 (Expr::Absent, _) if is_number => self.chosen(),
                 (Expr::Absent, _) => self.unknown(COMPUTED),
+                (_, Some(kind)) if is_given && self.lacks_axes(kind, parameter) => {
+                    self.unknown(WITHOUT_AXES)
+                }
                 (value, _) => value,
             };
             let parameter = parameter.filter(|_| is_given);
@@ -414,8 +424,8 @@ impl Reader {
             Given::Named(name, at) => (name, at),
             Given::Array(name) => (name, Index::Variable),
             // nothing else has those numbers
-            Given::Position(value) if !is_foreign => {
-                return Some((value, Some(DataKind::Position)));
+            Given::Position(value, kind) if !is_foreign => {
+                return Some((value, Some(kind)));
             }
             Given::Number(number) => {
                 let is_chosen = parameter.is_some_and(|(datum, _)| {
@@ -522,11 +532,11 @@ impl Reader {
                         Given::Part(symbol, at, part.into())
                     });
                 }
-                if let Some(value) = self.returned(token)
+                if let Some((value, kind)) = self.returned(token)
                     && super::states::inside(&mut ahead).is_some()
                     && alone(&mut ahead)
                 {
-                    return Given::Position(value);
+                    return Given::Position(value, kind);
                 }
                 if alone(&mut ahead) {
                     return match at {
@@ -547,7 +557,7 @@ impl Reader {
 
     fn position_argument(&mut self, cursor: &mut Cursor) -> Given {
         match self.point(cursor) {
-            Ok(point) => Given::Position(self.value_of(&point)),
+            Ok(point) => Given::Position(self.value_of(&point, point.kind), point.kind),
             Err(_) => Given::Other,
         }
     }
@@ -568,7 +578,7 @@ impl Reader {
                     let folded = cursor.text(token).to_ascii_lowercase();
                     let name = self.names.symbols.find(&folded).filter(|_| is_whole);
                     let kind = name.and_then(|name| self.names.kind(name, self.context()));
-                    if kind == Some(DataKind::Position) {
+                    if kind.is_some_and(DataKind::is_position) {
                         return true;
                     }
                 }

@@ -2,6 +2,7 @@
 
 use super::aggregate::{self, Aggregate, WHOLE};
 use super::frames::State;
+use super::names::DataKind;
 use super::points::Point;
 use super::reader::Reader;
 use super::remarks::{FROM_NOWHERE, SOME_AXES, TURNED, carried};
@@ -151,8 +152,10 @@ impl Reader {
             let mut modal = self.modal_of(place, motion, point.target, &rest, may_turn);
             let mut instruction = move_to(point.target, place, motion, &rest);
             instruction.displacement = point.displacement;
-            if point.is_frame {
+            if point.kind == DataKind::Frame {
                 modal.configured = Expr::Absent;
+            }
+            if point.lacks_axes() {
                 // external axes stay where they stand
                 let script = &mut self.builder.script;
                 script.axes_stay.push(short(script.instructions.len()));

@@ -72,7 +72,9 @@ pub(super) fn whole(value: Option<f64>) -> Option<u32> {
 pub(super) enum DataKind {
     /// FRAME: a target where a move goes to it, else an offset or a work frame.
     Frame,
-    /// POS, E3POS, E6POS.
+    /// POS: with S and T, without external axes.
+    Pos,
+    /// E3POS, E6POS.
     Position,
     /// AXIS, E3AXIS, E6AXIS.
     Axes,
@@ -93,7 +95,8 @@ impl DataKind {
     pub(super) fn named(word: &[u8]) -> Self {
         match word {
             b"FRAME" => Self::Frame,
-            b"POS" | b"E3POS" | b"E6POS" => Self::Position,
+            b"POS" => Self::Pos,
+            b"E3POS" | b"E6POS" => Self::Position,
             b"AXIS" | b"E3AXIS" | b"E6AXIS" => Self::Axes,
             b"FDAT" => Self::Fdat,
             b"LDAT" => Self::Ldat,
@@ -104,7 +107,17 @@ impl DataKind {
 
     /// Whether it is somewhere to go to.
     pub(super) fn is_place(self) -> bool {
-        matches!(self, Self::Frame | Self::Position | Self::Axes)
+        self.is_pose() || self == Self::Axes
+    }
+
+    /// Whether it is a pose.
+    pub(super) fn is_pose(self) -> bool {
+        self == Self::Frame || self.is_position()
+    }
+
+    /// Whether it is a pose that no move has as an offset.
+    pub(super) fn is_position(self) -> bool {
+        matches!(self, Self::Pos | Self::Position)
     }
 }
 

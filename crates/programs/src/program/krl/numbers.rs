@@ -350,7 +350,7 @@ impl Reader {
             let name = operand.split(|b| matches!(b, b'.' | b'[')).next();
             let name = name.and_then(|name| self.names.symbols.find(name));
             let kind = name.and_then(|name| self.names.kind(name, self.context()));
-            let is_place = matches!(kind, Some(DataKind::Position | DataKind::Axes));
+            let is_place = kind.is_some_and(|kind| kind.is_position() || kind == DataKind::Axes);
             let is_part = operand.contains(&b'.') && is_place;
             if operand != own && !is_part {
                 return None;

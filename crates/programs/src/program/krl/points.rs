@@ -28,10 +28,16 @@ pub(super) struct Point {
     pub is_plain: bool,
     /// It is a pose, as far as is known.
     pub is_pose: bool,
-    /// A product whose last factor is a FRAME: that factor decides the type, so no S, no T and no
-    /// external axis of the position counts.
-    pub is_frame: bool,
+    /// Which parts it has: FRAME has no S and T, and no external axes, POS has no external axes.
+    pub kind: DataKind,
     pub span: Span,
+}
+
+impl Point {
+    /// Whether external axes stay where they stand.
+    pub(super) fn lacks_axes(&self) -> bool {
+        matches!(self.kind, DataKind::Frame | DataKind::Pos)
+    }
 }
 
 /// One part of a product of frames.
@@ -40,7 +46,7 @@ enum Operand {
     Inline(TargetId),
     Named(Symbol, Index),
     /// What a function of the files returned.
-    Returned(Expr),
+    Returned(Expr, DataKind),
     /// Where the robot is, and whether that is asked as a pose.
     Here(bool),
     /// Where the robot was, and whether that is asked as a pose.
@@ -97,7 +103,7 @@ impl Reader {
             is_here: false,
             is_plain: false,
             is_pose: false,
-            is_frame: false,
+            kind: DataKind::Position,
             span: Span { start, end },
         };
         match operands.get(..count) {
@@ -157,8 +163,8 @@ impl Reader {
             let mut behind = *cursor;
             if inside(&mut behind).is_some() && ends_operand(behind) {
                 *cursor = behind;
-                if let Some(result) = self.returned(name) {
-                    return Ok(Operand::Returned(result));
+                if let Some((result, kind)) = self.returned(name) {
+                    return Ok(Operand::Returned(result, kind));
                 }
                 *mentions |= self.mentions_position(before.part(before.at, behind.at));
                 return Ok(Operand::Other);
@@ -187,7 +193,8 @@ impl Reader {
             }
             Operand::Named(name, at) => {
                 let kind = self.names.kind(name, self.context());
-                point.is_pose = matches!(kind, Some(DataKind::Position | DataKind::Frame));
+                point.is_pose = kind.is_some_and(DataKind::is_pose);
+                point.kind = kind.unwrap_or(point.kind);
                 match self.named(name, at) {
                     Some(found) => found,
                     None => self.not_in_files(name),
@@ -198,7 +205,10 @@ impl Reader {
                 self.actual(is_pose)
             }
             Operand::Actual(is_pose) => self.actual(is_pose),
-            Operand::Returned(value) => value,
+            Operand::Returned(value, kind) => {
+                point.kind = kind;
+                value
+            }
             Operand::System | Operand::Other => self.computed(mentions),
         };
         point.is_plain &= matches!(operand, Operand::Inline(_) | Operand::Named(..));
@@ -222,16 +232,16 @@ impl Reader {
     /// `a : b : c`: the one operand that is a position is the target, the others displace it.
     fn product(&mut self, bytes: &[u8], operands: &[Operand], point: &mut Point) {
         let context = self.context();
-        let of_kind = |kind: DataKind| {
+        let of_kind = |is_it: fn(DataKind) -> bool| {
             let is = |operand: &Operand| match *operand {
-                Operand::Named(name, _) => self.names.kind(name, context) == Some(kind),
+                Operand::Named(name, _) => self.names.kind(name, context).is_some_and(is_it),
                 _ => false,
             };
             let all = (0..operands.len()).filter(|&at| is(&operands[at]));
             all.collect::<Vec<_>>()
         };
-        let positions = of_kind(DataKind::Position);
-        let frames = of_kind(DataKind::Frame);
+        let positions = of_kind(DataKind::is_position);
+        let frames = of_kind(|kind| kind == DataKind::Frame);
         // a FRAME alone with numbers is a position as well
         let is_inline = |operand: &&Operand| matches!(operand, Operand::Inline(_));
         let inline = operands.iter().filter(is_inline).count();
@@ -243,7 +253,6 @@ impl Reader {
                 return;
             }
         };
-        point.is_frame = at + 1 < operands.len();
         if let Some(Operand::Inline(last)) = operands[at + 1..].last()
             && self
                 .builder
@@ -272,6 +281,13 @@ impl Reader {
             Displacement::Unknown
         });
         self.one(operands[at], false, point);
+        // the last factor decides the type
+        if at + 1 < operands.len() {
+            point.kind = match operands.last() {
+                Some(Operand::Returned(_, kind)) => *kind,
+                _ => DataKind::Frame,
+            };
+        }
         point.displacement = self.builder.script.displacement(displacement);
     }
 
@@ -279,7 +295,7 @@ impl Reader {
     /// here.
     fn is_of_text(&self, operand: Operand) -> bool {
         match operand {
-            Operand::Inline(_) | Operand::Returned(_) | Operand::Other => true,
+            Operand::Inline(_) | Operand::Returned(..) | Operand::Other => true,
             Operand::Named(name, _) => {
                 let datum = self.names.datum(name, self.context());
                 let has_value = |datum| !self.names.values(datum, Index::Variable).is_empty();
@@ -360,9 +376,9 @@ impl Reader {
         Some(pose)
     }
 
-    /// What a position is after an assignment.
-    pub(super) fn value_of(&mut self, point: &Point) -> Expr {
-        if point.is_frame && !self.external.listed.is_empty() {
+    /// What a variable of a kind is after an assignment.
+    pub(super) fn value_of(&mut self, point: &Point, into: DataKind) -> Expr {
+        if into == DataKind::Position && point.lacks_axes() && !self.external.listed.is_empty() {
             return self.unknown(WITHOUT_AXES);
         }
         self.builder

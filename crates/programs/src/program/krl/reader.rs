@@ -67,7 +67,7 @@ pub(super) struct Reader {
     /// The present statement.
     pub(super) here: Place,
     /// What the functions returned that it calls, by their first bytes.
-    pub(super) results: Vec<(u32, VariableId)>,
+    pub(super) results: Vec<(u32, VariableId, DataKind)>,
     /// Between SPLINE and ENDSPLINE.
     pub(super) in_spline: bool,
     /// What the spline that is open sets for its moves.

@@ -168,9 +168,10 @@ pub(super) const TURNED: Remark = Remark::note(
 /// `XP = XQ:{Z 20}` on a track: which values of external axes XP has then is not documented.
 pub(super) const WITHOUT_AXES: Remark = Remark::error(
     "run-time-target",
-    "this position becomes a product that ends with a FRAME, which has no external axes; where they \
-     go with it is not known, and moves to it are not compensated",
-    "move to the product itself (`LIN XQ:{Z 20}`), or write the position out with its E1 to E6",
+    "this position becomes a FRAME or POS, also as a product that ends with one, which has no external \
+     axes; where they go with it is not known, and moves to it are not compensated",
+    "move to the FRAME, POS or product itself (`LIN XQ:{Z 20}`), or write the position out with its \
+     E1 to E6",
 );
 
 pub(super) const SOME_AXES: Remark = Remark::warning(

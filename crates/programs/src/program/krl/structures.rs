@@ -245,21 +245,24 @@ impl Reader {
         let place = Place::new(self.file, name.start);
         let copy = self.builder.script.variable(Variable { place, ..of });
         self.put(place, copy, Expr::Variable(result));
-        self.results.push((name.start, copy));
+        let kind = self.names.heads[routine as usize].returns;
+        self.results.push((name.start, copy, kind));
     }
 
     /// What the function returned that this statement calls there.
-    pub(super) fn returned(&self, name: Token) -> Option<Expr> {
-        let of = self.results.iter().find(|(start, _)| *start == name.start);
-        of.map(|(_, result)| Expr::Variable(*result))
+    pub(super) fn returned(&self, name: Token) -> Option<(Expr, DataKind)> {
+        let of = self.results.iter().find(|(start, ..)| *start == name.start);
+        of.map(|(_, result, kind)| (Expr::Variable(*result), *kind))
     }
 
     /// `RETURN XP2`; the cursor stands behind RETURN.
     pub(super) fn return_value(&mut self, mut cursor: Cursor) -> Read<()> {
-        let result = self.context().routine.and_then(|of| self.result_in(of));
+        let routine = self.context().routine;
+        let result = routine.and_then(|of| self.result_in(of));
+        let returns = routine.map_or(DataKind::Other, |of| self.names.heads[of as usize].returns);
         if let Some(result) = result.filter(|_| cursor.peek().kind != Kind::End) {
             let point = self.point(&mut cursor)?;
-            let value = self.value_of(&point);
+            let value = self.value_of(&point, returns);
             self.put(self.here, result, value);
         }
         Ok(())
