@@ -125,6 +125,17 @@ fn taught_points_are_data_and_moves_use_them() {
     assert_eq!(blocked(&program), [""; 0]);
 }
 
+/// A FRAME has neither S nor T, whatever it was copied from.
+#[test]
+fn the_configuration_of_a_position_counts_by_the_type_that_moves_have() {
+    let frame = "{X 0,Y 0,Z 5,A 0,B 0,C 0}";
+    let program = path(&format!(
+        "DECL FRAME f\nDECL POS p\nf=XP1\np=XP1\nPTP XP1\nPTP f\nPTP p\nPTP {frame}:XP1\nPTP XP1:{frame}"
+    ));
+    let configured: Vec<_> = program.moves.iter().map(|used| used.configured).collect();
+    assert_eq!(configured, [true, false, true, true, false]);
+}
+
 #[test]
 fn keys_stand_in_any_case_and_order() {
     let program = path("LIN XP2\nLIN XP3\nPTP {A6 6,a5 5,A4 4,A3 3,A2 2,A1 1,E1 400}");

@@ -45,6 +45,7 @@ mod resolved;
 mod shared;
 mod sniff;
 mod syntax;
+mod tasks;
 mod tokens;
 mod translate;
 mod values;
@@ -240,7 +241,10 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
         (target.numbers, target.blocked) = (0..0, true);
         dead.insert(bad.target);
     }
-    Ok(translate::translate(&resolved, script, dead, settings))
+    let mut script = translate::translate(&resolved, script, dead, settings);
+    let several = tasks::second_robot(&script, sources);
+    script.findings.extend(several);
+    Ok(script)
 }
 
 #[cfg(test)]
