@@ -222,6 +222,8 @@ pub(super) struct Flow<'a> {
     concurrent: HashMap<(RoutineId, VariableId), Holding>,
     /// The routine whose statements are gone through.
     writer: RoutineId,
+    /// Whether each routine starts others.
+    starts_others: Vec<bool>,
     /// The routines that run together with one that is started.
     started_with: HashMap<RoutineId, Rc<HashSet<RoutineId>>>,
     /// The instance whose text is gone through that nothing reaches.
@@ -285,6 +287,13 @@ impl<'a> Flow<'a> {
             started: HashMap::new(),
             concurrent: HashMap::new(),
             writer: 0,
+            starts_others: (script.routines.iter())
+                .map(|of| {
+                    let own = of.statements.start as usize..of.statements.end as usize;
+                    let mut own = script.statements[own].iter();
+                    own.any(|statement| matches!(statement, Statement::Start(_)))
+                })
+                .collect(),
             started_with: HashMap::new(),
             dead: None,
         };

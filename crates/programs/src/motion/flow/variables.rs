@@ -475,9 +475,11 @@ impl Flow<'_> {
     pub(super) fn set(&mut self, state: &mut State, variable: VariableId, holding: Holding) {
         self.last_modes = None;
         if self.is_concurrent {
-            let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
-            let joined = self.holdings.join(before, holding);
-            self.anytime.insert(variable, joined);
+            if !self.is_of_writer(variable) {
+                let before = self.anytime.get(&variable).copied().unwrap_or(NOTHING);
+                let joined = self.holdings.join(before, holding);
+                self.anytime.insert(variable, joined);
+            }
         } else if self.has_concurrent {
             let key = (self.writer, variable);
             let before = self.concurrent.get(&key).copied().unwrap_or(NOTHING);
@@ -485,6 +487,13 @@ impl Flow<'_> {
             self.concurrent.insert(key, joined);
         }
         self.hold(state, variable, holding);
+    }
+
+    /// Whether a variable is a local one of the routine that runs, which starts none that could see
+    /// it.
+    fn is_of_writer(&self, variable: VariableId) -> bool {
+        self.script.variables[variable as usize].routine == Some(self.writer)
+            && !self.starts_others[self.writer as usize]
     }
 
     /// Sets a variable that no other routine sees: what this holds is no other's.

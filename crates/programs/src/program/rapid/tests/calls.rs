@@ -263,6 +263,19 @@ fn traps_may_run_at_any_place() {
     );
 }
 
+/// A local datum of a trap is set by it alone, and anew each time it runs.
+#[test]
+fn no_other_time_of_a_trap_writes_its_local_data() {
+    for value in ["", ":=[[0,0,0],[1,0,0,0],CONF"] {
+        let program = path(&format!(
+            "MoveL p1,v5,z5,t;\nENDPROC\nTRAP tr\nVAR robtarget back{value};\nback:=CRobT(\\Tool:=t);\nMoveL \
+             p2,v5,z5,t;\nMoveL back,v5,z5,t;\nENDTRAP\nPROC last()"
+        ));
+        assert_eq!(ids(&program), ["run-time-position"], "{value}");
+        assert_eq!(to(&program)[..2], ["p1", "p2"], "{value}");
+    }
+}
+
 #[test]
 fn a_trap_moves_with_what_the_interrupted_program_has_set() {
     for (connect, first) in [("CONNECT i1 WITH tr;\n", 120.0), ("", 100.0)] {
