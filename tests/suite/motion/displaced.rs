@@ -1,7 +1,7 @@
 //! Copies of targets that a program displaces again and again, or turns: how far from their wanted
 //! poses they land, over all that the text allows.
 
-use super::{P, PLAIN, done, errors, given, message, profile_of, rapid, try_with};
+use super::{P, PLAIN, done, errors, fakes, given, message, profile_of, rapid, try_with};
 use poseshift::compensate::{Compensation, Options, compensate};
 use poseshift::program::{Source, language_of};
 
@@ -357,4 +357,59 @@ fn steps_that_a_loop_of_urscript_counts_are_judged_at_the_farthest() {
     let above = farthest_step(above);
     assert_eq!(errors(&above), [""; 0], "{:?}", above.findings);
     assert_eq!(misses(&above).len(), 2, "{:?}", above.findings);
+}
+
+/// A height less that of a target: rewritten, the target has another one, and what is added to it is
+/// that much less.
+#[test]
+fn what_is_worked_out_from_coordinates_of_a_target_loses_their_correction() {
+    let wide = || {
+        let mut options = given();
+        options.max_derived_error_m = Some(5e-3);
+        options
+    };
+    let of = |text: &str| try_with(wide(), &[PLAIN], &[("t.mod", text)]).expect("read");
+    let plain = of(&program("MoveL Offs(p,0,0,50),v100,fine,tool0;\n"));
+    let lifted = fakes(&plain)[0].translation[2] * 1e3 - 400.0;
+    assert!(lifted.abs() > 0.2, "{lifted} mm");
+    let derived = plain.findings.iter().find(|f| f.id == "displaced-target");
+    let derived = miss_mm(&derived.expect("a note").message);
+    for (amount, times) in [
+        ("450-p.trans.z", 1.0),
+        ("(450-p.trans.z)/2+25", 0.5),
+        ("p.trans.z-350", 1.0),
+        ("50+p.trans.z-p.trans.z", 0.0),
+        ("up", 1.0),
+    ] {
+        let body = format!(
+            "VAR num up;\nup:=450-p.trans.z;\n{START}MoveL Offs(p,0,0,{amount}),v100,fine,tool0;\n"
+        );
+        let data = format!("CONST robtarget p := [[430,0,400],{P};");
+        let done = of(&rapid(&data, &body));
+        let said = if times == 0.0 {
+            let found = done.findings.iter().find(|f| f.id == "displaced-target");
+            miss_mm(&found.expect("a note").message)
+        } else {
+            unknown(&done)[0]
+        };
+        let expected = derived + times * lifted.abs();
+        assert!(
+            said > expected - 0.02 && said < expected + 0.02,
+            "{amount}: {said} for {expected} mm"
+        );
+    }
+    // between two targets the corrections cancel as far as they are alike
+    let data =
+        format!("CONST robtarget p := [[430,0,400],{P};\nCONST robtarget p2 := [[430,0,380],{P};");
+    let body = format!(
+        "{START}MoveL p2,v100,fine,tool0;\nMoveL Offs(p,0,0,(p2.trans.z-p.trans.z)/4),v100,fine,tool0;\n"
+    );
+    let done = of(&rapid(&data, &body));
+    let z = |at: usize| fakes(&done)[at].translation[2] * 1e3;
+    let change = ((z(1) - 380.0) - (z(0) - 400.0)).abs() / 4.0;
+    let said = unknown(&done)[0];
+    assert!(
+        said > change && said < change + 0.02,
+        "{said} for {change} mm"
+    );
 }

@@ -5,13 +5,15 @@
 use super::approach::{Approach, stays};
 use super::{Job, LEAST_SIDE_M, LIMIT_DERIVED_M, strides};
 use crate::finding::{Finding, Severity};
-use crate::geometry::units::mm_from_m;
+use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, add, norm, sub};
 use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::motion::walk::{Arrival, Arrivals};
 use crate::program::script::short;
-use crate::program::{Displacement, Move, SOMEHOW_M, Shape, Shift, TargetId};
+use crate::program::{
+    Displacement, Move, Readings, SOMEHOW_M, Shape, Shift, Stride, TargetId, Value,
+};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::f64::consts::TAU;
 
@@ -25,7 +27,41 @@ fn is_displaced(motion: &Move) -> bool {
 /// The targets that points are derived from.
 pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
     let displaced = job.ground.program.moves.iter().filter(|m| is_displaced(m));
-    displaced.filter_map(|motion| motion.target).collect()
+    let mut bases = BTreeSet::new();
+    for motion in displaced {
+        bases.extend(motion.target);
+        bases.extend(readings(&motion.displacement).flat_map(Readings::targets));
+    }
+    bases
+}
+
+/// Coordinates that a displacement is worked out from.
+fn readings(displacement: &Displacement) -> impl Iterator<Item = &Readings> {
+    let strides: &[Stride] = match displacement {
+        Displacement::Within(strides) | Displacement::AtLeast(strides) => strides,
+        _ => &[],
+    };
+    strides.iter().filter_map(|stride| match stride {
+        Stride::Read { of, .. } => Some(of),
+        _ => None,
+    })
+}
+
+/// How far what is worked out from coordinates of targets comes to lie elsewhere at most, metres, where
+/// these have become those of the fake targets.
+fn reread_m(job: &Job, fakes: &BTreeMap<usize, Pose>, displacement: &Displacement) -> f64 {
+    let ground = &job.ground;
+    let by = |target: TargetId, part: u8| {
+        let value = crate::program::value(ground.language, ground.program, ground.settings, target);
+        let (Some(fake), Some(Value::Pose(pose))) = (fakes.get(&target), value) else {
+            return 0.0;
+        };
+        match pose.translation.get(usize::from(part)) {
+            Some(from) => mm_from_m(fake.translation[usize::from(part)] - from),
+            None => pose.separation(fake).angle_rad / DEG,
+        }
+    };
+    readings(displacement).map(|of| of.most(&by)).sum()
 }
 
 /// The known arrivals at moves to points that are derived from a target, by move; `sides` says from
@@ -94,6 +130,7 @@ pub(super) fn check(
             name: ground.name_of(target),
             fake: *fake,
             limit_m: limit_m(job),
+            reread_m: reread_m(job, fakes, &motion.displacement),
         };
         let Some(verdict) = base.judge(&motion.displacement, &mut judged) else {
             continue;
@@ -164,6 +201,8 @@ struct Base<'a> {
     fake: Pose,
     reach_m: f64,
     limit_m: f64,
+    /// What it is displaced by changes by so much where targets are rewritten, metres.
+    reread_m: f64,
 }
 
 impl Base<'_> {
@@ -209,7 +248,7 @@ impl Base<'_> {
     /// The verdict of a largest miss, whose message begins so; `None` where nothing bounds it.
     fn bounded_by(&self, most_m: Option<f64>, begin: &dyn Fn(&str) -> String) -> Verdict {
         match most_m {
-            Some(most_m) => self.bounded(most_m, &begin(&self.name)),
+            Some(most_m) => self.bounded(most_m + self.reread_m, &begin(&self.name)),
             None => self.unbounded(),
         }
     }

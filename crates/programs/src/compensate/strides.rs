@@ -36,19 +36,24 @@ pub(super) fn places(strides: &[Stride], reach_m: f64, filled: bool) -> Option<V
             .min(within_reach(shift, reach_m))
             .saturating_add(1) as usize,
         Stride::Turned(angle) => turned(*angle).len(),
+        Stride::Read { .. } => 1,
     };
     let count = |of: &mut dyn Iterator<Item = &Stride>| of.map(each).fold(1, usize::saturating_mul);
     if !filled && count(&mut strides.iter()) <= MOST_PLACES {
         return Some(product(strides.iter().map(|stride| match stride {
             Stride::By { shift, most } => repeated(shift, *most, reach_m, usize::MAX),
             Stride::Turned(angle) => turned(*angle),
+            Stride::Read { .. } => vec![Shift::none()],
         })));
     }
     let is_straight = |stride: &&Stride| match stride {
         Stride::By { shift, .. } => line_of(shift).is_some(),
-        Stride::Turned(_) => false,
+        Stride::Turned(_) | Stride::Read { .. } => false,
     };
-    let (straight, rotating): (Vec<&Stride>, Vec<&Stride>) = strides.iter().partition(is_straight);
+    let steps = strides
+        .iter()
+        .filter(|of| !matches!(of, Stride::Read { .. }));
+    let (straight, rotating): (Vec<&Stride>, Vec<&Stride>) = steps.partition(is_straight);
     if rotating.len() > MOST_ROTATING {
         return None;
     }
@@ -60,6 +65,7 @@ pub(super) fn places(strides: &[Stride], reach_m: f64, filled: bool) -> Option<V
             let every = all.len().div_ceil(each);
             all.into_iter().step_by(every).collect()
         }
+        Stride::Read { .. } => vec![Shift::none()],
     }));
     let lines = lines(&straight, reach_m);
     let each = evenly((MOST_PLACES / rotated.len()).max(LEAST_PLACES), lines.len());
@@ -214,6 +220,9 @@ pub(super) fn in_words(strides: &[Stride]) -> String {
         }
         Stride::Turned(Some(angle)) => Some(format!("turned by {:.1} deg", angle.abs() / DEG)),
         Stride::Turned(None) => Some("turned by what only the running program knows".into()),
+        Stride::Read { .. } => Some(
+            "by what the correction changes of the coordinates that this is worked out from".into(),
+        ),
     });
     let mut each: Vec<String> = each.collect();
     let last = each.pop().unwrap_or_default();

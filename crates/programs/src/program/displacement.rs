@@ -1,6 +1,6 @@
 //! What a program adds to a target before the robot goes there.
 
-use super::Move;
+use super::{Move, Readings};
 use crate::geometry::{Pose, Vector};
 
 /// What is added to a target before the robot goes there.
@@ -39,6 +39,14 @@ pub enum Stride {
     /// The tool turns about its origin, by this angle (radians) where the text tells it; about which
     /// axis it does not tell.
     Turned(Option<f64>),
+    /// What becomes of an amount that is worked out from coordinates of targets where these are
+    /// rewritten.
+    Read {
+        /// By one metre.
+        shift: Shift,
+        /// The coordinates; metres for each mm and degree.
+        of: Readings,
+    },
 }
 
 /// `shifted frame_from_tool = in_frame · frame_from_tool · in_tool`.

@@ -55,6 +55,7 @@ impl Displacing {
             if by.exact().is_some() {
                 continue;
             }
+            self.is_endless |= !by.readings.is_empty();
             // about an axis that the others turn nothing is known
             let is_alone = (3..6).all(|other| other == axis + 3 || first[other] == 0.0);
             if is_alone && by.unknown.is_none() {
@@ -83,7 +84,7 @@ impl Displacing {
         let back = step.inverse();
         // what varies so far stands before this
         for stride in &mut self.strides {
-            if let Stride::By { shift, .. } = stride {
+            if let Stride::By { shift, .. } | Stride::Read { shift, .. } = stride {
                 shift.in_tool = back * shift.in_tool * step;
             }
         }
@@ -100,6 +101,12 @@ impl Displacing {
         for (by, most) in steps.chain(of_text) {
             let shift = shift(by);
             self.strides.push(Stride::By { shift, most });
+        }
+        if !by.readings.is_empty() {
+            self.strides.push(Stride::Read {
+                shift: shift(1.0),
+                of: by.readings.clone(),
+            });
         }
     }
 
@@ -157,7 +164,7 @@ fn is_small(strides: &[Stride]) -> bool {
                 _ => f64::INFINITY,
             }
         }
-        Stride::Turned(_) => f64::INFINITY,
+        Stride::Turned(_) | Stride::Read { .. } => f64::INFINITY,
     });
     far.sum::<f64>() <= SOMEHOW_M
 }

@@ -47,6 +47,7 @@ pub mod number;
 mod numbers;
 mod quantity;
 pub mod rapid;
+mod reading;
 pub mod script;
 mod source;
 mod transformations;
@@ -70,6 +71,7 @@ pub(crate) use kit::check_bytes;
 pub(crate) use language::MOST_ANGLE_DEG;
 pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256, sha256_of};
+pub use reading::{Reading, Readings};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 

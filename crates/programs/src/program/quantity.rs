@@ -4,7 +4,9 @@
 //! All that a number may be is looked at, and more where that is simpler: two numbers count as if
 //! each went its own way.
 
+use super::TargetId;
 use super::number;
+use super::reading::Readings;
 
 /// A number: `first`, with each of the steps made none or more times, and what only the running
 /// program knows.
@@ -13,6 +15,8 @@ pub(super) struct Quantity {
     pub first: f64,
     pub steps: Vec<Step>,
     pub unknown: Option<Unknown>,
+    /// Coordinates of targets in it, as they stand in the files.
+    pub readings: Readings,
     /// How often the number itself that is assigned stands in it.
     own: f64,
 }
@@ -48,8 +52,28 @@ impl Quantity {
             first,
             steps: Vec::new(),
             unknown: None,
+            readings: Readings::default(),
             own: 0.0,
         }
+    }
+
+    /// A coordinate of a target.
+    pub(super) fn coordinate(value: f64, target: TargetId, part: u8) -> Self {
+        Self {
+            readings: Readings::of(target, part),
+            ..Self::exactly(value)
+        }
+    }
+
+    /// Without the readings in it, and these.
+    fn read_apart(mut self) -> (Self, Readings) {
+        let readings = std::mem::take(&mut self.readings);
+        (self, readings)
+    }
+
+    /// The greatest that it is, whatever its sign.
+    fn largest(&self) -> Option<f64> {
+        self.ends().map(|(a, b)| a.abs().max(b.abs()))
     }
 
     /// `first`, and up to so many times `by` more.
@@ -97,10 +121,10 @@ impl Quantity {
         (self.own, Self { own: 0.0, ..self })
     }
 
-    /// The one number that it is.
+    /// The one number that it is, whatever becomes of targets.
     pub(super) fn exact(&self) -> Option<f64> {
         let is_one = self.steps.is_empty() && self.unknown.is_none() && self.own == 0.0;
-        is_one
+        (is_one && self.readings.is_empty())
             .then_some(self.first)
             .filter(|first| first.is_finite())
     }
@@ -124,7 +148,7 @@ impl Quantity {
 
     /// The least and the greatest that it is; `None` where nothing bounds it.
     pub(super) fn ends(&self) -> Option<(f64, f64)> {
-        if self.unknown.is_some() || self.own != 0.0 {
+        if self.unknown.is_some() || self.own != 0.0 || !self.readings.is_empty() {
             return None;
         }
         self.known_ends()
@@ -165,6 +189,7 @@ impl Quantity {
         }
         self.first *= factor;
         self.own *= factor;
+        self.readings = self.readings.times(factor);
         for step in &mut self.steps {
             step.by *= factor;
         }
@@ -188,6 +213,7 @@ impl Quantity {
     pub(super) fn plus(mut self, other: Self) -> Self {
         self.first += other.first;
         self.own += other.own;
+        self.readings = self.readings.plus(other.readings);
         self.steps.extend(other.steps);
         self.unknown = match (self.unknown, other.unknown) {
             (Some(a), Some(b)) => {
@@ -271,6 +297,26 @@ impl Quantity {
     }
 
     pub(super) fn by(self, other: Self) -> Self {
+        if self.readings.is_empty() && other.readings.is_empty() {
+            return self.by_known(other);
+        }
+        let ((one, of_one), (two, of_two)) = (self.read_apart(), other.read_apart());
+        let scaled = |readings: Readings, by: &Self| match (by.exact(), by.largest()) {
+            _ if readings.is_empty() => Some(readings),
+            (Some(factor), _) => Some(readings.times(factor)),
+            (None, Some(most)) => Some(readings.times_up_to(most)),
+            (None, None) => None,
+        };
+        let (Some(of_one), Some(of_two)) = (scaled(of_one, &two), scaled(of_two, &one)) else {
+            return Self::endless();
+        };
+        Self {
+            readings: of_one.plus(of_two),
+            ..one.by_known(two)
+        }
+    }
+
+    fn by_known(self, other: Self) -> Self {
         if let Some(factor) = self.exact() {
             return other.times(factor);
         }
@@ -319,6 +365,18 @@ impl Quantity {
     }
 
     fn over(self, other: &Self) -> Self {
+        if !other.readings.is_empty() {
+            return Self::endless();
+        }
+        if !self.readings.is_empty() {
+            let (one, readings) = self.read_apart();
+            let inverse = Self::exactly(1.0).over(other);
+            let of_them = Self {
+                readings,
+                ..Self::exactly(0.0)
+            };
+            return one.over(other).plus(of_them.by(inverse));
+        }
         if let Some(divisor) = other.exact() {
             return if divisor == 0.0 {
                 Self::unknown()
@@ -335,6 +393,10 @@ impl Quantity {
 
     /// A quotient or its whole part.
     fn or_whole(self) -> Self {
+        if !self.readings.is_empty() {
+            // no whole number is made of coordinates
+            return self;
+        }
         match self.ends() {
             Some((a, b)) if (a.trunc(), b.trunc()) != (a, b) => {
                 Self::between(a.min(a.trunc()), b.max(b.trunc()))
@@ -345,6 +407,9 @@ impl Quantity {
 
     /// The whole part of a quotient.
     fn div(self, other: &Self) -> Self {
+        if !self.readings.is_empty() || !other.readings.is_empty() {
+            return Self::endless();
+        }
         if let (Some(a), Some(b)) = (self.exact(), other.exact())
             && b != 0.0
         {
@@ -359,6 +424,9 @@ impl Quantity {
 
     /// What is left of a quotient.
     fn modulo(self, other: &Self) -> Self {
+        if !self.readings.is_empty() || !other.readings.is_empty() {
+            return Self::endless();
+        }
         let least = self.ends().map_or(-1.0, |(least, _)| least);
         match other.exact() {
             _ if self.own != 0.0 => Self::endless(),
@@ -393,6 +461,18 @@ impl Quantity {
     pub(super) fn any(all: &[Self]) -> Self {
         if all.is_empty() {
             return Self::unknown();
+        }
+        if all[1..].iter().all(|one| *one == all[0]) {
+            return all[0].clone();
+        }
+        if all.iter().any(|one| !one.readings.is_empty()) {
+            let apart = all.iter().map(|one| one.clone().read_apart());
+            let (numbers, readings): (Vec<Self>, Vec<Readings>) = apart.unzip();
+            let each = readings.into_iter().map(|of| of.times_up_to(1.0));
+            return Self {
+                readings: each.fold(Readings::default(), Readings::plus),
+                ..Self::any(&numbers)
+            };
         }
         let covers = |of: &&Self| all.iter().all(|one| *of == one || of.may_be(one));
         if let Some(all_of_them) = all.iter().find(covers) {

@@ -558,7 +558,7 @@ mod tests {
         };
         let along = |stride: &Stride| match stride {
             Stride::By { shift, most } => (shift.in_frame.translation, *most),
-            Stride::Turned(_) => panic!("it turns nothing"),
+            _ => panic!("it turns nothing"),
         };
         let (first, _) = along(&strides[0]);
         assert!(first[0].abs() < 1e-12 && (first[1] - 0.01).abs() < 1e-12);

@@ -154,7 +154,7 @@ impl Flow<'_> {
             Displacement::By(shift) => axes(shift),
             Displacement::Within(of) | Displacement::AtLeast(of) => {
                 of.iter().try_fold([false; 3], |all, stride| match stride {
-                    Stride::By { shift, .. } => {
+                    Stride::By { shift, .. } | Stride::Read { shift, .. } => {
                         let axes = axes(shift)?;
                         Some([0, 1, 2].map(|axis| all[axis] || axes[axis]))
                     }
@@ -238,7 +238,7 @@ impl Flow<'_> {
             Displacement::By(shift) => in_tool(shift),
             Displacement::Within(of) | Displacement::AtLeast(of) => {
                 of.iter().any(|stride| match stride {
-                    Stride::By { shift, .. } => in_tool(shift),
+                    Stride::By { shift, .. } | Stride::Read { shift, .. } => in_tool(shift),
                     Stride::Turned(_) => true,
                 })
             }
@@ -288,6 +288,10 @@ impl Flow<'_> {
                     sum = None;
                     is_least |= matches!(by, Displacement::AtLeast(_));
                     let once = step.most == 1;
+                    let is_read = |stride: &Stride| matches!(stride, Stride::Read { .. });
+                    if !once && of.iter().any(is_read) {
+                        return Displacement::Unbounded;
+                    }
                     strides.extend(of.iter().map(|stride| match stride {
                         Stride::Turned(_) if !once => Stride::Turned(None),
                         Stride::By { shift, .. } if !once => Stride::By {

@@ -218,7 +218,7 @@ impl Reader {
             let all = match value {
                 Stored::Target(target) if script.targets[target].layout.shape == Shape::Pose => {
                     let numbers = script.numbers_of(target).first_chunk::<6>();
-                    numbers.map(|all| all.each_ref().map(|number| number.value))
+                    numbers.map(|all| (target, all.each_ref().map(|number| number.value)))
                 }
                 _ => None,
             };
@@ -226,8 +226,8 @@ impl Reader {
                 let known = &mut self.names.known;
                 let component = known.component(number, part);
                 match all {
-                    Some(all) => {
-                        let value = Written::Exactly(all[usize::from(part)]);
+                    Some((target, all)) => {
+                        let value = Written::Coordinate(all[usize::from(part)], target, part);
                         known.numbers.write(component, value, None);
                     }
                     // with components left out, or expressions

@@ -8,6 +8,7 @@ use super::names::{DataKind, Names};
 use super::reader::Reader;
 use super::statements::action;
 use super::tokens::{Cursor, Kind, Token};
+use crate::program::TargetId;
 use crate::program::names::{Context, Symbol};
 use crate::program::numbers::{
     Blocks, Numbers, Operand, bounds_in, counted, evaluated, rounds, word,
@@ -40,7 +41,8 @@ struct Counting {
 /// What is written into a variable.
 #[derive(Debug)]
 pub(super) enum Written {
-    Exactly(f64),
+    /// A component of a target as it is declared: which of the six.
+    Coordinate(f64, TargetId, u8),
     Value(Box<[u8]>, Place, Context),
     /// What a loop counts, and once more.
     Counted(usize),
@@ -366,7 +368,9 @@ impl Reader {
 
     fn written_value(&self, what: &Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
         match what {
-            Written::Exactly(value) => Quantity::exactly(*value),
+            Written::Coordinate(value, target, part) => {
+                Quantity::coordinate(*value, *target, *part)
+            }
             Written::Value(text, at, context) => {
                 self.evaluated(text, (*at, *context), of, &mut |_| None)
             }

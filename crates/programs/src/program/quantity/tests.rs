@@ -130,3 +130,39 @@ fn what_a_counter_comes_to_anyway_makes_no_other_of_it() {
     let beyond = counter.clone().plus(Quantity::counted(0.0, 1.0, Some(1)));
     assert_eq!(beyond, Quantity::counted(0.0, 1.0, Some(8)));
 }
+
+/// `a` is 10, coordinate 0 of target 0, `b` is 30, that of target 1; rewritten they are 1 and 3 more.
+#[test]
+fn what_is_worked_out_from_coordinates_changes_with_them() {
+    let of = |text: &str| {
+        evaluate(text.as_bytes(), &mut |name| match name {
+            b"a" => Quantity::coordinate(10.0, 0, 0),
+            b"b" => Quantity::coordinate(30.0, 1, 0),
+            b"i" => Quantity::counted(0.0, 1.0, Some(3)),
+            b"e" => Quantity::counted(0.0, 1.0, None),
+            _ => Quantity::unknown(),
+        })
+        .expect("an expression")
+    };
+    let changes = |of: &Quantity| of.readings.most(&|target, _| [1.0, 3.0][target]);
+    for (text, first, change) in [
+        ("a", 10.0, 1.0),
+        ("a-a", 0.0, 0.0),
+        ("(b-a)/4", 5.0, 0.5),
+        ("(b-a)*i/4", 0.0, 1.5),
+        ("i*(b-a)/4-a", -10.0, 2.5),
+        ("a*b", 300.0, 30.0 + 30.0),
+        ("2*(a+5)", 30.0, 2.0),
+    ] {
+        let of = of(text);
+        assert!((of.first - first).abs() < 1e-12, "{text}: {of:?}");
+        assert!((changes(&of) - change).abs() < 1e-12, "{text}: {of:?}");
+        assert_eq!(of.exact().is_some(), change == 0.0, "{text}");
+    }
+    for text in ["1/a", "a MOD 4", "a*e", "a*x"] {
+        assert!(of(text).is_endless(), "{text}");
+    }
+    let either = Quantity::any(&[of("a"), of("b")]);
+    assert_eq!(changes(&either), 4.0);
+    assert_eq!(changes(&Quantity::any(&[of("b-a"), of("b-a")])), 2.0);
+}

@@ -573,9 +573,11 @@ impl Resolved<'_> {
             return Some(Quantity::endless());
         }
         let kept = [&b".trans.x"[..], b".trans.y", b".trans.z"];
-        let axis = kept.iter().position(|axis| rest.eq_ignore_ascii_case(axis));
-        let number = axis.and_then(|axis| self.coordinate(data, axis));
-        Some(number.map_or_else(Quantity::endless, Quantity::exactly))
+        let axis = (0..)
+            .zip(kept)
+            .find(|(_, axis)| rest.eq_ignore_ascii_case(axis));
+        let number = axis.and_then(|(axis, _)| self.coordinate(data, axis));
+        Some(number.unwrap_or_else(Quantity::endless))
     }
 
     /// What a FOR loop counts with.

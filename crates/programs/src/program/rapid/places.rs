@@ -3,11 +3,11 @@
 
 use super::numbers::{COMPONENT, Written};
 use super::resolved::Resolved;
-use super::syntax::{Index, Storage, Stored, Type, indices};
+use super::syntax::{Element, Index, Storage, Stored, Type, indices};
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::number;
 use crate::program::numbers::{Numbers, Site, parts};
-use crate::program::quantity::is_letter;
+use crate::program::quantity::{Quantity, is_letter};
 use crate::program::script::short;
 use foldhash::HashMap;
 
@@ -108,12 +108,16 @@ impl Resolved<'_> {
     }
 
     /// What a target is declared with along an axis, mm.
-    pub(super) fn coordinate(&self, datum: u32, axis: usize) -> Option<f64> {
+    pub(super) fn coordinate(&self, datum: u32, axis: u8) -> Option<Quantity> {
         let of = self.datum(datum);
         let Stored::Elements {
-            sizes: [0, 0, 0], ..
+            sizes: [0, 0, 0],
+            elements,
         } = of.value
         else {
+            return None;
+        };
+        let [Element::Target(target)] = self.parsed.elements[indices(elements)] else {
             return None;
         };
         let text = self.sources[of.place.file as usize]
@@ -126,7 +130,8 @@ impl Resolved<'_> {
             .next()
             .filter(|_| of.kind == Type::Robtarget)?;
         let place = place.trim_ascii().strip_prefix(b"[")?.strip_suffix(b"]")?;
-        number::parse(parts(place).nth(axis)?.trim_ascii())
+        let value = number::parse(parts(place).nth(usize::from(axis))?.trim_ascii())?;
+        Some(Quantity::coordinate(value, target, axis))
     }
 
     /// The text of how many elements an array has: `Dim(a,1)` of `CONST num a{40}`.

@@ -73,7 +73,7 @@ fn numbers_that_loops_count_displace_as_far_as_these_run() {
                     let most = most.map_or(f64::INFINITY, f64::from);
                     shift.in_frame.translation[2].abs() * most
                 }
-                Stride::Turned(_) => panic!("along z"),
+                _ => panic!("along z"),
             });
             each.sum::<f64>() / MM
         }

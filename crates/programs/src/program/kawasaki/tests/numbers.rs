@@ -94,7 +94,7 @@ fn reach_mm(code: &str, others: &str) -> f64 {
                 Stride::By { shift, most } => {
                     shift.in_frame.translation[2] * f64::from(most.expect("counted"))
                 }
-                Stride::Turned(_) => panic!("nothing turns"),
+                _ => panic!("nothing turns"),
             });
             each.sum::<f64>() * 1e3
         }

@@ -285,7 +285,7 @@ fn counters_of_loops_with_a_bound_come_no_farther() {
                 Stride::By { shift, most } => {
                     ((shift.in_frame.translation[2] * 1e3).round(), *most)
                 }
-                Stride::Turned(_) => panic!("it turns nothing"),
+                _ => panic!("it turns nothing"),
             })
             .collect::<Vec<_>>(),
         other => panic!("{other:?}"),

@@ -28,7 +28,7 @@ fn by(axis: usize, by: f64) -> Displacement {
     match within(axis, by, 1) {
         Displacement::Within(strides) => match &strides[0] {
             Stride::By { shift, .. } => Displacement::By(Box::new(*shift)),
-            Stride::Turned(_) => panic!("a shift"),
+            _ => panic!("a shift"),
         },
         _ => panic!("strides"),
     }

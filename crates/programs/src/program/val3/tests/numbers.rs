@@ -43,7 +43,7 @@ fn quotients_of_counters_have_ends() {
             Stride::By { shift, most } => {
                 shift.in_tool.translation[0] * f64::from(most.expect("they end"))
             }
-            Stride::Turned(_) => panic!("nothing turns"),
+            _ => panic!("nothing turns"),
         });
         far.sum()
     };
@@ -176,7 +176,7 @@ fn at_most(found: &Displacement) -> f64 {
             let [x, _, z] = shift.in_tool.translation;
             (x + z).abs() * f64::from(most.expect("counted"))
         }
-        Stride::Turned(_) => panic!("it turns nothing"),
+        _ => panic!("it turns nothing"),
     });
     each.sum::<f64>() * 1e3
 }
