@@ -28,6 +28,11 @@ use crate::profile::Profile;
 const UNKNOWN_BETTER: f64 = 14.0;
 /// And this part: an effect's torque or time constant is known to a grid only.
 const UNKNOWN_PART: f64 = 0.01;
+/// A value within this many of its standard deviations is none.
+const NONE: f64 = 3.0;
+/// An effect that gains less than this part of what it gains in the linear model, and less than it
+/// costs, is not there: half, so that what is near its cost is judged as the search does.
+const NEEDED: f64 = 0.5;
 /// Searches, with values of lists nearer to those found and waves of the residual in between.
 const ROUNDS: usize = 4;
 /// Turns in which a large step of the device settles, and the weight of orientations.
@@ -293,6 +298,48 @@ fn searched(session: &mut Session, used: &[bool], options: &Options) -> Vec<Chos
     by_gain(chosen)
 }
 
+/// The effects found without those that only a model linear about the start needs: what two do
+/// together, a softer spring under a lighter load, is a product that is missing there, and another
+/// effect takes its place. Fitted without linearisation none of its values is beyond its uncertainty,
+/// and it gains less than it costs.
+fn needed(
+    session: &Session,
+    used: &[bool],
+    options: &Options,
+    mut chosen: Vec<Chosen>,
+) -> Vec<Chosen> {
+    let world = session.world(used, &options.accept);
+    while chosen.len() > 1 && session.shifts.is_empty() {
+        let (all, _) = refit(session.start(), &chosen, used);
+        let variance = all.evidence().powi(2);
+        let is_none = |i: usize| {
+            let candidate = &chosen[i].candidate;
+            let now = &all.estimate.effects[all.places[i]].parameters;
+            let mut before = session.start().estimate.effects.iter();
+            let before = before.find(|e| e.same_place(&candidate.effect));
+            let mut each = candidate.sought.iter().zip(&all.sigmas[i]);
+            each.all(|(number, sigma)| {
+                let from = before.map_or(0.0, |effect| effect.parameters[*number]);
+                (now[*number] - from).abs() < NONE * sigma
+            })
+        };
+        let needless = (0..chosen.len()).find(|i| {
+            let own = &chosen[*i];
+            if world.wanted(&own.candidate) || !is_none(*i) {
+                return false;
+            }
+            let mut others = chosen.clone();
+            others.remove(*i);
+            let (without, _) = refit(session.start(), &others, used);
+            let fall = (without.deviance - all.deviance) / variance;
+            fall < own.cost && fall < NEEDED * own.gain
+        });
+        let Some(needless) = needless else { break };
+        chosen.remove(needless);
+    }
+    chosen
+}
+
 /// Searches on one set of assumptions, and asks what of the outcome must be questioned.
 ///
 /// # Errors
@@ -343,6 +390,7 @@ pub(crate) fn attempt(
             _ => break,
         }
     }
+    let chosen = needed(&session, &used, options, chosen);
     // where the arm is measured
     let trust = session.trust;
     progress("fitting what was found");

@@ -1,6 +1,6 @@
 //! What the components of frames may be, of those that displace positions or stand in sums.
 
-use super::names::{Index, Stored};
+use super::names::{DataKind, Index, Stored};
 use super::numbers::{COMPONENT, Known, Written};
 use super::reader::Reader;
 use super::tokens::{Cursor, Kind, Token};
@@ -227,7 +227,12 @@ impl Reader {
                 let component = known.component(number, part);
                 match all {
                     Some((target, all)) => {
-                        let value = Written::Coordinate(all[usize::from(part)], target, part);
+                        let value = all[usize::from(part)];
+                        let value = match of.kind {
+                            // an offset is not rewritten
+                            DataKind::Frame => Written::Exactly(value),
+                            _ => Written::Coordinate(value, target, part),
+                        };
                         known.numbers.write(component, value, None);
                     }
                     // with components left out, or expressions

@@ -41,6 +41,7 @@ struct Counting {
 /// What is written into a variable.
 #[derive(Debug)]
 pub(super) enum Written {
+    Exactly(f64),
     /// A component of a target as it is declared: which of the six.
     Coordinate(f64, TargetId, u8),
     Value(Box<[u8]>, Place, Context),
@@ -368,6 +369,7 @@ impl Reader {
 
     fn written_value(&self, what: &Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {
         match what {
+            Written::Exactly(value) => Quantity::exactly(*value),
             Written::Coordinate(value, target, part) => {
                 Quantity::coordinate(*value, *target, *part)
             }

@@ -167,6 +167,13 @@ impl Goals<'_, '_, '_> {
                     return self.displaced(goal, Some(by), UNBOUNDED);
                 }
                 let goal = self.goal_within(b, function, steps);
+                if matches!(goal.target, script::Expr::Unknown(_)) {
+                    // what it is made of may be rewritten
+                    let made = self.made_of_arguments(value, function, steps);
+                    if !matches!(made.target, script::Expr::Unknown(_)) {
+                        return made;
+                    }
+                }
                 let feature = self.feature(a, function);
                 Goal {
                     feature: self.inside(feature, goal.feature),
