@@ -1,8 +1,8 @@
 //! The tasks of a controller, by the folders of a backup: each drives an arm of its own.
 //!
 //! # Source
-//! ABB, Application manual MultiMove: a motion task a mechanical unit group; Operating manual
-//! RobotStudio: a backup has `RAPID/TASK1/PROGMOD`, `RAPID/TASK2/PROGMOD`.
+//! ABB, application manual `MultiMove`: a motion task a mechanical unit group; operating manual
+//! `RobotStudio`: a backup has `RAPID/TASK1/PROGMOD`, `RAPID/TASK2/PROGMOD`.
 
 use crate::finding::{Finding, Severity};
 use crate::program::Source;
