@@ -4,6 +4,7 @@ use super::displaced::miss_mm;
 use super::{BACKLASH, P, checked, done, errors, given, message, rapid};
 use poseshift::compensate::{Compensation, compensate};
 use poseshift::geometry::Pose;
+use poseshift::model::profile::Profile;
 use poseshift::program::{self, Source};
 
 /// Joint 2 runs ahead: between the two sides is what the correction takes away from the way back.
@@ -227,5 +228,25 @@ fn the_passes_of_a_loop_behind_the_first_decide() {
             done.targets.iter().all(|target| target.fake.is_some()),
             "both are written"
         );
+    }
+}
+
+/// The path to the middle of an arc is that between the fake targets, its end among them: the circle
+/// through where the end is without its correction is another, on which these joints turn back less.
+#[test]
+fn a_joint_that_turns_back_before_the_middle_of_an_arc_has_come_as_far_as_it_does_there() {
+    let read = |name: &str| {
+        let path = crate::support::repository(&format!("tests/data/arcs/{name}"));
+        std::fs::read_to_string(path).expect(name)
+    };
+    let profile = Profile::from_yaml(&read("profile.yaml")).expect("a profile");
+    for name in ["first.as", "second.as"] {
+        let sources = [Source::new(name, read(name).into_bytes())];
+        let language = program::language_of(&sources[0]).expect("a language");
+        let done = compensate(language, &sources, &profile, &given()).expect("read");
+        assert_eq!(errors(&done), [""; 0], "{name}: {:?}", done.findings);
+        let mut said = done.findings.iter();
+        let is_it = |f: &&poseshift::finding::Finding| f.id == "direction-uncertain";
+        assert_eq!(said.find(is_it), None, "{name}");
     }
 }

@@ -128,10 +128,17 @@ impl<'a> Path<'a> {
             ride::through(&pose, ground.ride(None, point).as_deref(), ride.as_deref())
         });
         let wanted = equipped.controller.forward(end, &Conditions::default());
-        let (turning, at) = (walk_options.turning, arrival.motion as usize);
+        let turning = walk_options.turning;
         let via = via.or_else(|| {
-            let ends = (&start, &wanted);
-            middle::halfway(ground, turning, at, ends, ride.as_deref())
+            let end = end_of_arc(job, arrivals, fakes, at);
+            let ends = (&start, &wanted, end);
+            middle::halfway(
+                ground,
+                turning,
+                arrival.motion as usize,
+                ends,
+                ride.as_deref(),
+            )
         });
         let course = follow::course(
             motion,
@@ -150,6 +157,17 @@ impl<'a> Path<'a> {
             end: wanted,
         })
     }
+}
+
+/// Where the arc through the point of an arrival ends between fake targets, where that is the next
+/// arrival.
+fn end_of_arc(job: &Job, arrivals: &Arrivals, fakes: &[[f64; 6]], at: usize) -> Option<Pose> {
+    let end = arrivals.all.get(at + 1)?;
+    let motion = &job.ground.program.moves[end.motion as usize];
+    let is_end = motion.motion == Motion::ArcEnd && end.from as usize == at && end.known;
+    let equipped = job.ground.equipped(motion.tool).filter(|_| is_end)?;
+    let conditions = Conditions::default();
+    Some(equipped.controller.forward(&fakes[at + 1], &conditions))
 }
 
 /// Where the path to an arrival begins.

@@ -89,14 +89,14 @@ pub(super) fn middle(
     Some(if same { Rotation::identity() } else { middle })
 }
 
-/// The point halfway to the middle of the arc that a move begins, from joints where it begins and the
-/// pose of its middle; `None` where nobody knows the arc, or it begins none. `ride`: what external
-/// axes do on the way to its middle.
+/// The point halfway to the middle of the arc that a move begins, from joints where it begins, the pose
+/// of its middle and, where it is not as the program means it, that of its end; `None` where nobody
+/// knows the arc, or it begins none. `ride`: what external axes do on the way to its middle.
 pub(crate) fn halfway(
     ground: &Ground,
     turning: ToolRotation,
     at: usize,
-    (start, via): (&[f64; 6], &Pose),
+    (start, via, to): (&[f64; 6], &Pose, Option<Pose>),
     ride: Option<&Ride>,
 ) -> Option<Pose> {
     let motion = &ground.program.moves[at];
@@ -111,7 +111,7 @@ pub(crate) fn halfway(
         course.pose(0.5 * course.part_at(via.translation))
     };
     if !moves_axes {
-        return Some(half(&from, via, &end));
+        return Some(half(&from, via, &to.unwrap_or(end)));
     }
     // it is an arc on the part
     let ride = ride.filter(|ride| ride.is_known())?;

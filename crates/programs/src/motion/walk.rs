@@ -492,7 +492,7 @@ impl Walker<'_, '_> {
         });
         let turning = self.walk_options.turning;
         let via = via.or_else(|| {
-            let ends = (&start?, &wanted);
+            let ends = (&start?, &wanted, None);
             middle::halfway(ground, turning, at as usize, ends, ride.as_deref())
         });
         let said = self.findings.len();
