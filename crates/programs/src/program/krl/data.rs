@@ -372,7 +372,7 @@ pub(super) fn is_usual_arc(of: Arc, name: &[u8]) -> bool {
 /// What a load says.
 pub(super) enum Carried {
     Load(Load),
-    /// That of the tool: its mass is zero or below.
+    /// That of the tool: its mass is below zero, as that of an entry that nobody has filled in.
     OfTool,
     /// Only the running program knows it.
     Unknown,
@@ -390,7 +390,7 @@ pub(super) fn load(cursor: &mut Cursor) -> Read<Carried> {
         Ok(())
     })?;
     let (mass_kg, start) = match (mass, inside) {
-        (Some(mass_kg), _) if mass_kg <= 0.0 => return Ok(Carried::OfTool),
+        (Some(mass_kg), _) if mass_kg < 0.0 => return Ok(Carried::OfTool),
         (Some(mass_kg), Some(start)) => (mass_kg, start),
         _ => return Ok(Carried::Unknown),
     };

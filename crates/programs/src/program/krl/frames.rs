@@ -451,6 +451,7 @@ impl Reader {
     /// A frame, and behind it the load that belongs to a tool.
     fn frame_value(&mut self, table: Table, name: &str, at: u32, parts: &[Part; 6]) -> ValueId {
         let load = self.declared.load_of_tool(at);
+        let load = load.filter(|load| load.mass_kg > 0.0);
         let mut parts = parts.to_vec();
         if let (Table::Tool, Some(load)) = (table, load) {
             let [x, y, z] = load.cog_m;
@@ -468,7 +469,11 @@ impl Reader {
 
     pub(super) fn load_value(&mut self, load: Option<Load>) -> Expr {
         Expr::Value(match load {
-            Some(_) => self.builder.script.value(Held::Load(load)),
+            // none by the files: the profile may know one of the tool
+            Some(_) => {
+                let load = load.filter(|load| load.mass_kg > 0.0);
+                self.builder.script.value(Held::Load(load))
+            }
             // the tool's own, if any
             None => self.states.off,
         })

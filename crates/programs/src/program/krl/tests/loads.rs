@@ -30,6 +30,22 @@ fn the_load_of_a_move_is_that_which_the_program_set_last() {
             format!("{USE}\n$LOAD={load}\nLIN XP1\nSLIN XP2 WITH $LOAD=LOAD_DATA[1]\nLIN XP1"),
             &[Some(20.0), Some(5.5), Some(20.0)],
         ),
+        // none, that of the tool, and none in the entry of the tool
+        (
+            format!(
+                "{USE}\n$LOAD={}\nLIN XP1\n$LOAD={}\nLIN XP1",
+                load.replace("M 20", "M 0.0"),
+                load.replace("M 20", "M -1")
+            ),
+            &[None, Some(5.5)],
+        ),
+        (
+            format!(
+                "LOAD_DATA[1]={}\n{USE}\nLIN XP1",
+                load.replace("M 20", "M 0")
+            ),
+            &[None],
+        ),
         (
             format!("DECL INT n\nn=1\n{USE}\n$LOAD={load}\nSLIN XP2 WITH $LOAD=LOAD_DATA[n]"),
             &[Some(5.5)],
