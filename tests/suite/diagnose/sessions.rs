@@ -28,6 +28,22 @@ fn an_arm_is_as_it_was_calibrated_though_soft_or_measured_in_one_part_of_its_wor
     }
 }
 
+/// A lighter load and a link that bends more multiply: of the product, which a linear model lacks, no
+/// change of geometry is made.
+#[test]
+fn what_two_effects_do_together_is_no_third_one() {
+    let found = diagnosed("lighter_load");
+    assert_eq!(found.verdict, Verdict::Explained, "{:?}", found.reasons);
+    let labels = found.found.iter().map(|f| f.effect.label());
+    let labels: Vec<String> = labels.collect();
+    assert!(
+        matches!(&labels[..], [load, bends]
+            if load.starts_with("payload_error") && bends.starts_with("link_compliance")),
+        "{labels:?}"
+    );
+    assert_eq!(found.found[0].standing, Standing::Certain);
+}
+
 #[test]
 fn a_device_that_moves_slowly_did_not_certainly_move_at_a_row() {
     for folder in ["slow_device", "slow_device_again"] {

@@ -359,6 +359,26 @@ fn steps_that_a_loop_of_urscript_counts_are_judged_at_the_farthest() {
     assert_eq!(misses(&above).len(), 2, "{:?}", above.findings);
 }
 
+/// What functions make of a rewritten target takes its correction along, however they are nested.
+#[test]
+fn what_nested_functions_of_urscript_make_of_a_target_does_not_stay_as_it_is() {
+    let functions = "  def side(w):\n    return pose_trans(w, p[0.05,0,0,0,0,0.3])\n  end\n  def \
+        up(w,h):\n    return pose_trans(w, p[0,0,h,0,0,0])\n  end\n  a = \
+        p[0.35,-0.2,0.45,0,3.1,0]\n  movel(a)\n";
+    for made in [
+        "movej(up(side(a),0.05))",
+        "s = up(side(a),0.05)\n  movel(s)",
+    ] {
+        let done = farthest_step(&format!("{functions}  {made}\n"));
+        assert_eq!(
+            errors(&done),
+            ["displacement-unknown"],
+            "{made}: {:?}",
+            done.findings
+        );
+    }
+}
+
 /// A height less that of a target: rewritten, the target has another one, and what is added to it is
 /// that much less.
 #[test]

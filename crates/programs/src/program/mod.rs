@@ -23,6 +23,7 @@
 
 mod before;
 mod contexts;
+mod coordinates_read;
 pub mod csv;
 mod deciding;
 mod displacement;
@@ -47,7 +48,6 @@ pub mod number;
 mod numbers;
 mod quantity;
 pub mod rapid;
-mod reading;
 pub mod script;
 mod source;
 mod transformations;
@@ -57,6 +57,7 @@ mod words;
 mod xml;
 
 pub use before::Before;
+pub use coordinates_read::Readings;
 pub use deciding::{Decided, Deciding};
 pub(crate) use deciding::{decided, may_decide};
 pub use displacement::{Displacement, Shift, Stride};
@@ -71,7 +72,6 @@ pub(crate) use kit::check_bytes;
 pub(crate) use language::MOST_ANGLE_DEG;
 pub use language::{About, Language};
 pub use marker::{Found, Marker, sha256, sha256_of};
-pub use reading::{Reading, Readings};
 pub use script::{Instruction, Place, Script};
 pub use source::Source;
 

@@ -5,8 +5,8 @@
 //! each went its own way.
 
 use super::TargetId;
+use super::coordinates_read::Readings;
 use super::number;
-use super::reading::Readings;
 
 /// A number: `first`, with each of the steps made none or more times, and what only the running
 /// program knows.

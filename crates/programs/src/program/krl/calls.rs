@@ -295,13 +295,6 @@ impl Reader {
         }
     }
 
-    /// Whether a parameter has external axes of which what it is given has none.
-    fn lacks_axes(&self, given: DataKind, parameter: Option<(u32, bool)>) -> bool {
-        let of = |(datum, _): (u32, bool)| self.names.data[datum as usize].kind;
-        let has = parameter.is_some_and(|parameter| of(parameter) == DataKind::Position);
-        has && matches!(given, DataKind::Frame | DataKind::Pos) && !self.external.listed.is_empty()
-    }
-
     /// Whether a routine may write what it is given.
     fn may_write(&self, callee: Option<u32>, parameter: Option<(u32, bool)>) -> bool {
         match parameter {
@@ -346,8 +339,10 @@ impl Reader {
             };
             written.extend(self.array_written(given, parameter));
             let mut is_number = false;
+            let mut to = DataKind::Other;
             let is_given = parameter.is_some_and(|(datum, _)| {
                 let datum = &self.names.data[datum as usize];
+                to = datum.kind;
                 is_number = datum.kind == DataKind::Number;
                 datum.kind.is_place() || is_number && self.names.choosing.contains(&datum.name)
             });
@@ -369,9 +364,7 @@ impl Reader {
                 (_, Some(DataKind::Frame)) if callee.is_none() => Expr::Absent,
                 (Expr::Absent, _) if is_number => self.chosen(),
                 (Expr::Absent, _) => self.unknown(COMPUTED),
-                (_, Some(kind)) if is_given && self.lacks_axes(kind, parameter) => {
-                    self.unknown(WITHOUT_AXES)
-                }
+                (_, Some(kind)) if self.lacks_axes(kind, to) => self.unknown(WITHOUT_AXES),
                 (value, _) => value,
             };
             let parameter = parameter.filter(|_| is_given);

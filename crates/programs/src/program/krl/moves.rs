@@ -155,7 +155,7 @@ impl Reader {
             if point.kind == DataKind::Frame {
                 modal.configured = Expr::Absent;
             }
-            if point.lacks_axes() {
+            if point.kind.lacks_axes() {
                 // external axes stay where they stand
                 let script = &mut self.builder.script;
                 script.axes_stay.push(short(script.instructions.len()));

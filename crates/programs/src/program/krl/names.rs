@@ -115,6 +115,11 @@ impl DataKind {
         self == Self::Frame || self.is_position()
     }
 
+    /// Whether it is a pose without external axes: a move leaves these where they stand.
+    pub(super) fn lacks_axes(self) -> bool {
+        matches!(self, Self::Frame | Self::Pos)
+    }
+
     /// Whether it is a pose that no move has as an offset.
     pub(super) fn is_position(self) -> bool {
         matches!(self, Self::Pos | Self::Position)

@@ -33,13 +33,6 @@ pub(super) struct Point {
     pub span: Span,
 }
 
-impl Point {
-    /// Whether external axes stay where they stand.
-    pub(super) fn lacks_axes(&self) -> bool {
-        matches!(self.kind, DataKind::Frame | DataKind::Pos)
-    }
-}
-
 /// One part of a product of frames.
 #[derive(Clone, Copy)]
 enum Operand {
@@ -376,9 +369,14 @@ impl Reader {
         Some(pose)
     }
 
+    /// Whether what is given has none of the external axes that it is given to.
+    pub(super) fn lacks_axes(&self, given: DataKind, to: DataKind) -> bool {
+        to == DataKind::Position && given.lacks_axes() && !self.external.listed.is_empty()
+    }
+
     /// What a variable of a kind is after an assignment.
     pub(super) fn value_of(&mut self, point: &Point, into: DataKind) -> Expr {
-        if into == DataKind::Position && point.lacks_axes() && !self.external.listed.is_empty() {
+        if self.lacks_axes(point.kind, into) {
             return self.unknown(WITHOUT_AXES);
         }
         self.builder

@@ -5,16 +5,15 @@ use super::TargetId;
 
 /// How strongly a coordinate of a target stands in a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
-    /// The target.
-    pub target: TargetId,
+struct Reading {
+    target: TargetId,
     /// Which of x, y, z, and the three angles.
-    pub part: u8,
+    part: u8,
     /// What the number grows by with it, in its unit for each mm or degree.
-    pub by: f64,
+    by: f64,
 }
 
-/// All that stand in a number.
+/// All coordinates of targets that stand in a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readings {
     /// What they do together is their sum.
