@@ -4,7 +4,8 @@
 //! `cargo run --release --example injected_trial -- FOLDER`, with a folder for each robot that has
 //! `profile.yaml` and `fit.csv`. Each robot is calibrated (level 3) and diagnosed with all its
 //! rows, what was found is taken into the profile, and so on until nothing new is found: that is
-//! where the diagnosis of the rows with an effect added starts.
+//! where the diagnosis of the rows with an effect added starts. What was found of the session, such
+//! as a drift of the base, no profile can have: it is taken out of the rows.
 
 #[path = "../tests/physics/mod.rs"]
 #[allow(dead_code)]
@@ -14,10 +15,10 @@ mod physics;
 mod trial;
 
 use clap::Parser;
-use poseshift::diagnose::{Diagnosis, Found, Options, diagnose};
+use poseshift::diagnose::{Diagnosis, Options, diagnose};
 use poseshift::geometry::Pose;
 use poseshift::identify::calibration::{Options as Calibrating, calibrate};
-use poseshift::identify::measurements::{Measurements, Observed};
+use poseshift::identify::measurements::{Measurement, Measurements, Observed};
 use poseshift::model::Conditions;
 use poseshift::model::effects::{Effect, Kind};
 use poseshift::model::profile::{Mounted, Profile};
@@ -108,7 +109,7 @@ fn robot(folder: &Path) -> Robot {
     let read = |name: &str| std::fs::read(folder.join(name)).expect("a file of the folder");
     let text = String::from_utf8(read("profile.yaml")).expect("a text");
     let nominal = Profile::from_yaml(&text).expect("a profile");
-    let measurements = Measurements::from_csv(&read("fit.csv")).expect("measurements");
+    let mut measurements = Measurements::from_csv(&read("fit.csv")).expect("measurements");
     let calibrated = calibrate(&nominal, &measurements, &Calibrating::default());
     let mut profile = calibrated.expect("enough rows").profile();
     let (mut known, mut alarms, mut residual_m) = (Vec::new(), Vec::new(), 0.0);
@@ -119,20 +120,68 @@ fn robot(folder: &Path) -> Robot {
         let named = labels(&found);
         alarms = (named.iter().filter(|l| !known.contains(*l)).cloned()).collect();
         known = named;
-        let of_robot = |f: &&Found| !f.effect.definition().of_data;
-        if alarms.is_empty() || !found.found.iter().any(|f| of_robot(&f)) {
+        if alarms.is_empty() {
             break;
         }
         profile = found.profile;
+        let of_session = found.found.iter().map(|f| &f.effect);
+        let of_session: Vec<Effect> =
+            (of_session.filter(|e| e.definition().of_data).cloned()).collect();
+        as_at_the_end(&profile, &mut measurements, &of_session);
     }
-    let name = profile.tools.keys().next().expect("a tool").clone();
     Robot {
-        tool: profile.tool(&name).expect("the tool"),
+        tool: the_tool(&profile),
         known,
         alarms,
         residual_m,
         profile,
         measurements,
+    }
+}
+
+fn the_tool(profile: &Profile) -> Mounted {
+    let name = profile.tools.keys().next().expect("a tool");
+    profile.tool(name).expect("the tool")
+}
+
+/// Where a profile has the tool at a row's joints, at the time of the row of this number.
+fn at(profile: &Profile, tool: &Mounted, row: &Measurement, number: usize) -> Pose {
+    let mut conditions = row.conditions;
+    conditions.row = u32::try_from(number + 1).ok();
+    let model = profile.real_model(tool, &conditions);
+    model.forward(&row.q, &conditions)
+}
+
+/// What is seen at a row, displaced in the world; its squared length, square metres.
+fn displace(row: &mut Measurement, by: &Pose, device: &Pose) -> f64 {
+    let by = device.inverse() * *by * *device;
+    match &mut row.observed {
+        Observed::Position(point) => {
+            let moved = by.transform(*point);
+            let squared = (0..3).map(|k| (moved[k] - point[k]).powi(2)).sum();
+            *point = moved;
+            squared
+        }
+        Observed::Pose(pose) => {
+            let moved = by * *pose;
+            let squared = moved.separation(pose).distance_m.powi(2);
+            *pose = moved;
+            squared
+        }
+        _ => 0.0,
+    }
+}
+
+/// Takes what was found of the session out of the rows: all are then as the last one, which is what
+/// a diagnosis writes into the profile.
+fn as_at_the_end(profile: &Profile, measurements: &mut Measurements, of_session: &[Effect]) {
+    let mut with = profile.clone();
+    with.effects.extend_from_slice(of_session);
+    let (tool, device) = (the_tool(profile), profile.world_from_device());
+    let last = measurements.rows.len() - 1;
+    for (number, row) in measurements.rows.iter_mut().enumerate() {
+        let [then, at_last] = [number, last].map(|number| at(&with, &tool, row, number));
+        displace(row, &(at_last * then.inverse()), &device);
     }
 }
 
@@ -142,16 +191,11 @@ impl Robot {
         let mut with = self.profile.clone();
         with.effects.push(effect.clone());
         let rows = self.measurements.rows.iter().enumerate();
-        let at = rows.map(|(number, row)| {
-            let mut conditions = row.conditions;
-            conditions.row = u32::try_from(number + 1).ok();
-            let [before, after] = [&self.profile, &with].map(|profile| {
-                let model = profile.real_model(&self.tool, &conditions);
-                model.forward(&row.q, &conditions)
-            });
+        let moved = rows.map(|(number, row)| {
+            let [before, after] = [&self.profile, &with].map(|p| at(p, &self.tool, row, number));
             after * before.inverse()
         });
-        at.collect()
+        moved.collect()
     }
 
     /// An effect of this kind whose displacements have this root mean square, and the measurements
@@ -172,20 +216,7 @@ impl Robot {
             let mut seen = self.measurements.clone();
             let mut squares = 0.0;
             for (row, by) in seen.rows.iter_mut().zip(self.moved(effect)) {
-                let by = device.inverse() * by * device;
-                match &mut row.observed {
-                    Observed::Position(point) => {
-                        let moved = by.transform(*point);
-                        squares += (0..3).map(|k| (moved[k] - point[k]).powi(2)).sum::<f64>();
-                        *point = moved;
-                    }
-                    Observed::Pose(pose) => {
-                        let moved = by * *pose;
-                        squares += moved.separation(pose).distance_m.powi(2);
-                        *pose = moved;
-                    }
-                    _ => {}
-                }
+                squares += displace(row, &by, &device);
             }
             (seen, (squares / (3.0 * count as f64)).sqrt())
         };

@@ -7,6 +7,7 @@ use super::syntax::{
     Argument, Assigned, Base, Callee, Component, Expression, Part, StatementKind, Type, indices,
 };
 use crate::program::names::{Context, Meaning, Symbol};
+use crate::program::script::Place;
 use foldhash::HashMap;
 
 /// Steps from one name to the next that are followed against the order of the text.
@@ -21,14 +22,15 @@ pub(super) enum Holder {
 
 /// What a holder gets: a value, or what a routine writes into a parameter.
 #[derive(Clone, Copy)]
-enum Origin {
-    Value(Expression, Context),
+pub(super) enum Origin {
+    /// The assignment stands in this place.
+    Value(Expression, Context, Option<Place>),
     Parameter(u32),
 }
 
 /// What holders get, in the order of the text.
 #[derive(Default)]
-struct Origins {
+pub(super) struct Origins {
     holders: Vec<(Holder, Vec<Origin>)>,
     known: HashMap<Holder, usize>,
 }
@@ -40,6 +42,12 @@ impl Origins {
             self.holders.len() - 1
         });
         self.holders[at].1.push(origin);
+    }
+
+    /// What one of them gets.
+    pub(super) fn of(&self, holder: Holder) -> &[Origin] {
+        let at = self.known.get(&holder);
+        at.map_or(&[], |at| &self.holders[*at].1)
     }
 }
 
@@ -104,7 +112,7 @@ impl Resolved<'_> {
     }
 
     /// Whether there is such a name in a value.
-    fn any_name(&self, value: &Expression, is: &dyn Fn(Symbol) -> bool) -> bool {
+    pub(super) fn any_name(&self, value: &Expression, is: &dyn Fn(Symbol) -> bool) -> bool {
         match *value {
             Expression::Point {
                 base: Base::Named { name, .. },
@@ -164,14 +172,14 @@ impl Resolved<'_> {
     /// nothing.
     fn is_derived(&self, holder: Holder, origins: &[Origin]) -> bool {
         let mut others = origins.iter().filter(|origin| match origin {
-            Origin::Value(value, context) => {
+            Origin::Value(value, context, _) => {
                 let own = |name| self.entity_of(name, *context).map(Holder::Data) == Some(holder);
                 !self.any_name(value, &own)
             }
             Origin::Parameter(_) => true,
         });
         let comes = |origin: &Origin| match origin {
-            Origin::Value(value, context) => self.is_from_target(value, *context),
+            Origin::Value(value, context, _) => self.is_from_target(value, *context),
             Origin::Parameter(datum) => self
                 .derived
                 .contains(&Holder::Data(Entity::Declared(*datum))),
@@ -189,11 +197,11 @@ impl Resolved<'_> {
     }
 
     /// What data that are no targets get, and functions give.
-    fn origins(&self) -> Origins {
+    pub(super) fn origins(&self) -> Origins {
         let mut origins = Origins::default();
         for &(datum, names) in &self.parsed.initial {
             let value = Expression::Computed(names);
-            let origin = Origin::Value(value, self.datum(datum).context);
+            let origin = Origin::Value(value, self.datum(datum).context, None);
             origins.add(Holder::Data(Entity::Declared(datum)), origin);
         }
         let (mut file, mut context) = (
@@ -217,12 +225,13 @@ impl Resolved<'_> {
                     if !self.kind(name, context).is_some_and(Type::is_target)
                         && let Some(entity) = self.entity_of(name, context)
                     {
-                        origins.add(Holder::Data(entity), Origin::Value(value, context));
+                        let at = Some(Place::new(file, statement.offset));
+                        origins.add(Holder::Data(entity), Origin::Value(value, context, at));
                     }
                 }
                 StatementKind::Return(value) => {
                     if let Some(routine) = context.routine {
-                        origins.add(Holder::Result(routine), Origin::Value(value, context));
+                        origins.add(Holder::Result(routine), Origin::Value(value, context, None));
                     }
                 }
                 StatementKind::Function(function) => {
@@ -262,7 +271,7 @@ impl Resolved<'_> {
                     && self.is_from_target(&value, context);
                 if of_target || !self.is_written_back(datum) {
                     let parameter = Holder::Data(Entity::Declared(datum));
-                    origins.add(parameter, Origin::Value(value, context));
+                    origins.add(parameter, Origin::Value(value, context, None));
                 }
                 if self.is_written_back(datum)
                     && let Some((name, _)) = self.place_of(&value)

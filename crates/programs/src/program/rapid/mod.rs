@@ -9,13 +9,14 @@
 //!
 //! # Limits
 //!
-//! Targets inside records, Load at run time of modules that are not given, and functions that move
+//! Targets computed inside records, Load at run time of modules that are not given, and functions that move
 //! are not followed.
 
 mod aggregate;
 mod ahead;
 mod arguments;
 mod axes;
+mod behind;
 mod blocks;
 mod builtins;
 mod by_calls;

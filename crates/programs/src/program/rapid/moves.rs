@@ -8,7 +8,7 @@ use super::verbs::Led;
 use crate::geometry::units::MM;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::script::{Call, Expr, Held, How, Instruction, Modal, Remark, Span, Written};
-use crate::program::{Motion, Source, SpeedZone, number};
+use crate::program::{Motion, SpeedZone, number};
 
 /// The parts of a move instruction, as indices of its arguments.
 struct Parts {
@@ -317,7 +317,7 @@ impl Translator<'_> {
             }
             self.ambiguous = false;
             let target = match all[at].expression {
-                Expression::Member { .. } => self.in_record(all[at].span),
+                Expression::Member { name, .. } => self.in_record(name, all[at].span),
                 expression => self.position_of_move(expression, wanted),
             };
             let guards = match (absolute, self.ambiguous) {
@@ -396,21 +396,6 @@ impl Translator<'_> {
             self.tell_corrected(callee);
         }
         self.ends_elsewhere(FORCE);
-    }
-
-    /// A target inside a record: the text that names it stands in this place.
-    fn in_record(&mut self, (start, end): (u32, u32)) -> Expr {
-        let bytes = &self.resolved.sources[self.here.file as usize].bytes;
-        let name = Source::text(&bytes[start as usize..end as usize]);
-        self.builder.script.unknown(Remark::warning_about(
-            "computed-target",
-            format!(
-                "{}, where this move goes to, is a part of a record: targets inside records are \
-                 not followed; the move stays as it is",
-                name.trim()
-            ),
-            "declare the target as data of its own, with numbers",
-        ))
     }
 
     /// A search writes where the robot was when the signal came.

@@ -24,7 +24,7 @@ fn axis_of(part: &[u8]) -> Option<usize> {
 }
 
 /// A text in small letters and without blanks.
-fn small(text: &[u8]) -> Vec<u8> {
+pub(super) fn small(text: &[u8]) -> Vec<u8> {
     let text = text.iter().filter(|b| !b.is_ascii_whitespace());
     text.map(u8::to_ascii_lowercase).collect()
 }

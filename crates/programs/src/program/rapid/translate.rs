@@ -1,6 +1,7 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::EXTERNAL;
+use super::derived::Origins;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
 use super::resolved::{Entity, Resolved};
@@ -36,6 +37,8 @@ pub(super) struct Words {
 /// Puts a script together.
 pub(super) struct Translator<'a> {
     pub resolved: &'a Resolved<'a>,
+    /// What data that are no targets get, where a move needed that.
+    pub origins: Option<Origins>,
     pub builder: Builder,
     /// Where the present statement stands.
     pub here: Place,
@@ -118,6 +121,7 @@ pub(super) fn translate(
     let script = &mut builder.script;
     let mut translator = Translator {
         resolved,
+        origins: None,
         here: Place::NOWHERE,
         context: Context {
             module: 0,

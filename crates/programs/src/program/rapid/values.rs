@@ -192,6 +192,8 @@ impl Translator<'_> {
             if kind.is_some_and(Type::is_target) {
                 let base = self.position(name, Index::Whole, Type::Robtarget);
                 all.push(self.builder.script.displaced(base, by));
+            } else {
+                all.extend(self.at_targets_behind(name, None));
             }
         }
         (!all.is_empty()).then(|| self.builder.script.any(all))
@@ -212,7 +214,13 @@ impl Translator<'_> {
                 };
                 self.stepped(base, steps)
             }
-            Expression::Member { name, .. } => self.computed_name(name),
+            Expression::Member { name, .. } => {
+                let mut all = self.at_targets_behind(name, None);
+                if all.is_empty() || self.resolved.has_value(name, self.context) {
+                    all.push(self.computed_name(name));
+                }
+                self.builder.script.any(all)
+            }
             Expression::Composed(composed) => self.composed_apart(composed),
             Expression::List(composed) => self
                 .with_other_axes(composed)

@@ -88,6 +88,12 @@ impl<'a> Reader<'a> {
                     Kind::Sign(sign @ (b',' | b')')) => {
                         let text = &self.scanner.bytes[first.start..token.start.max(first.start)];
                         self.may_pass = may_pass;
+                        // of a call whose values count, and no speed or the like
+                        let counts = self.depth < MOST_LOOKED_INTO
+                            && name.is_none_or(|name| name.len() > 1 || name == b"q");
+                        if value == OTHER && counts {
+                            value = self.made_of_names(first.start, token.start);
+                        }
                         arguments.push(Argument {
                             name,
                             value,

@@ -8,7 +8,9 @@
 
 use super::goals::{Feature, Goal, Goals};
 use super::reader::Reader;
-use super::syntax::{Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId, Symbol};
+use super::syntax::{
+    Assignment, Event, Expr, ExprId, FunctionId, Literal, LiteralId, OTHER, Symbol,
+};
 use super::tokens::{Kind, Token};
 use super::variables::{VarId, Variables};
 use super::verbs::{self, PoseCall};
@@ -52,6 +54,30 @@ impl Reader<'_> {
             let literal = short(self.parsed.literals.len());
             self.parsed.coordinates.insert(literal, coordinates);
         }
+    }
+
+    /// What is computed between these bytes, by the names in it.
+    pub(super) fn made_of_names(&mut self, start: usize, end: usize) -> ExprId {
+        let mut ahead = self.scanner;
+        ahead.at = start;
+        let first = self.parsed.composed.len();
+        while ahead.at < end
+            && let Ok(token) = ahead.next()
+        {
+            let text = self.text(token);
+            if token.kind == Kind::Word && !verbs::is_operator(text) && !verbs::is_constant(text) {
+                let (symbol, _) = self.member(text);
+                let known = &self.parsed.composed[first..];
+                if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
+                    self.parsed.composed.push(symbol);
+                }
+            }
+        }
+        let behind = self.parsed.composed.len();
+        if behind == first {
+            return OTHER;
+        }
+        self.parsed.add(Expr::Made(short(first), short(behind)))
     }
 
     /// The names in each of the first three elements behind `open`, and the functions that they call;
@@ -223,6 +249,9 @@ impl Variables<'_, '_> {
                     open.extend(self.result(call));
                     let given = parsed.arguments_of(&parsed.calls[call as usize]);
                     values.extend(given.iter().map(|(_, value)| *value));
+                }
+                Expr::Made(from, to) => {
+                    open.extend(self.named(parsed.composed_in(from..to), function))
                 }
                 Expr::Actual { .. } | Expr::Number(_) | Expr::Other => {}
             }

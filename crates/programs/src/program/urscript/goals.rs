@@ -167,9 +167,12 @@ impl Goals<'_, '_, '_> {
                     return self.displaced(goal, Some(by), UNBOUNDED);
                 }
                 let goal = self.goal_within(b, function, steps);
-                if matches!(goal.target, script::Expr::Unknown(_)) {
+                let is_known = !matches!(goal.target, script::Expr::Unknown(_));
+                let is_in_known = is_known && self.variables.constant(a, function).is_ok();
+                if !is_in_known {
                     // what it is made of may be rewritten
-                    let made = self.made_of_arguments(value, function, steps);
+                    let of = if is_known { a } else { value };
+                    let made = self.made_of_arguments(of, function, steps);
                     if !matches!(made.target, script::Expr::Unknown(_)) {
                         return made;
                     }
@@ -199,6 +202,7 @@ impl Goals<'_, '_, '_> {
                 let otherwise = self.displaced_somehow(b, function);
                 self.shifted_in_base(goal, by, otherwise)
             }
+            Expr::Made(..) => self.made_of_arguments(value, function, steps),
             Expr::Inverse(_) | Expr::Number(_) | Expr::Other => self.unknown(),
         }
     }
@@ -317,17 +321,13 @@ impl Goals<'_, '_, '_> {
 
     /// Any of the elements of a list that the index may mean; the member of a structure.
     fn element(&mut self, name: Symbol, at: At, function: FunctionId, steps: u32) -> Goal {
-        let is_member = matches!(at, At::Member(_));
         let elements = match self.variables.meaning(name, function) {
             // what has members may be a service of another computer
-            None if is_member => return self.unknown(),
+            None if matches!(at, At::Member(_)) => return self.unknown(),
             None => return Goal::to(self.not_in_files(name)),
             Some(variable) => match self.variables.elements(name, at, function) {
                 Some(elements) if !elements.values.is_empty() => elements,
-                _ if is_member => {
-                    return self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps);
-                }
-                _ => return self.unknown(),
+                _ => return self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps),
             },
         };
         let mut all = Vec::with_capacity(elements.values.len());

@@ -51,6 +51,8 @@ pub(super) enum Expr {
     Actual { is_pose: bool },
     /// A number that is a load's mass, or all that a variable is assigned.
     Number(f64),
+    /// Something computed in an argument: the names in it, a part of [`Parsed::composed`].
+    Made(u32, u32),
     /// Anything else.
     Other,
 }
@@ -356,7 +358,11 @@ impl<'a> Parsed<'a> {
 
     /// The names in a pose with expressions.
     pub(super) fn names_in(&self, id: LiteralId) -> &[Symbol] {
-        let names = &self.literal(id).names;
+        self.composed_in(self.literal(id).names.clone())
+    }
+
+    /// Names that a value is computed from.
+    pub(super) fn composed_in(&self, names: Range<u32>) -> &[Symbol] {
         &self.composed[names.start as usize..names.end as usize]
     }
 

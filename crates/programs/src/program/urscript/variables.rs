@@ -435,6 +435,7 @@ impl<'n, 'a> Variables<'n, 'a> {
             | Expr::List(_)
             | Expr::Element(..)
             | Expr::Number(_)
+            | Expr::Made(..)
             | Expr::Other => true,
             // a pose is that of the tool which is set where it is read
             Expr::Actual { is_pose } => !is_pose || !self.sets_tool,

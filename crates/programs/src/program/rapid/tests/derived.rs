@@ -376,3 +376,61 @@ fn numbers_of_a_call_are_those_of_that_call() {
             .all(|(_, by)| !matches!(by, Displacement::By(_)))
     );
 }
+
+#[test]
+fn members_of_records_take_the_correction_of_the_targets_behind_them_along() {
+    let records = "RECORD rec\nrobtarget at;\nrobtarget above;\nnum z;\nENDRECORD\n";
+    let of = |statements: &str| {
+        let text = format!(
+            "{statements}\nENDPROC\nFUNC rec both(robtarget p)\nVAR rec v;\nv.at:=p;\n\
+             v.above:=Offs(p,0,0,40);\nRETURN v;\nENDFUNC\nPROC last()"
+        );
+        read(&format!(
+            "MODULE m\n{records}CONST robtarget p1:=[[1,2,3],[1,0,0,0],CONF;\n\
+             PERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1.5,[0,0,50],[1,0,0,0],0,0,0]];\n\
+             VAR rec a;\nVAR rec many{{3}};\nPROC main()\n{text}\nENDPROC\nENDMODULE\n"
+        ))
+    };
+    let by = |program: &Program| -> Vec<Displacement> {
+        let moves = program.moves.iter();
+        moves.map(|m| m.displacement.clone()).collect()
+    };
+    // a copy, whatever else is in the record
+    for write in [
+        "a.at:=p1;\na.above:=Offs(a.at,0,0,40);\na.z:=p1.trans.z;\nMoveL a.at,v5,z5,t;",
+        "many{2}.at:=p1;\nMoveL many{i} . At,v5,z5,t;",
+    ] {
+        let program = of(write);
+        assert_eq!(
+            (to(&program), by(&program)),
+            (vec!["p1"], vec![Displacement::None]),
+            "{write}"
+        );
+        assert!(!ids(&program).contains(&"computed-target"), "{write}");
+    }
+    for write in [
+        "a.at:=p1;\na.above:=Offs(a.at,0,0,40);\nMoveL a.above,v5,z5,t;",
+        "VAR rec b;\nb.at:=p1;\na:=b;\nMoveL a.at,v5,z5,t;",
+        "a:=both(p1);\nMoveL a.above,v5,z5,t;",
+        "VAR robtarget q;\na.at:=p1;\nq:=a.at;\nMoveL q,v5,z5,t;",
+        "a.at:=p1;\nMoveL Offs(a.at,0,0,40),v5,z5,t;",
+        "a.z:=p1.trans.z;\nMoveL [[1,2,a.z],[1,0,0,0],CONF,v5,z5,t;",
+    ] {
+        let all = by(&of(write));
+        assert!(all.contains(&Displacement::Unbounded), "{write}: {all:?}");
+    }
+    let all = by(&of("a.at:=p1;\na.at.trans.y:=-200;\nMoveL a.at,v5,z5,t;"));
+    assert!(all.contains(&Displacement::Overwritten), "{all:?}");
+    // nothing of a target flows into these
+    for write in [
+        "a.at:=[[1,2,h],[1,0,0,0],CONF;\nMoveL a.at,v5,z5,t;",
+        "a.above:=p1;\nMoveL a.at,v5,z5,t;",
+    ] {
+        let program = of(write);
+        assert_eq!(
+            (to(&program), ids(&program)),
+            (vec!["?"], vec!["computed-target"]),
+            "{write}"
+        );
+    }
+}

@@ -205,3 +205,32 @@ fn what_is_displaced_by_an_inverse_is_the_target() {
         assert_eq!(shift(&program).in_tool.translation, [0.0, 0.0, -0.1]);
     }
 }
+
+#[test]
+fn what_calls_make_of_a_target_takes_its_correction_along() {
+    let functions = "def pair(x):\nreturn struct(at=x,above=pose_trans(x,p[0,0,-.1,0,0,0]))\nend\n\
+                     def list(x):\nreturn [x,pose_trans(x,p[0,0,-.1,0,0,0])]\nend\n\
+                     def off(h):\nreturn p[0,0,h,0,0,0]\nend\n\
+                     def up(x,h):\nreturn pose_trans(x,off(h))\nend\n";
+    for go in [
+        "movel(pair(w).above)",
+        "movel(list(w)[1],a=1)",
+        "l=list(w)\nmovel(l[1])",
+        "movel(pose_trans(up(w,-.1),off(-.05)))",
+        "movej(get_inverse_kin(list(w)[1]))",
+        "q=pair(w)\nmovel(q.above)",
+    ] {
+        let program = path(&format!("{functions}{W}movel(w)\n{go}"));
+        assert_eq!(to(&program)[..2], ["w", "w"], "{go}");
+        assert_eq!(
+            program.moves[1].displacement,
+            Displacement::Unbounded,
+            "{go}"
+        );
+    }
+    // how fast is not where
+    let program = path(&format!(
+        "{functions}{W}movel(w)\nmovel(list(sensor())[1],a=w[0])"
+    ));
+    assert_eq!(to(&program), ["w", "?"]);
+}
