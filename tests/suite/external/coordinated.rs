@@ -72,6 +72,76 @@ fn a_path_that_does_not_go_with_the_part_is_not_certified() {
     }
 }
 
+/// The table rotates from -100 to 120 degrees under a tool that points down, 100 mm from its middle. The tool
+/// goes to the left on the straight line, and comes back from there on the part: y is 100 mm times the
+/// sine. Joint 1 has 0.1 degrees of backlash, and is the angle of the tool about the arm.
+#[test]
+fn a_joint_comes_from_the_side_of_the_path_that_the_words_say() {
+    let profile = text("robots/fanuc_lrmate200ic.yaml");
+    let nominal = profile.split("\ncalibration:").next().expect("a profile");
+    let profile = format!(
+        "{nominal}\n{TABLE}calibration:\n  effects:\n    - {{effect: backlash, joint: 1, width_deg: 0.1}}\n"
+    );
+    let angles = [-100.0_f64, 120.0];
+    let pose = |number: u32, deg: f64| {
+        format!(
+            "P[{number}]{{\n   GP1:\n\tUF : 1, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\n\tX = 100.000 mm,\tY = 0.000 \
+             mm,\tZ = 120.000 mm,\n\tW = 180.000 deg,\tP = 0.000 deg,\tR = {:.3} deg\n   GP2:\n\tUF : 1, UT : \
+             1,\t\n\tJ1 = {deg:.3} deg\n}};\n",
+            -deg
+        )
+    };
+    let shift_deg = |words: &str| -> f64 {
+        let folder = scratch();
+        let at = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).expect("scratch");
+            path.display().to_string()
+        };
+        let program = format!(
+            "/PROG  T\n/ATTR\nDEFAULT_GROUP = 1,1,*,*,*;\n/MN\n   1:  UFRAME_NUM=1 ;\n   2:  UTOOL_NUM=1 ;\n   3:  \
+             J P[1] 50% FINE ;\n   4:  L P[2] 100mm/sec FINE{words} ;\n/POS\n{}{}/END\n",
+            pose(1, angles[0]),
+            pose(2, angles[1])
+        );
+        let (from, to) = (at("t.ls", &program), folder.path().join("out.ls"));
+        let to = to.display().to_string();
+        let profile = at("p.yaml", &profile);
+        let (status, _, said) = run(&[
+            "compensate",
+            &from,
+            "--profile",
+            &profile,
+            "-o",
+            &to,
+            "--tool",
+            "1=0,0,100,0,0,0",
+            "--frame",
+            PLATE,
+            "--start-joints",
+            "0,0,0,0,-90,0,-100",
+        ]);
+        assert!(status < 2, "{said}");
+        let fake = std::fs::read_to_string(&to).expect("a program");
+        let number = |key: &str| -> f64 {
+            let behind = fake.split("P[2]{").nth(1).and_then(|p| p.split(key).nth(1));
+            let number = behind.and_then(|text| text.split_whitespace().next());
+            number.expect("a number").parse().expect("a number")
+        };
+        let angle = |x: f64, y: f64| {
+            let (sin, cos) = angles[1].to_radians().sin_cos();
+            (sin * x + cos * y)
+                .atan2(565.52 + cos * x - sin * y)
+                .to_degrees()
+        };
+        angle(number("X ="), number("Y =")) - angle(100.0, 0.0)
+    };
+    // what comes from the right is 0.05 degrees too far to the left
+    for (words, by) in [("", -0.05), (" COORD", 0.05)] {
+        approx::assert_abs_diff_eq!(shift_deg(words), by, epsilon = 1e-3);
+    }
+}
+
 #[test]
 fn a_path_on_which_the_rail_goes_is_certified() {
     let rail = "external_axes:\n  track:\n    - {axis: E1, direction: [0, 1, 0], up: [0, 0, 1], zero_mm: 0, \

@@ -349,8 +349,9 @@ impl Walk {
     /// What external axes do on the way to a stop, from another where that is known.
     fn ride(&self, from: Option<usize>, to: usize) -> Option<Arc<Ride>> {
         let from = from.map_or(&[][..], |from| self.program.stands_at(self.index(from)));
-        let stand = self.program.frames[self.motion(to).frame].stand.as_ref();
-        stand.map(|to| Ride::of(&self.profile, from, to))
+        let motion = self.motion(to);
+        let stand = self.program.frames[motion.frame].stand.as_ref();
+        stand.map(|stand| Ride::of(&self.profile, from, stand, motion.coordinated))
     }
 
     /// A stop alone, where it is unknown how the robot comes there.

@@ -141,7 +141,7 @@ impl<'a> Ground<'a> {
             None => &[],
         };
         let stand = self.stand_in(to.frame);
-        stand.map(|to| Ride::of(self.profile, from, to))
+        stand.map(|stand| Ride::of(self.profile, from, stand, to.coordinated))
     }
 
     /// Moves the part in the world: every wanted pose with it.

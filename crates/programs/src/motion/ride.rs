@@ -20,14 +20,22 @@ pub(crate) struct Ride {
     positioner: Option<usize>,
     on_base: bool,
     of_joints: bool,
+    /// The path is relative to the part that a positioner carries, and not to what the positioner
+    /// stands on.
+    on_part: bool,
     /// Where it begins is known of all axes that matter.
     is_known: bool,
 }
 
 impl Ride {
     /// Of the move that ends with a stand, and begins where each listed axis stands as far as that
-    /// is known.
-    pub(crate) fn of(profile: &Profile, from: &[Option<f64>], to: &Stand) -> Arc<Self> {
+    /// is known; `coordinated` says that its path is relative to what a positioner carries.
+    pub(crate) fn of(
+        profile: &Profile,
+        from: &[Option<f64>],
+        to: &Stand,
+        coordinated: bool,
+    ) -> Arc<Self> {
         let at = |k: usize| from.get(k).copied().flatten().unwrap_or(f64::NAN);
         let mut is_known = true;
         let begin = to.values.iter().enumerate().map(|(k, &end)| {
@@ -45,6 +53,7 @@ impl Ride {
             positioner: to.positioner,
             on_base: to.on_base,
             of_joints: to.of_joints,
+            on_part: coordinated,
             is_known,
         })
     }
@@ -64,7 +73,7 @@ impl Ride {
 
     /// Whether what is a straight line in the work frame is none for the arm.
     pub(crate) fn bends(&self) -> bool {
-        self.positioner.is_some() && self.moves()
+        self.on_part && self.positioner.is_some() && self.moves()
     }
 
     /// How far linear axes go, metres, and rotary ones, radians.
@@ -139,8 +148,7 @@ impl Ride {
         self.external.plate(positioner, at, &effects)
     }
 
-    /// What stands still for the numbers of the move, seen from the controller's arm at home at
-    /// `s`.
+    /// What stands still for the path of the move, seen from the controller's arm at home at `s`.
     pub(crate) fn home_from_part<S: Scalar>(&self, s: S) -> Pose<S> {
         let values = self.values(s);
         let base = self.external.base_nominal(&values);
@@ -152,7 +160,12 @@ impl Ride {
         } else {
             self.external.riding(&values)
         };
-        base.inverse() * riding * self.plate(&values, &[])
+        let still = base.inverse() * riding;
+        if self.on_part {
+            still * self.plate(&values, &[])
+        } else {
+            still
+        }
     }
 
     /// The pose that the arm at home has halfway for what a point on the way of an arc is on the

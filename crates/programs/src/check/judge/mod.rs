@@ -203,7 +203,8 @@ impl Job<'_> {
             let is_free = !is_spline && !self.walk.is_followed(index);
             let message = if leaves_the_part {
                 "the part moves on this path, and the tool does not go with it (no COORD, no SMOV): \
-                 it was looked at as if it did; where it goes between its ends is not known"
+                 it was looked at as going straight, and the positioner at a constant rate meanwhile; \
+                 how fast each of them goes is not known"
             } else if is_free {
                 "the tool rotates on this path as the joints of the wrist do: it was looked at as \
                  if it rotated evenly from beginning to end"
