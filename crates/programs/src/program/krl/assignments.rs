@@ -110,6 +110,9 @@ impl Reader {
                 let owner = Owner::Datum(datum.expect("it has a kind"));
                 self.write_position(owner, at, part, cursor)?;
             }
+            Some(kind @ DataKind::Structure(_)) if part.is_none() => {
+                self.write_structure((name, at), kind, cursor)?;
+            }
             None if self.looks_like_position(cursor) => {
                 self.write_position(Owner::Nobody(name), at, part, cursor)?;
             }

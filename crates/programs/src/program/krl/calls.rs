@@ -248,7 +248,7 @@ impl Reader {
                 let how = How::Whole(self.unknown(COMPUTED));
                 self.write_element(Owner::Datum(datum), at, how);
             }
-            _ => {}
+            kind => self.structure_becomes((name, at), kind, None),
         }
     }
 
@@ -333,6 +333,11 @@ impl Reader {
         changed(self);
         for (at, given) in given.iter().enumerate() {
             let parameter = parameter(self, at);
+            if let Given::Named(name, at) = *given {
+                let positions = self.positions_given((name, at), parameter);
+                gives |= !positions.is_empty();
+                arguments.extend(positions);
+            }
             let value = self.value_given(place, given, parameter, callee.is_none());
             let Some((value, kind)) = value else {
                 continue;

@@ -68,6 +68,8 @@ pub(super) struct Reader {
     pub(super) here: Place,
     /// What the functions returned that it calls, by their first bytes.
     pub(super) results: Vec<(u32, VariableId, DataKind)>,
+    /// The positions in structures that functions return, by routine and by their path in it.
+    pub(super) structures_returned: HashMap<(u32, Vec<u8>), VariableId>,
     /// Between SPLINE and ENDSPLINE.
     pub(super) in_spline: bool,
     /// What the spline that is open sets for its moves.
@@ -86,7 +88,8 @@ enum Line<'a> {
     Nothing,
     Define {
         name: Token,
-        returns: DataKind,
+        /// The type of what a function returns.
+        returns: Option<Token>,
         global: bool,
         rest: Cursor<'a>,
     },
@@ -95,7 +98,6 @@ enum Line<'a> {
     EndData,
     /// Names behind a type.
     Typed {
-        kind: DataKind,
         of: Token,
         global: bool,
         rest: Cursor<'a>,
@@ -142,6 +144,7 @@ impl Reader {
             every_axis_off: None,
             here: Place::NOWHERE,
             results: Vec::new(),
+            structures_returned: HashMap::default(),
             in_spline: false,
             spline: super::moves::With::default(),
             last: None,
@@ -187,11 +190,11 @@ impl Reader {
                     let first = short(start);
                     open = Some(first);
                     self.define(name, global, rest);
-                    self.names
-                        .heads
-                        .last_mut()
-                        .expect("it was just added")
-                        .returns = returns;
+                    if let Some(of) = returns {
+                        let returns = self.kind_of_type(of, &rest);
+                        let head = self.names.heads.last_mut();
+                        head.expect("it was just added").returns = returns;
+                    }
                     if is_submit && self.first_of_file(file) {
                         // it runs concurrently with the robot's program
                         self.builder.script.routines[self.names.heads.len() - 1].start =
@@ -210,16 +213,8 @@ impl Reader {
                 }
                 Line::EndData => self.in_data = None,
                 Line::Import(rest) => self.import(rest),
-                Line::Typed {
-                    mut kind,
-                    of,
-                    global,
-                    rest,
-                } => {
-                    if kind == DataKind::Other && !self.names.structures.is_empty() {
-                        let of = self.symbol(&rest, of);
-                        kind = self.structure_of(of);
-                    }
+                Line::Typed { of, global, rest } => {
+                    let kind = self.kind_of_type(of, &rest);
                     self.declared(kind, global, rest)?;
                     if matches!(kind, DataKind::Number | DataKind::Other) {
                         self.numbers_declared(rest);
@@ -335,7 +330,6 @@ impl Reader {
                 if cursor.peek().kind == Kind::Name =>
             {
                 Line::Typed {
-                    kind: DataKind::named(word),
                     of: first,
                     global: false,
                     rest: cursor,
@@ -344,6 +338,16 @@ impl Reader {
             _ if self.in_data.is_some() => Line::Initial(first, cursor),
             _ => Line::Statement(first, cursor),
         }
+    }
+
+    /// The kind of the type that a word names.
+    fn kind_of_type(&mut self, of: Token, cursor: &Cursor) -> DataKind {
+        let kind = DataKind::named(capitals(cursor.text(of), &mut [0; 24]));
+        if kind != DataKind::Other || self.names.structures.is_empty() {
+            return kind;
+        }
+        let of = self.symbol(cursor, of);
+        self.structure_of(of)
     }
 
     /// `DEF name(a:IN, b:OUT)`
@@ -418,11 +422,7 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
             b"GLOBAL" => global = true,
             b"DECL" | b"PUBLIC" | b"CONST" => {}
             word @ (b"DEF" | b"DEFFCT") => {
-                let mut returns = DataKind::Other;
-                if word == b"DEFFCT" {
-                    let of = cursor.next();
-                    returns = DataKind::named(capitals(cursor.text(of), &mut [0; 24]));
-                }
+                let returns = (word == b"DEFFCT").then(|| cursor.next());
                 let name = cursor.next();
                 if name.kind != Kind::Name {
                     return Line::Nothing;
@@ -436,9 +436,8 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
             }
             b"INTERRUPT" => return Line::Statement(token, cursor),
             b"SIGNAL" | b"ENUM" | b"STRUC" | b"EXT" | b"EXTFCT" => return Line::Nothing,
-            word => {
+            _ => {
                 return Line::Typed {
-                    kind: DataKind::named(word),
                     of: token,
                     global,
                     rest: cursor,

@@ -4,11 +4,13 @@
 use super::aggregate;
 use super::names::{DataKind, Datum, Index, Stored};
 use super::reader::Reader;
+use super::remarks::COMPUTED;
+use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Read, Token, capitals, lines};
 use crate::program::Source;
 use crate::program::kit::content_start;
 use crate::program::names::{Context, Symbol};
-use crate::program::script::{Expr, Place, Variable, VariableId};
+use crate::program::script::{Argument, Expr, How, Place, Variable, VariableId};
 
 /// Structures in structures.
 const DEEPEST: usize = 4;
@@ -17,6 +19,13 @@ const DEEPEST: usize = 4;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Structure {
     members: Vec<(Box<[u8]>, Symbol, DataKind)>,
+}
+
+/// A structure as a whole.
+pub(super) enum Structured {
+    Named(Symbol, Index),
+    /// What this routine returns.
+    Returned(u32),
 }
 
 /// `IMPORT E6POS XP1 IS /R1/PTS..XP1`
@@ -189,6 +198,139 @@ impl Reader {
         }
     }
 
+    /// The positions in a structure, as what stands behind its name: `.P`, `.Q.P`.
+    fn places_of(&self, kind: DataKind, depth: usize) -> Vec<(Vec<u8>, DataKind)> {
+        let mut all = Vec::new();
+        for (member, kind) in self.members_of(kind) {
+            let path = [b".", &member[..]].concat();
+            if kind.is_place() {
+                all.push((path, kind));
+            } else if depth < DEEPEST {
+                let inner = self.places_of(kind, depth + 1).into_iter();
+                all.extend(inner.map(|(rest, kind)| ([&path[..], &rest].concat(), kind)));
+            }
+        }
+        all
+    }
+
+    /// The name of a position in a structure.
+    fn place_in(&mut self, of: Symbol, path: &[u8]) -> Symbol {
+        let name = self.names.symbols.spelling(of).as_bytes();
+        let name = [name, path].concat();
+        self.names.symbols.intern(&name)
+    }
+
+    /// What a structure as a whole is: by its name, or what a function returns.
+    fn structure_value(&mut self, kind: DataKind, cursor: &mut Cursor) -> Read<Option<Structured>> {
+        let name = cursor.next();
+        if name.kind != Kind::Name {
+            return Ok(None);
+        }
+        let symbol = self.symbol(cursor, name);
+        if cursor.blanks() == b'(' {
+            let routine = self.names.routine(symbol, self.context());
+            let returns = routine.map(|of| self.names.heads[of as usize].returns);
+            return Ok(routine
+                .filter(|_| returns == Some(kind))
+                .map(Structured::Returned));
+        }
+        let at = cursor.brackets()?;
+        let (symbol, at) = self.member(symbol, at, cursor)?;
+        let is_whole = cursor.peek().kind == Kind::End;
+        let is_it = is_whole && self.names.kind(symbol, self.context()) == Some(kind);
+        Ok(is_it.then_some(Structured::Named(symbol, at)))
+    }
+
+    /// A position in a structure as a whole.
+    fn place_of(&mut self, of: &Structured, path: &[u8]) -> Option<Expr> {
+        match *of {
+            Structured::Named(name, at) => {
+                let name = self.place_in(name, path);
+                self.named(name, at)
+            }
+            Structured::Returned(routine) => Some(Expr::Variable(self.returned_in(routine, path))),
+        }
+    }
+
+    /// `S2=S`, `S2=MK(XP1)`; the cursor stands behind `=`.
+    pub(super) fn write_structure(
+        &mut self,
+        (name, at): (Symbol, Index),
+        kind: DataKind,
+        mut cursor: Cursor,
+    ) -> Read<()> {
+        let value = self.structure_value(kind, &mut cursor)?;
+        self.structure_becomes((name, at), kind, value.as_ref());
+        Ok(())
+    }
+
+    /// What a structure as a whole becomes; `None` is: the text does not tell.
+    pub(super) fn structure_becomes(
+        &mut self,
+        (name, at): (Symbol, Index),
+        kind: DataKind,
+        value: Option<&Structured>,
+    ) {
+        for (path, _) in self.places_of(kind, 0) {
+            let own = self.place_in(name, &path);
+            let Some(datum) = self.names.datum(own, self.context()) else {
+                continue;
+            };
+            let known = value.and_then(|value| self.place_of(value, &path));
+            let value = known.unwrap_or_else(|| self.unknown(COMPUTED));
+            self.write_element(Owner::Datum(datum), at, How::Whole(value));
+        }
+    }
+
+    /// The positions in a structure that a call gives to a parameter, which is none of the same type
+    /// where the routine is not in the files.
+    pub(super) fn positions_given(
+        &mut self,
+        (name, at): (Symbol, Index),
+        parameter: Option<(u32, bool)>,
+    ) -> Vec<Argument> {
+        let Some(kind @ DataKind::Structure(_)) = self.names.kind(name, self.context()) else {
+            return Vec::new();
+        };
+        let to = parameter.map(|(datum, _)| self.names.data[datum as usize]);
+        if to.is_some_and(|to| to.kind != kind) {
+            return Vec::new();
+        }
+        let by_reference = parameter.is_none_or(|(_, by_reference)| by_reference);
+        let mut all = Vec::new();
+        for (path, _) in self.places_of(kind, 0) {
+            let own = self.place_in(name, &path);
+            let Some(value) = self.named(own, at) else {
+                continue;
+            };
+            let variable = to.and_then(|to| {
+                let name = self.place_in(to.name, &path);
+                let datum = self.names.datum(name, to.context)?;
+                Some(self.variable_of(datum))
+            });
+            let back = match value {
+                Expr::Variable(variable) if by_reference => Some(variable),
+                _ => None,
+            };
+            all.push(Argument::new(variable, value, back));
+        }
+        all
+    }
+
+    /// The variable that holds a position in the structure that a function returns.
+    fn returned_in(&mut self, routine: u32, path: &[u8]) -> VariableId {
+        if let Some(known) = self.structures_returned.get(&(routine, path.to_vec())) {
+            return *known;
+        }
+        let script = &mut self.builder.script;
+        let of = &script.routines[routine as usize];
+        let name = format!("{}(){}", of.name, Source::text(path));
+        let made = script.variable(Variable::new(name, of.place, Expr::Absent));
+        self.structures_returned
+            .insert((routine, path.to_vec()), made);
+        made
+    }
+
     /// `IMPORT E6POS XP1 IS /R1/PTS..XP1`; the cursor stands behind IMPORT.
     pub(super) fn import(&mut self, mut cursor: Cursor) {
         cursor.next();
@@ -260,6 +402,15 @@ impl Reader {
         let routine = self.context().routine;
         let result = routine.and_then(|of| self.result_in(of));
         let returns = routine.map_or(DataKind::Other, |of| self.names.heads[of as usize].returns);
+        if let (Some(routine), DataKind::Structure(_)) = (routine, returns) {
+            let value = self.structure_value(returns, &mut cursor)?;
+            for (path, _) in self.places_of(returns, 0) {
+                let known = value.as_ref().and_then(|value| self.place_of(value, &path));
+                let value = known.unwrap_or_else(|| self.unknown(COMPUTED));
+                let variable = self.returned_in(routine, &path);
+                self.put(self.here, variable, value);
+            }
+        }
         if let Some(result) = result.filter(|_| cursor.peek().kind != Kind::End) {
             let point = self.point(&mut cursor)?;
             let value = self.value_of(&point, returns);

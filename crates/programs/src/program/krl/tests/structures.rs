@@ -48,14 +48,46 @@ fn members_are_written_one_by_one() {
 }
 
 #[test]
-fn members_of_what_is_written_as_a_whole_are_not_known() {
-    let fill = "DEF fill(a:OUT)\nDECL part a\na.P=XP1\nEND\n";
-    for text in ["s=many[1]", "fill(s)", "p.first=s\ns=p.first"] {
-        let program = with_types(&format!("{text}\nLIN s.P"), fill);
-        assert_eq!(to(&program), ["?"], "{text}");
-        assert_eq!(reported(&program), ["computed-target"], "{text}");
+fn structures_are_written_given_and_returned_as_a_whole() {
+    let routines = "DEF fill(a:OUT)\nDECL part a\na.P=XP1\nEND\n\
+        DEFFCT part make(a:IN)\nDECL E6POS a\nDECL part t\nt.P=a:{X 0,Y 0,Z 10,A 0,B 0,C 0}\nRETURN t\nENDFCT\n";
+    let go = "DEF go(a:IN)\nDECL part a\nLIN a.Q\nEND\n";
+    for (text, wanted) in [
+        ("s=many[1]", "many[1].P"),
+        ("s = MANY[2] ; all of it", "many[2].P"),
+        ("fill(s)", "XP1"),
+        ("p.first=many[2]\ns=p.first", "many[2].P"),
+        ("s=make(XP1)", "XP1"),
+    ] {
+        let program = with_types(&format!("{text}\nLIN s.P"), routines);
+        assert_eq!(to(&program), [wanted], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
     }
-    let program = with_types("p=p\nLIN p.first.P\nLIN s.P", fill);
+    let program = with_types("s=make(XP1)\nLIN s.P", routines);
+    let Displacement::By(shift) = &program.moves[0].displacement else {
+        panic!("{:?}", program.moves[0]);
+    };
+    assert_eq!(shift.in_tool.translation, [0.0, 0.0, 0.01]);
+    let program = with_types("s.Q=XP1\ngo(s)\nLIN XP1", go);
+    let mut all = to(&program);
+    all.sort_unstable();
+    assert_eq!(all, ["XP1", "XP1"]);
+    // what routines that are not here, and the controller, write into one
+    for text in [
+        "other(s)",
+        "CREAD(h,stat,mode,time,off,\"%r\",s)",
+        "s=other(XP1)",
+        "p.first=s\ns=p.first",
+    ] {
+        let program = with_types(&format!("s.P=XP1\n{text}\nLIN s.P"), routines);
+        if text.starts_with("p.first") {
+            assert_eq!(to(&program), ["XP1"], "{text}");
+        } else {
+            assert_eq!(to(&program), ["?"], "{text}");
+            assert!(reported(&program).contains(&"computed-target"), "{text}");
+        }
+    }
+    let program = with_types("p=p\nLIN p.first.P\nLIN s.P", routines);
     assert_eq!(to(&program), ["?", "s.P"]);
 }
 
