@@ -284,6 +284,7 @@ impl Flow<'_> {
     /// The state behind a routine that counts by what it writes alone.
     fn with_written(&mut self, start: &State, exit: &State, routine: RoutineId) -> State {
         let mut state = start.clone();
+        state.is_alone &= exit.is_alone;
         for &slot in &*self.slots_written(routine) {
             let slot = slot as usize;
             self.outdate(&mut state, self.tracked[slot]);

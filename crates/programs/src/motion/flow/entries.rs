@@ -20,14 +20,7 @@ impl Flow<'_> {
         if concurrent.is_empty() {
             return;
         }
-        let mut by_others = vec![false; self.script.routines.len()];
-        for statement in &self.script.statements {
-            if let Statement::Start(call) = statement {
-                for &routine in &*self.script.calls[*call as usize].callees {
-                    by_others[routine as usize] = true;
-                }
-            }
-        }
+        let by_others = self.started_by_others();
         self.is_concurrent = true;
         for _ in 0..MOST_ROUNDS {
             let before = self.anytime.clone();
@@ -51,6 +44,19 @@ impl Flow<'_> {
         self.is_concurrent = false;
     }
 
+    /// Of each routine whether a statement starts it that then runs concurrently.
+    pub(super) fn started_by_others(&self) -> Vec<bool> {
+        let mut by_others = vec![false; self.script.routines.len()];
+        for statement in &self.script.statements {
+            if let Statement::Start(call) = statement {
+                for &routine in &*self.script.calls[*call as usize].callees {
+                    by_others[routine as usize] = true;
+                }
+            }
+        }
+        by_others
+    }
+
     /// A state in which all that may hold which others write meanwhile: what is started together
     /// with what starts the routine; anything where nothing in the files does.
     fn with_concurrent(&mut self, routine: Option<RoutineId>, mut state: State) -> State {
@@ -65,6 +71,7 @@ impl Flow<'_> {
             }
         }
         state.holds = Rc::new(holds);
+        state.is_alone = false;
         state
     }
 
@@ -219,6 +226,7 @@ impl Flow<'_> {
             return false;
         };
         let mut again = entry.clone();
+        again.is_alone &= self.script.ends_what_runs || exit.is_alone;
         for (slot, variable) in self.tracked.iter().enumerate() {
             if self.script.variables[*variable as usize].kept {
                 let joined = self.holdings.join(entry.holds[slot], exit.holds[slot]);

@@ -100,6 +100,8 @@ struct State {
     /// A call since the move before that may have led the robot elsewhere: index in
     /// [`Script::calls`].
     led: Option<u32>,
+    /// Nothing has started what runs concurrently.
+    is_alone: bool,
 }
 
 /// Where to go on, the deepest routine first and there the first statement: [`BinaryHeap`] gives
@@ -216,6 +218,8 @@ pub(super) struct Flow<'a> {
     is_concurrent: bool,
     /// Whether routines run at any time, or concurrently with others.
     has_concurrent: bool,
+    /// All of these are started by statements of the files.
+    all_are_started: bool,
     /// With what routines are started concurrently with others.
     started: HashMap<RoutineId, State>,
     /// What the others write, by the routine that writes and by variable.
@@ -284,6 +288,7 @@ impl<'a> Flow<'a> {
             left: Vec::new(),
             is_concurrent: false,
             has_concurrent: false,
+            all_are_started: true,
             started: HashMap::new(),
             concurrent: HashMap::new(),
             writer: 0,
@@ -299,6 +304,10 @@ impl<'a> Flow<'a> {
         };
         let mut routines = script.routines.iter();
         flow.has_concurrent = routines.any(|routine| routine.start == Start::Concurrent);
+        let by_others = flow.started_by_others();
+        let all = script.routines.iter().zip(by_others);
+        let mut concurrent = all.filter(|(routine, _)| routine.start == Start::Concurrent);
+        flow.all_are_started = concurrent.all(|(_, is_started)| is_started);
         flow.track();
         flow.find_idle();
         flow.find_changing();

@@ -29,6 +29,7 @@ impl<'a> Flow<'a> {
             holds: Rc::new(holds),
             before: self.sets.one(before),
             led: None,
+            is_alone: self.all_are_started,
         }
     }
 
@@ -52,6 +53,7 @@ impl<'a> Flow<'a> {
             holds,
             before: self.sets.union(a.before, b.before),
             led: a.led.or(b.led),
+            is_alone: a.is_alone && b.is_alone,
         }
     }
 
@@ -276,6 +278,7 @@ impl<'a> Flow<'a> {
                 Statement::Start(number) => {
                     let call = &script.calls[number as usize];
                     self.start(call, at, &state);
+                    state.is_alone = false;
                     if call.leads && call.callees.is_empty() && self.dead.is_none() {
                         self.at_any_time.insert((number, None));
                     }

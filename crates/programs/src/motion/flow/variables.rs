@@ -480,7 +480,7 @@ impl Flow<'_> {
                 let joined = self.holdings.join(before, holding);
                 self.anytime.insert(variable, joined);
             }
-        } else if self.has_concurrent {
+        } else if self.has_concurrent && !state.is_alone {
             let key = (self.writer, variable);
             let before = self.concurrent.get(&key).copied().unwrap_or(NOTHING);
             let joined = self.holdings.join(before, holding);

@@ -255,6 +255,8 @@ impl Reader {
         self.names.settle();
         self.settle_components();
         self.mark_concurrent();
+        // interrupts and triggers are known where they are declared, and in what is called there
+        self.builder.script.ends_what_runs = true;
     }
 
     /// Reads the statements of a file whose declarations are known.

@@ -98,6 +98,8 @@ pub struct Script {
     pub by_calls: Vec<ByCall>,
     /// Routines, by file and place; text outside routines is one too.
     pub routines: Vec<Routine>,
+    /// What runs concurrently ends with the program that started it.
+    pub ends_what_runs: bool,
     /// The statements of all routines.
     pub statements: Vec<Statement>,
     /// Moves.
@@ -164,6 +166,7 @@ impl Default for Script {
                 Displacement::Within(Box::new([Stride::Turned(None)])),
             ],
             by_calls: Vec::new(),
+            ends_what_runs: false,
             routines: Vec::new(),
             statements: Vec::new(),
             instructions: Vec::new(),

@@ -86,6 +86,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             builder.declare(name.unwrap_or_default(), place, start);
         }
         let script = &mut builder.script;
+        script.ends_what_runs = true;
         let unknown = common.no_tool(script);
         let mut variable = |name: &str, declared, shared| {
             script.variable(Variable {

@@ -239,6 +239,38 @@ fn routines_of_interrupts_move_with_what_the_program_has_set() {
 }
 
 #[test]
+fn what_was_set_before_an_interrupt_is_on_does_not_reach_it() {
+    let bases = |around: [&str; 2], start: &str| {
+        let text = format!(
+            "DEF M()\nINTERRUPT DECL 5 WHEN $IN[1]==TRUE DO stop()\n{}BAS(#INITMOV,0)\nBAS(#TOOL,1)\nBAS(#BASE,0)\n\
+             BAS(#BASE,1)\n{start}\nLIN XP1\n{}END\nDEF stop()\nBRAKE\nLIN XP3\nEND\n",
+            around[0], around[1]
+        );
+        let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+        let moves = program.moves.iter().zip(to(&program));
+        let of_routine = moves.filter(|(_, target)| *target == "XP3");
+        let mut bases: Vec<String> = of_routine
+            .map(|(m, _)| program.frames[m.frame].name.clone())
+            .collect();
+        bases.sort_unstable();
+        bases.dedup();
+        bases
+    };
+    for start in [
+        "INTERRUPT ON 5",
+        "TRIGGER WHEN DISTANCE=0 DELAY=0 DO stop() PRIO=-1",
+    ] {
+        assert_eq!(bases(["", ""], start), ["BASE_DATA[1]"], "{start}");
+        // in a loop it is on when it begins again
+        let all = bases(["LOOP\n", "ENDLOOP\n"], start);
+        assert!(
+            all.len() > 1 && all.contains(&"BASE_DATA[1]".into()),
+            "{start}: {all:?}"
+        );
+    }
+}
+
+#[test]
 fn what_another_program_sets_does_not_reach_an_interrupt() {
     let other = "DEF OTHER()\nBAS(#TOOL,2)\nBAS(#BASE,0)\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n";
     for decl in [
