@@ -361,3 +361,39 @@ fn a_wrong_load_is_that_of_the_tool_that_was_measured() {
     let found = found.expect("the load");
     assert_eq!(found.effect.site.tool.as_deref(), Some(&*name));
 }
+
+/// An arm that is as its profile says at 26 degrees, and grows by 12 ppm a degree. The device's lengths would do
+/// what is left at the mean temperature.
+#[test]
+fn an_arm_that_grows_from_another_temperature_than_20_is_no_wrong_scale_of_the_device() {
+    for seed in 1..4 {
+        let base = case(group("clean"), 0, seed, 150);
+        let name = base.profile.tools.keys().next().expect("its tool").clone();
+        let tool = base.profile.tool(&name).expect("its tool");
+        let model = base.profile.real_model(&tool, &Conditions::default());
+        let off = tool.flange_from_tool.inverse();
+        let stands = base.profile.world_from_base.translation;
+        let celsius = |row: usize| 26.0 + 8.0 * row as f64 / 149.0;
+        let warm = moved(base, |row, degrees| {
+            let q = degrees.map(f64::to_radians);
+            let flange = (model.forward(&q, &Conditions::default()) * off).translation;
+            let grown = 12e-6 * (celsius(row) - 26.0);
+            std::array::from_fn(|k| 1e3 * grown * (flange[k] - stands[k]))
+        });
+        let mut lines = warm.csv.lines();
+        let header = lines
+            .next()
+            .expect("a header")
+            .replace("temperature_c", "room");
+        let mut csv = format!("{header},temperature_c\n");
+        for (row, line) in lines.enumerate() {
+            csv += &format!("{line},{:.2}\n", celsius(row));
+        }
+        let d = diagnosed(&with_csv(warm, csv));
+        let named: Vec<Kind> = d.found.iter().map(|f| f.effect.kind).collect();
+        assert_eq!(named, [Kind::ThermalGrowth], "{seed}");
+        let [per_k, reference_c, ..] = d.found[0].effect.parameters;
+        assert!((per_k - 12e-6).abs() < 4e-6, "{seed}: {per_k}");
+        assert!((reference_c - 26.0).abs() < 2.0, "{seed}: {reference_c}");
+    }
+}

@@ -6,8 +6,10 @@ use poseshift::identify::IdentifyError;
 use poseshift::identify::calibration::calibrate;
 use poseshift::identify::measurements::Measurements;
 use poseshift::identify::parameters::{Level, Selection};
+use poseshift::identify::pick::Pick;
 use poseshift::identify::plan::{Constraints, Request, plan};
 use poseshift::identify::simulate::{Device, Session};
+use poseshift::identify::validation::{Refit, validate};
 use poseshift::model::Conditions;
 use poseshift::model::effects::Kind;
 use rand::rngs::StdRng;
@@ -198,4 +200,39 @@ fn a_plan_stays_in_the_box_out_of_the_keep_outs_and_in_sight() {
         error.to_string().contains("0 meet the constraints"),
         "{error}"
     );
+}
+
+#[test]
+fn lengths_that_grow_are_those_at_the_mean_temperature() {
+    let mut random = StdRng::seed_from_u64(5);
+    let mut truth = hidden(&mut random, 0.5 * MM, 0.1 * DEG, false);
+    truth
+        .effects
+        .push(effect(Kind::ThermalGrowth, 0, &[1.8e-5, 18.0]));
+    let session = Session {
+        temperature_c: Some([18.0, 28.0]),
+        ..Session::default()
+    };
+    let mut seen = measure(&truth, &commands(&mut random, &truth, 60), &session);
+    seen.columns.push("temperature_c".into());
+    let mut options = known_tool(Level::Geometry);
+    options.selection.identify = Pick::parse_list("thermal_growth").expect("a word");
+    let found = calibrate(&nominal(), &seen, &options).expect("an answer");
+    let profile = found.profile();
+    let grown = profile
+        .effects
+        .iter()
+        .find(|e| e.kind == Kind::ThermalGrowth);
+    let [per_k, reference_c, ..] = grown.expect("it was asked for").parameters;
+    approx::assert_relative_eq!(per_k, 1.8e-5, max_relative = 1e-3);
+    approx::assert_abs_diff_eq!(reference_c, 23.0, epsilon = 1e-6);
+    // and the arm without a thermometer is the one at that temperature
+    let at_mean = Session {
+        temperature_c: Some([23.0, 23.0]),
+        ..Session::default()
+    };
+    let fresh = measure(&truth, &commands(&mut random, &truth, 40), &at_mean);
+    let missed = validate(&profile, &fresh, Refit::No, None).expect("a validation");
+    let position = missed.real.quality.position.expect("positions");
+    assert!(position.max < 1e-3, "{} mm", position.max);
 }

@@ -2,7 +2,7 @@
 //! apart.
 
 use super::pick::Pick;
-use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site, Unit};
+use crate::model::effects::{Effect, Kind, List, MOST_PARAMETERS, Site, Unit};
 use crate::model::{JOINTS, Slot};
 use crate::profile::Profile;
 
@@ -144,6 +144,16 @@ pub(super) struct Seen {
     pub places: Vec<usize>,
     /// Parameters of unknown features, which are kept first.
     pub features: Vec<Parameter>,
+    /// The mean temperature, °C.
+    pub temperature_c: Option<f64>,
+}
+
+/// The parameter of an effect that says at which temperature the arm has its lengths: these are
+/// fitted, and it would do what they do.
+fn reference(effect: &Effect) -> Option<usize> {
+    let listed = effect.definition().listed();
+    let reference = listed.filter(|(_, list)| *list == List::Temperatures);
+    reference.map(|(number, _)| number)
 }
 
 fn nearly_parallel(profile: &Profile, link: usize) -> bool {
@@ -329,7 +339,15 @@ pub(super) fn choose(
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
-            wanted.add(&effect, &|key| pick.holds(&effect, key) && effect.has(key));
+            let reference = reference(&effect);
+            if let (Some(number), Some(mean)) = (reference, seen.temperature_c) {
+                effect.parameters[number] = mean;
+            }
+            let reference = reference.map(|number| effect.definition().parameters[number].key);
+            let is_held = |key: &str| reference == Some(key) && pick.key.is_none();
+            wanted.add(&effect, &|key| {
+                pick.holds(&effect, key) && effect.has(key) && !is_held(key)
+            });
         }
     }
     let features = seen.features.clone();

@@ -284,6 +284,7 @@ impl Problem {
             loaded: loaded(&placed, &tools, &rows, true),
             features: contact::parameters(&features),
             places: external::places(&profile.external, measurements),
+            temperature_c: mean_temperature_c(&rows),
         };
         refuse_others_axes(profile, measurements, &selection.identify)?;
         let (effects, parameters) = choose(profile, selection, &seen);
@@ -543,4 +544,13 @@ impl Problem {
         }
         other
     }
+}
+
+/// The mean temperature of the rows that have one, °C.
+fn mean_temperature_c(rows: &[Row]) -> Option<f64> {
+    let all: Vec<f64> = (rows.iter())
+        .filter_map(|row| row.conditions.temperature_c)
+        .collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    (!all.is_empty()).then_some(mean)
 }

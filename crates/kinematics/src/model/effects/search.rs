@@ -85,14 +85,6 @@ pub enum List {
     Rows,
 }
 
-impl List {
-    /// Whether a value chosen from it counts like a fitted one: it shapes the effect.
-    #[must_use]
-    pub const fn is_a_choice(self) -> bool {
-        !matches!(self, Self::Temperatures)
-    }
-}
-
 /// What the residual without an effect is drawn against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {

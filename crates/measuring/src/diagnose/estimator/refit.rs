@@ -6,7 +6,7 @@ use super::table::{Column, Layout, table};
 use crate::diagnose::as_calibrated::known_of;
 use crate::diagnose::question::is_frame_or_geometry;
 use crate::diagnose::search::Chosen;
-use crate::diagnose::search::candidates::{least, parameter};
+use crate::diagnose::search::candidates::{choice, least, parameter};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::Slot;
@@ -169,14 +169,11 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, L
     let (residual, last) = last;
     let fit = &last.fit;
     // what was chosen from a list is uncertain, too
-    let listed = |chosen: &Chosen| {
-        let listed = chosen.candidate.effect.definition().listed();
-        listed.filter(|(_, list)| list.is_a_choice())
-    };
+    let listed = |chosen: &Chosen| choice(problem, &chosen.candidate.effect);
     let mut with_chosen = parameters.clone();
     let mut chosen_at: Vec<Option<usize>> = Vec::new();
     for (found, at) in chosen.iter().zip(&places) {
-        chosen_at.push(listed(found).map(|(number, _)| {
+        chosen_at.push(listed(found).map(|number| {
             with_chosen.push(parameter(*at, &found.candidate.effect, number));
             with_chosen.len() - 1
         }));

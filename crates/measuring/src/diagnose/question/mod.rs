@@ -10,7 +10,7 @@ use self::worth::g_at_rows;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
-use crate::diagnose::search::candidates::{Candidate, Candidates, Tried, columns_of};
+use crate::diagnose::search::candidates::{Candidate, Candidates, Tried, choice, columns_of};
 use crate::diagnose::search::waves;
 use crate::diagnose::search::{Chosen, World};
 use crate::geometry::Pose;
@@ -452,8 +452,7 @@ impl Session {
         (self.candidates).add_waves(&self.problem, &self.about, peaks);
         for found in chosen {
             let effect = &found.candidate.effect;
-            let listed = effect.definition().listed();
-            let Some((number, _)) = listed.filter(|(_, list)| list.is_a_choice()) else {
+            let Some(number) = choice(&self.problem, effect) else {
                 continue;
             };
             let at = effect.parameters[number];

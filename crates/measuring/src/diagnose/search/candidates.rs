@@ -27,6 +27,12 @@ const ODDS_OF_A_ZERO: usize = 12;
 /// Torques of a knee tried, parts of the largest torque in the measurements.
 const KNEES: [f64; 7] = [0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7];
 
+/// Temperatures tried at which the arm may be as its profile says, where nothing tells: parts of the
+/// measurements' range from their mean.
+const REFERENCES: [f64; 12] = [
+    -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5,
+];
+
 /// One effect at one place, with the parameters that are sought; others are held.
 #[derive(Clone, Debug)]
 pub struct Candidate {
@@ -215,6 +221,20 @@ pub(crate) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Opt
     search.never_negative.contains(&parameter).then_some(0.0)
 }
 
+/// The temperature at which a calibration found the lengths of the arm, °C.
+fn calibrated_at(profile: &Profile) -> Option<f64> {
+    let provenance = profile.provenance.as_ref()?;
+    provenance["temperature_c"].as_f64()
+}
+
+/// The parameter of an effect that is chosen from a list and counts like a fitted one: it shapes the
+/// effect. At which temperature the arm is as its profile says is known where that was calibrated.
+pub(crate) fn choice(problem: &Problem, effect: &Effect) -> Option<usize> {
+    let (number, list) = effect.definition().listed()?;
+    let is_known = list == List::Temperatures && calibrated_at(&problem.profile).is_some();
+    (!is_known).then_some(number)
+}
+
 /// Values that are chosen from lists.
 #[derive(Clone, Debug, Default)]
 pub struct Tried {
@@ -267,13 +287,14 @@ impl Tried {
             .filter_map(|r| r.conditions.temperature_c)
             .collect();
         let mean = temperatures.iter().sum::<f64>() / temperatures.len().max(1) as f64;
-        let calibrated = problem
-            .profile
-            .provenance
-            .as_ref()
-            .and_then(|p| p["temperature_c"].as_f64());
         let mut references = vec![20.0, mean];
-        references.extend(calibrated);
+        match calibrated_at(&problem.profile) {
+            Some(calibrated) => references.push(calibrated),
+            None => {
+                let range = range(temperatures.iter().copied());
+                references.extend(REFERENCES.map(|part| mean + part * range));
+            }
+        }
         // the first link's are the base's, the last one's turn and offset the tool's
         let keys = Kind::LinkGeometry.definition().parameters;
         let geometry = std::array::from_fn(|link| {
@@ -502,8 +523,7 @@ impl Candidates {
                             wanted[at].1.push(*number);
                         }
                     }
-                    let listed = kind.definition().listed();
-                    let is_choice = listed.is_some_and(|(_, list)| list.is_a_choice());
+                    let is_choice = choice(problem, &wanted[at].0).is_some();
                     groups.push((at, sought, usize::from(is_choice), sets));
                 }
                 places += usize::from(any);
