@@ -1,10 +1,13 @@
 //! The point in the middle of an arc: the robot passes it in the rotation of the path, whatever
 //! orientation is written for it.
 
-use super::{PLAIN, done, errors, given, message, rapid, try_with};
+use super::{PLAIN, done, errors, fakes, given, message, profile, rapid, try_with};
 use poseshift::compensate::{Compensation, Options};
 use poseshift::finding::Severity;
-use poseshift::geometry::{Pose, sub};
+use poseshift::geometry::{Pose, Rotation, add, dot, norm, scale, sub};
+use poseshift::inverse::Arm;
+use poseshift::model::Conditions;
+use poseshift::model::profile::Mounted;
 use poseshift::program::Shape;
 
 const EXTERNAL: &str = "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
@@ -252,4 +255,83 @@ fn middle_of(done: &Compensation) -> Pose {
         .iter()
         .position(|of| of.name.as_deref() == Some("m"));
     done.targets[at.expect("m")].fake.expect("a fake target")
+}
+
+/// The part of an arc from its beginning to its middle, of three points.
+fn part_of_arc([a, m, b]: [[f64; 3]; 3]) -> f64 {
+    let unit = |v: [f64; 3]| scale(1.0 / norm(v), v);
+    // the angle at the circumference is half of that at the centre
+    let angle_at = |p: [f64; 3], one: [f64; 3], other: [f64; 3]| {
+        dot(unit(sub(one, p)), unit(sub(other, p))).acos()
+    };
+    let (to_middle, from_middle) = (angle_at(b, a, m), angle_at(a, m, b));
+    to_middle / (to_middle + from_middle)
+}
+
+/// The tool rotates to the middle of the arc from where it really stands: at joint angles that stay as
+/// they are the real tool is not where the simulation has it.
+#[test]
+fn the_middle_of_an_arc_behind_joint_angles_lands_with_the_rotation_that_it_has_then() {
+    // what the rotation does to the place is small of second order
+    let large = [
+        "{effect: link_geometry, link: 3, theta_deg: 0.6, a_mm: 2}",
+        "{effect: link_geometry, link: 5, alpha_deg: 0.5}",
+    ];
+    let profile = profile(&large);
+    let tool = Mounted {
+        name: "t".into(),
+        flange_from_tool: Pose::from_translation(0.15, 0.0, 0.2),
+        load: None,
+    };
+    let conditions = Conditions::default();
+    let (nominal, real) = (
+        profile.controller_model(&tool),
+        profile.real_model(&tool, &conditions),
+    );
+    let arm = Arm::of(&profile.geometry(&tool), &profile.mechanism).expect("an arm");
+    let joints = |degrees: [f64; 6]| degrees.map(f64::to_radians);
+    let (from, to) = (
+        joints([0.0, 5.0, 0.0, 10.0, 60.0, 0.0]),
+        joints([10.0, 9.0, 4.0, 46.0, 78.0, 60.0]),
+    );
+    let [start, end] = [from, to].map(|q| nominal.forward(&q, &conditions));
+    let half = scale(0.5, add(start.translation, end.translation));
+    let mut via = start;
+    via.translation = add(half, [0.0, 0.0, 0.04]);
+    let written = |pose: &Pose| {
+        let ([x, y, z], [a, b, c]) = (pose.translation, pose.rotation.rzryrx(0.0));
+        let [a, b, c] = [a, b, c].map(f64::to_degrees);
+        format!(
+            "{{X {:.6},Y {:.6},Z {:.6},A {a:.6},B {b:.6},C {c:.6}}}",
+            1e3 * x,
+            1e3 * y,
+            1e3 * z
+        )
+    };
+    let text = format!(
+        "DEF t()\n$TOOL={{X 150,Y 0,Z 200,A 0,B 0,C 0}}\n$BASE=$WORLD\nPTP {{A1 0,A2 5,A3 0,A4 10,A5 60,A6 0}}\nCIRC \
+         {},{}\nEND\n",
+        written(&via),
+        written(&end)
+    );
+    let done = done(&large, &[("t.src", &text)]);
+    let fakes = fakes(&done);
+    let [fake_via, fake_end] = fakes[..] else {
+        panic!("{fakes:?}");
+    };
+    // the controller's path: an arc through the middle's position, rotated about one axis at a constant rate
+    let places = [start, fake_via, fake_end].map(|pose| pose.translation);
+    let turned = (start.rotation.transpose() * fake_end.rotation).vector();
+    let passed = Pose {
+        translation: fake_via.translation,
+        rotation: start.rotation * Rotation::from_vector(scale(part_of_arc(places), turned)),
+    };
+    let q = arm.solve_branch(&passed, arm.posture(&from).0, &from).q;
+    let apart = nominal.forward(&q, &conditions).separation(&passed);
+    assert!(apart.distance_m < 1e-9, "{apart:?}");
+    let missed = norm(sub(
+        real.forward(&q, &conditions).translation,
+        via.translation,
+    ));
+    assert!(missed < 5e-6, "{missed} m");
 }

@@ -215,6 +215,7 @@ impl Walk {
             strict: true,
             directed: true,
             turning: options.turning,
+            ..WalkOptions::default()
         };
         let arrivals = walk::walk(&ground, &walk_options, &mut findings);
         sides::unknown(&ground, &arrivals, &mut findings);

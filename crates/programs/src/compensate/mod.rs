@@ -401,6 +401,8 @@ fn with(
     let walk_options = WalkOptions {
         start_joints: options.start_joints,
         directed: solve::is_directed(&job),
+        corrects: true,
+        corrects_joints: job.options.correct_joint_targets,
         ..WalkOptions::default()
     };
     let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);

@@ -153,7 +153,8 @@ fn rotation_on(course: &ToolCourse, through: &Pose) -> Rotation {
 }
 
 /// Where the tool stands at an arrival. Joints of poses are those of the nominal arm where the walk
-/// does not ask for a calibrated controller's own.
+/// does not ask for a calibrated controller's own. Where a target stays as it is that is where the
+/// real arm has it: the tool rotates from there.
 fn start_pose(
     ground: &Ground,
     equipped: &Equipped,
@@ -161,7 +162,22 @@ fn start_pose(
     walk_options: &WalkOptions,
 ) -> Pose {
     let before = &ground.program.moves[start.motion as usize];
-    let is_own = walk_options.exact || before.target.is_some_and(|of| ground.is_joints(of));
+    let is_in_joints = before.target.is_some_and(|of| ground.is_joints(of));
+    let stays = before
+        .target
+        .is_none_or(|of| ground.program.targets[of].blocked)
+        || is_in_joints && !walk_options.corrects_joints;
+    let placed = &ground.setting.frames[ground.frame_of(before)];
+    if let Some(placed) = placed.as_ref().filter(|_| walk_options.corrects && stays) {
+        let conditions = Conditions {
+            direction: start.direction.map(f64::from),
+            gravity_m_s2: placed.gravity_m_s2,
+            ..equipped.inverse.conditions
+        };
+        let real = equipped.inverse.real.forward(&start.q, &conditions);
+        return placed.meant * placed.real.inverse() * real;
+    }
+    let is_own = walk_options.exact || is_in_joints;
     if is_own || equipped.calibrated_controller.is_none() {
         equipped
             .controller

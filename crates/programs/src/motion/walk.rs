@@ -200,6 +200,10 @@ pub(crate) struct WalkOptions {
     pub directed: bool,
     /// How the controller rotates the tool on its path.
     pub turning: ToolRotation,
+    /// Targets are corrected afterwards.
+    pub corrects: bool,
+    /// Those in joints, too.
+    pub corrects_joints: bool,
 }
 
 /// Goes through all moves of a program.
