@@ -10,6 +10,9 @@ use poseshift::model::profile::{Mounted, Profile, SHIPPED};
 use poseshift::model::shape::Form;
 use poseshift::model::{Conditions, Model};
 
+/// How far joints keep from narrow limits: 0.05 degrees.
+const LITTLE_RAD: f64 = 8.7e-4;
+
 /// Dense sampling misses the extreme by less than this, mm.
 const SAMPLING_MM: f64 = 1e-4;
 
@@ -112,6 +115,7 @@ fn compare_straight_moves(profile: &Profile) {
             isometry(nominal.forward(found.joints(&found.moves[1]), &conditions)),
         );
         let (mut near, mut far, mut rate) = (start, 0.0_f64, 0.0_f64);
+        let (mut low, mut high) = (start, start);
         for k in 0..=1000 {
             let s = f64::from(k) / 1000.0;
             let between = from.lerp_slerp(&to, s);
@@ -135,6 +139,8 @@ fn compare_straight_moves(profile: &Profile) {
                 arm.posture(&near).1
             );
             near = next.q;
+            low = std::array::from_fn(|i| low[i].min(near[i]));
+            high = std::array::from_fn(|i| high[i].max(near[i]));
             let landed = real.forward(&near, &conditions);
             far =
                 far.max((isometry(landed).translation.vector - between.translation.vector).norm());
@@ -145,6 +151,17 @@ fn compare_straight_moves(profile: &Profile) {
         assert!(
             reported > 0.97 * rate - 1e-6 && reported < 1.05 * rate + 1e-6,
             "{reported} {rate}"
+        );
+        // limits that all joints keep by little
+        let mut narrow = profile.clone();
+        for (i, joint) in narrow.mechanism.joints.iter_mut().enumerate() {
+            (joint.min_rad, joint.max_rad) = (low[i] - LITTLE_RAD, high[i] + LITTLE_RAD);
+        }
+        let found = run(&narrow, None, &sources, None, &Options::default());
+        let margin = found.moves[1].limits.expect("limits").margin_rad;
+        assert!(
+            margin < LITTLE_RAD + 1e-7 && margin > LITTLE_RAD - 1e-4,
+            "{margin} {LITTLE_RAD}"
         );
         compared += 1;
     }

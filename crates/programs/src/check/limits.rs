@@ -45,16 +45,36 @@ const MOST_PARTS: usize = 64;
 /// radians.
 const MOST_BULGE_RAD: f64 = 0.5;
 
-/// The largest value of a function over a piece from its ends and the bound of its curvature.
-fn reach(ends: [f64; 2], jet: &Jet, long: f64) -> [f64; 2] {
-    let bulge = jet.bend.magnitude() * long * long / 8.0;
-    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-    // near a singularity the bound says nothing: samples do
-    if bulge < MOST_BULGE_RAD {
-        [low - bulge, high + bulge]
-    } else {
-        [low, high]
+/// A bound of an angle is made no better where it is within this of what is seen, radians.
+const EXACT_RAD: f64 = 0.001 * DEG;
+/// Or where it keeps this far from the joint's limits, radians.
+const FAR_RAD: f64 = 5.0 * DEG;
+/// Parts of one piece in which angles are looked at near the limits.
+const MOST_ANGLES: f64 = 256.0;
+
+/// How far an angle may go beyond what is seen of it at the ends of equal parts of a piece, radians.
+fn bulge(jet: &Jet, long: f64, parts: usize) -> f64 {
+    // what never turns back is between its ends
+    if jet.slope.mignitude() > 0.0 {
+        return 0.0;
     }
+    let long = long / parts as f64;
+    let bulge = jet.bend.magnitude() * long * long / 8.0;
+    // near a singularity the bound says nothing: samples do
+    if bulge < MOST_BULGE_RAD { bulge } else { 0.0 }
+}
+
+/// The least and the largest angle of each joint at the ends of equal parts of a piece.
+fn seen_in(leg: &Leg, piece: &Piece, parts: usize) -> [[f64; 6]; 2] {
+    let long = piece.to - piece.from;
+    let mut at = piece.start;
+    let (mut low, mut high) = (at, at);
+    for k in 1..=parts {
+        at = leg.joints(piece.from + long * k as f64 / parts as f64, &at);
+        low = std::array::from_fn(|i| low[i].min(at[i]));
+        high = std::array::from_fn(|i| high[i].max(at[i]));
+    }
+    [low, high]
 }
 
 /// Largest mean rates of the joints over as many equal parts of a piece, from the joints where it
@@ -153,11 +173,25 @@ pub(crate) fn asked(
         }
         let fastest = rate_rad.iter().fold(0.0_f64, |a, b| a.max(*b));
         let rates = rates(leg, piece, &begin, seen, fastest);
+        let margins = |low: &[f64; 6], high: &[f64; 6], parts: usize| -> [f64; 6] {
+            std::array::from_fn(|i| {
+                let room = (low[i] - joints[i].min_rad).min(joints[i].max_rad - high[i]);
+                room - bulge(&piece.joints[i], long, parts)
+            })
+        };
+        let mut margins_here = margins(&low, &high, SAMPLES);
+        let beyond = (0..6).filter(|&i| margins_here[i] < FAR_RAD);
+        let beyond = beyond.map(|i| bulge(&piece.joints[i], long, SAMPLES));
+        let beyond = beyond.fold(0.0, f64::max);
+        if beyond > EXACT_RAD {
+            let more = (beyond / EXACT_RAD).sqrt().ceil() * SAMPLES as f64;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let parts = more.min(MOST_ANGLES) as usize;
+            let [low, high] = seen_in(leg, piece, parts);
+            margins_here = margins(&low, &high, parts);
+        }
         for i in 0..6 {
-            // a joint path is straight in the joints: its ends say it all
-            let [least, most] = reach([begin[i], at[i]], &piece.joints[i], long);
-            let (least, most) = (least.min(low[i]), most.max(high[i]));
-            let margin = (least - joints[i].min_rad).min(joints[i].max_rad - most);
+            let margin = margins_here[i];
             margin_rad[i] = margin_rad[i].min(margin);
             if margin < found.margin_rad {
                 (found.margin_rad, found.joint) = (margin, i);
