@@ -223,6 +223,16 @@ pub enum Fault {
         /// The other.
         b: String,
     },
+    /// A pair of bodies whose clearance never changes.
+    #[error("`{a}` and `{b}` have no clearance that a program changes: {why}")]
+    PairStill {
+        /// One of them.
+        a: String,
+        /// The other.
+        b: String,
+        /// Why.
+        why: &'static str,
+    },
     /// A wrong entry in the list of effects.
     #[error(transparent)]
     Effect(EntryError),

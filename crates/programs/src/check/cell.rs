@@ -99,6 +99,31 @@ impl Attached {
 /// How a carrier begins that is a positioner: its number from 1 follows, or its name behind a space.
 const POSITIONER: &str = "positioner";
 
+/// Why the clearance of two bodies is the same wherever the robot goes.
+fn why_still(names: [&str; 2], attached: &[Attached]) -> Option<&'static str> {
+    let own = names.map(|name| LINKS.iter().position(|link| *link == name));
+    let carrier = |name: &str, own: Option<usize>| match own {
+        Some(link) => Some(Carrier::Link(link)),
+        None => {
+            let body = attached.iter().find(|body| body.name == name);
+            body.map(|body| match &body.to {
+                Carrier::Flange => Carrier::Link(6),
+                other => other.clone(),
+            })
+        }
+    };
+    match [carrier(names[0], own[0]), carrier(names[1], own[1])] {
+        [None, None] => Some("neither of them moves"),
+        [Some(a), Some(b)] if a == b => Some("they move together"),
+        _ => match own {
+            [Some(a), Some(b)] if a.abs_diff(b) == 1 => {
+                Some("neighbouring links touch where they are joined")
+            }
+            _ => None,
+        },
+    }
+}
+
 /// What is required of two bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
@@ -250,6 +275,16 @@ impl Cell {
                 (None, true) => None,
                 _ => return Err(Fault::PairMeaning.at(at)),
             };
+            if clearance_m.is_some()
+                && let Some(why) = why_still([&pair.a, &pair.b], &attached)
+            {
+                return Err(Fault::PairStill {
+                    a: pair.a.clone(),
+                    b: pair.b.clone(),
+                    why,
+                }
+                .at(at));
+            }
             pairs.push(Pair {
                 a: pair.a.clone(),
                 b: pair.b.clone(),
@@ -351,6 +386,9 @@ pairs: [{a: gun, b: wall, clearance_mm: 0}, {a: link0, b: floor, allow: true}]
             ("allow: true", "allow: false", 8, "either clearance_mm"),
             ("b: wall", "b: door", 8, "no body is called `door`"),
             ("a: link0, b: floor", "a: wall, b: gun", 8, "stands twice"),
+            ("a: gun, b: wall", "a: floor, b: wall", 8, "neither of them moves"),
+            ("a: gun, b: wall", "a: gun, b: link6", 8, "move together"),
+            ("a: gun, b: wall", "a: link3, b: link2", 8, "where they are joined"),
             ("cell/1", "cell/2", 1, "format"),
             ("capsule_mm", "capsule", 7, "capsule"),
             ("clearance_mm: 5", "clearance_mm: .nan", 2, "finite"),
