@@ -120,6 +120,27 @@ fn through_the_wrists_singularity_the_joints_next_to_it_stand_all_along() {
 }
 
 #[test]
+fn close_by_the_wrists_singularity_joint_4_does_not_sweep_to_it_and_leap() {
+    let folder = scratch();
+    let file = folder.path().join("t.mod");
+    // by 0.16 degrees
+    let program = "MODULE M\nPERS tooldata t:=[TRUE,[[0,0,100],[1,0,0,0]],[1.4,[5,-3,60],[1,0,0,0],0,0,0]];\n\
+        PROC main()\nConfJ\\Off;\nConfL\\Off;\n\
+        MoveAbsJ [[0,-3.58647,-16.7361,1.0,20.32257,-0.94],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        MoveL [[414,0,530],[0.70710678,0,0.70710678,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\n\
+        ENDPROC\nENDMODULE\n";
+    std::fs::write(&file, program).expect("scratch");
+    let (status, report) = checked(&[name(&file), "--profile", THESIS]);
+    assert_eq!(status, 0, "{:?}", ids(&report));
+    let last = &report["moves"][1];
+    assert!(last["wrist_deg"].as_f64() < Some(0.2), "{last}");
+    // joint 5 turns by 37 degrees in some two seconds
+    let speed = last["max_joint_speed_deg_s"].as_f64().expect("a speed");
+    assert!((10.0..100.0).contains(&speed), "{speed}");
+    assert!(!ids(&report).iter().any(|(id, _)| *id == "joint-speed"));
+}
+
+#[test]
 fn from_an_aligned_wrist_the_error_is_that_of_samples() {
     let folder = scratch();
     let file = folder.path().join("t.mod");

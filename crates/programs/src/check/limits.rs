@@ -1,9 +1,9 @@
 //! What a move asks of the joints: limits, singularities, rates, turns.
 
-use crate::geometry::Jet;
 use crate::geometry::units::DEG;
 use crate::inverse::Margins;
 use crate::motion::course::Course;
+use crate::motion::follow::Crossing;
 use crate::motion::leg::{Leg, Piece};
 
 /// The least room of a move.
@@ -53,9 +53,11 @@ const FAR_RAD: f64 = 5.0 * DEG;
 const MOST_ANGLES: f64 = 256.0;
 
 /// How far an angle may go beyond what is seen of it at the ends of equal parts of a piece, radians.
-fn bulge(jet: &Jet, long: f64, parts: usize) -> f64 {
-    // what never turns back is between its ends
-    if jet.slope.mignitude() > 0.0 {
+fn bulge(leg: &Leg, piece: &Piece, joint: usize, parts: usize) -> f64 {
+    let (jet, long) = (&piece.joints[joint], piece.to - piece.from);
+    let is_passed = |of: &Crossing| piece.from < of.region[1] && piece.to > of.region[0];
+    // what never turns back is between its ends; past a singularity samples say it
+    if jet.slope.mignitude() > 0.0 || leg.crossing.as_ref().is_some_and(is_passed) {
         return 0.0;
     }
     let long = long / parts as f64;
@@ -67,10 +69,10 @@ fn bulge(jet: &Jet, long: f64, parts: usize) -> f64 {
 /// The least and the largest angle of each joint at the ends of equal parts of a piece.
 fn seen_in(leg: &Leg, piece: &Piece, parts: usize) -> [[f64; 6]; 2] {
     let long = piece.to - piece.from;
-    let mut at = piece.start;
+    let mut at = leg.turned(piece.from, &piece.start);
     let (mut low, mut high) = (at, at);
     for k in 1..=parts {
-        at = leg.joints(piece.from + long * k as f64 / parts as f64, &at);
+        at = leg.turned(piece.from + long * k as f64 / parts as f64, &at);
         low = std::array::from_fn(|i| low[i].min(at[i]));
         high = std::array::from_fn(|i| high[i].max(at[i]));
     }
@@ -84,7 +86,7 @@ fn mean_rates(leg: &Leg, piece: &Piece, begin: &[f64; 6], parts: usize) -> [f64;
     let (mut at, mut most) = (*begin, [0.0_f64; 6]);
     for k in 1..=parts {
         let last = at;
-        at = leg.joints(piece.from + long * k as f64 / parts as f64, &last);
+        at = leg.turned(piece.from + long * k as f64 / parts as f64, &last);
         for i in 0..6 {
             most[i] = most[i].max((at[i] - last[i]).abs() * parts as f64 / long);
         }
@@ -152,20 +154,20 @@ pub(crate) fn asked(
     let mut at = leg.start;
     for piece in pieces {
         // a piece in which a joint may turn back stands there once for each side
-        let begin = piece.start;
+        let begin = leg.turned(piece.from, &piece.start);
         at = begin;
         let long = piece.to - piece.from;
         let (mut low, mut high, mut seen) = (at, at, [0.0_f64; 6]);
         for k in 1..=SAMPLES {
             let s = piece.from + long * k as f64 / SAMPLES as f64;
             let last = at;
-            at = leg.joints(s, &at);
+            at = leg.turned(s, &at);
             for i in 0..6 {
                 (low[i], high[i]) = (low[i].min(at[i]), high[i].max(at[i]));
                 let rate = (at[i] - last[i]).abs() * SAMPLES as f64 / long;
                 seen[i] = seen[i].max(rate);
             }
-            let here = arm.posture(&at).1;
+            let here = arm.posture(&leg.joints(s, &at)).1;
             let least = &mut found.margins;
             least.wrist_rad = least.wrist_rad.min(here.wrist_rad);
             least.elbow_rad = least.elbow_rad.min(here.elbow_rad);
@@ -176,12 +178,12 @@ pub(crate) fn asked(
         let margins = |low: &[f64; 6], high: &[f64; 6], parts: usize| -> [f64; 6] {
             std::array::from_fn(|i| {
                 let room = (low[i] - joints[i].min_rad).min(joints[i].max_rad - high[i]);
-                room - bulge(&piece.joints[i], long, parts)
+                room - bulge(leg, piece, i, parts)
             })
         };
         let mut margins_here = margins(&low, &high, SAMPLES);
         let beyond = (0..6).filter(|&i| margins_here[i] < FAR_RAD);
-        let beyond = beyond.map(|i| bulge(&piece.joints[i], long, SAMPLES));
+        let beyond = beyond.map(|i| bulge(leg, piece, i, SAMPLES));
         let beyond = beyond.fold(0.0, f64::max);
         if beyond > EXACT_RAD {
             let more = (beyond / EXACT_RAD).sqrt().ceil() * SAMPLES as f64;

@@ -193,14 +193,25 @@ pub(crate) fn follow(
     Some(Followed { branch, q, passing })
 }
 
-/// Where joint 5 goes through the wrist's singularity on a path that ends on a branch, and the branch
-/// before; `None` where it does not, or begins there.
+/// Where joint 5 goes through the wrist's singularity on a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    /// The part of the path.
+    pub at: f64,
+    /// The branch before.
+    pub before: Branch,
+    /// Where the path comes near the singularity, and where it leaves it.
+    pub region: [f64; 2],
+}
+
+/// Where joint 5 goes through the wrist's singularity on a path that ends on a branch; `None` where it
+/// does not, or begins there.
 pub(super) fn crossing(
     equipped: &Equipped,
     path: &ToolCourse,
     start: &[f64; 6],
     end: Branch,
-) -> Option<(f64, Branch)> {
+) -> Option<Crossing> {
     let arm = &equipped.arm;
     let (branch, margins) = arm.posture(start);
     let is_other = branch.joint_5_negative != end.joint_5_negative
@@ -217,7 +228,29 @@ pub(super) fn crossing(
         (solution.beyond == 0.0).then(|| arm.posture(&solution.q).1.wrist_rad)
     };
     let (at, _) = passage(margin, 0.0, 1.0)?;
-    Some((at, branch))
+    let is_near = |s: f64| Some(margin(s)? < NEAR_WRIST_RAD);
+    let region = [border(is_near, 0.0, at)?, border(is_near, 1.0, at)?];
+    Some(Crossing {
+        at,
+        before: branch,
+        region,
+    })
+}
+
+/// Where a path comes near something, from a part of it that is not near and one that is.
+fn border(is_near: impl Fn(f64) -> Option<bool>, mut outside: f64, mut inside: f64) -> Option<f64> {
+    if is_near(outside)? {
+        return Some(outside);
+    }
+    for _ in 0..NARROWINGS {
+        let middle = 0.5 * (outside + inside);
+        if is_near(middle)? {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    Some(inside)
 }
 
 fn farthest(a: &[f64; 6], b: &[f64; 6]) -> f64 {
@@ -237,23 +270,9 @@ fn past_wrist(
     let [(from, before), (inside, q), (to, there)] = samples;
     let margin = |s: f64| Some(arm.posture(&at(s, branch, before)?).1.wrist_rad);
     let is_near = |s: f64| Some(margin(s)? < NEAR_WRIST_RAD);
-    // where the path comes into the region, and leaves it
-    let border = |mut outside: f64, mut inside: f64| {
-        if is_near(outside)? {
-            return Some(outside);
-        }
-        for _ in 0..NARROWINGS {
-            let middle = 0.5 * (outside + inside);
-            if is_near(middle)? {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
-        Some(inside)
-    };
     let (first, by_rad) = passage(margin, from, to)?;
-    let (enters, leaves) = (border(from, first)?, border(to, first.max(inside))?);
+    let enters = border(is_near, from, first)?;
+    let leaves = border(is_near, to, first.max(inside))?;
     let sweep = at(leaves, branch, if leaves > inside { there } else { q })?[3]
         - at(enters, branch, before)?[3];
     if by_rad >= NEAR_WRIST_RAD || sweep.abs() < LEAST_SWEEP_RAD {

@@ -2,7 +2,7 @@
 
 use super::arms::Equipped;
 use super::course::Course;
-use super::follow;
+use super::follow::{self, Crossing};
 use super::ride::Ride;
 use crate::geometry::{Jet, Pose, Scalar};
 use crate::inverse::Branch;
@@ -33,8 +33,8 @@ pub(crate) struct Leg<'a> {
     pub conditions: Conditions,
     /// What external axes do meanwhile.
     pub ride: Option<Arc<Ride>>,
-    /// Where joint 5 goes through the wrist's singularity, and the branch before.
-    pub crossing: Option<(f64, Branch)>,
+    /// Where joint 5 goes through the wrist's singularity.
+    pub crossing: Option<Crossing>,
 }
 
 /// A part of a move over which the joints' rates are bounded.
@@ -84,7 +84,7 @@ impl Leg<'_> {
 
     fn branch_at(&self, s: f64) -> Branch {
         match self.crossing {
-            Some((at, before)) if s < at => before,
+            Some(crossing) if s < crossing.at => crossing.before,
             _ => self.branch,
         }
     }
@@ -106,6 +106,24 @@ impl Leg<'_> {
                 }
             }
         }
+    }
+
+    /// The joints that the controller turns to at `s`: where joint 5 goes through the wrist's singularity
+    /// all go evenly past it, and joint 4 does not sweep to where the path alone would have it.
+    pub(crate) fn turned(&self, s: f64, near: &[f64; 6]) -> [f64; 6] {
+        let Some(Crossing {
+            region: [from, to], ..
+        }) = self.crossing
+        else {
+            return self.joints(s, near);
+        };
+        if s <= from || s >= to {
+            return self.joints(s, near);
+        }
+        let enters = self.joints(from, near);
+        let leaves = self.joints(to, &enters);
+        let part = (s - from) / (to - from);
+        std::array::from_fn(|i| enters[i] + part * (leaves[i] - enters[i]))
     }
 
     /// How far beyond reach the controller's nominal arm is asked to go at `s`; 0 within.
@@ -160,7 +178,7 @@ impl Leg<'_> {
                 let branch = self.branch_at(half);
                 let enclosed = arm.enclose(&course.pose(s), half_width, branch.signs(), middle);
                 let exact = self.equipped.calibrated_controller.is_none();
-                let is_crossed = (self.crossing).is_some_and(|(at, _)| from < at && at < to);
+                let is_crossed = (self.crossing).is_some_and(|of| from < of.at && of.at < to);
                 let joints = if exact {
                     enclosed
                 } else {
