@@ -1,7 +1,7 @@
 //! `calibrate`: measurements to a profile.
 
 use super::failure::Failure;
-use super::measurements::{Rows, identify_failure};
+use super::measurements::{Rows, any_timed, identify_failure, late_clock};
 use super::parts::{File, Observability, Pose, Quality, Sigma, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
@@ -211,9 +211,14 @@ pub fn calibrate(
         all,
         name,
         sha256,
-        findings,
+        mut findings,
         tables,
     } = measurements;
+    let asked = options.selection.identify.iter();
+    let own = profile.profile.effects.iter().map(|effect| &effect.kind);
+    if any_timed(asked.filter_map(|pick| pick.kind.as_ref()).chain(own)) {
+        findings.extend(late_clock(&all, &name));
+    }
     let failed = |error| identify_failure(&name, &error);
     let whole = |found: Found, findings: Vec<Finding>| {
         let tables = tables.clone();
