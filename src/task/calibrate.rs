@@ -388,6 +388,8 @@ impl Calibration {
             "after": self.after,
             "observability": self.observability,
             "sigma_factor": u.sigma_factor,
+            "shared_factor": u.shared_factor,
+            "configurations": self.found.problem.configurations(),
             "degrees_of_freedom": u.degrees_of_freedom,
             "parameters": keys,
             "covariance_lower_triangle": (0..parameters.len()).map(row).collect::<Vec<_>>(),

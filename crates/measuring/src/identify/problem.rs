@@ -4,7 +4,7 @@ use super::contact::{self, Feature, MOST_VALUES};
 use super::error::IdentifyError;
 use super::external;
 use super::holder::{Holder, Plate};
-use super::measurements::{Measurement, Measurements, Observed};
+use super::measurements::{Measurement, Measurements, Observed, numbered};
 use super::needs::{check_needs, loaded, refuse_others_axes};
 use super::observation::Observation;
 use super::parameters::{Parameter, Seen, Selection, Subject, choose};
@@ -497,6 +497,13 @@ impl Problem {
     #[must_use]
     pub fn numbers(&self) -> usize {
         self.rows.iter().map(|row| row.observed.count()).sum()
+    }
+
+    /// How many configurations the rows have.
+    #[must_use]
+    pub fn configurations(&self) -> usize {
+        let numbers = numbered(self.rows.iter().map(|row| (&row.q, &row.stand)));
+        numbers.iter().max().map_or(0, |last| last + 1)
     }
 
     /// How many numbers were measured in different ways: what is repeated tells of the noise, not
