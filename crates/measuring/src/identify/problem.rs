@@ -268,7 +268,10 @@ impl Problem {
         let pose = rows
             .iter()
             .any(|row| matches!(row.observed, Observed::Pose(_)));
+        let temperatures = || rows.iter().filter_map(|row| row.conditions.temperature_c);
+        let warm = temperatures().count();
         let seen = Seen {
+            mean_c: (warm > 0).then(|| temperatures().sum::<f64>() / warm as f64),
             tools: tools
                 .iter()
                 .enumerate()
