@@ -235,9 +235,11 @@ impl Measurement {
 }
 
 /// A clock that counts from longer before the first row than this part of the rows' time: of a
-/// warm-up with the shortest constant that is sought (a twentieth of it) 86 % is over by then, and
-/// what the rows show would be enlarged by seven.
-const LATE: f64 = 0.1;
+/// warm-up with the shortest constant that is sought (a twentieth of it) 63 % is over by then, and
+/// what the rows show would be enlarged by 2.7.
+const LATE: f64 = 0.05;
+/// A clock may begin so many rows before the first.
+const ROWS_BEFORE: f64 = 2.0;
 
 /// Times that begin late.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -253,12 +255,15 @@ impl Late {
     /// before the first of them, against how far they reach; or counts from anything else.
     #[must_use]
     pub fn of(times_s: impl Iterator<Item = f64>) -> Option<Self> {
-        let (first_s, last_s) = times_s
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
-                (low.min(t), high.max(t))
-            });
+        let (mut first_s, mut last_s, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        for time_s in times_s {
+            first_s = time_s.min(first_s);
+            last_s = time_s.max(last_s);
+            count += 1.0;
+        }
         let length_s = last_s - first_s;
-        (length_s > 0.0 && first_s > LATE * length_s).then_some(Self { first_s, length_s })
+        let part = LATE.max(ROWS_BEFORE / f64::max(count - 1.0, 1.0));
+        (length_s > 0.0 && first_s > part * length_s).then_some(Self { first_s, length_s })
     }
 }
 
