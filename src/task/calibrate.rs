@@ -1,11 +1,11 @@
 //! `calibrate`: measurements to a profile.
 
 use super::failure::Failure;
-use super::measurements::{Rows, identify_failure};
+use super::measurements::{Rows, any_timed, identify_failure, late_clock};
 use super::parts::{File, Observability, Pose, Quality, Sigma, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
 use crate::geometry::add;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::identify::IdentifyError;
@@ -17,7 +17,7 @@ use crate::identify::off::Off;
 use crate::identify::parameters::Selection;
 use crate::identify::plates::calibrate_plates;
 use crate::identify::statistics::misses;
-use crate::model::effects::Kind;
+use crate::model::effects::{Effect, Kind};
 use crate::model::profile::{Profile, Tables};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -211,9 +211,14 @@ pub fn calibrate(
         all,
         name,
         sha256,
-        findings,
+        mut findings,
         tables,
     } = measurements;
+    let asked = options.selection.identify.iter();
+    let own = profile.profile.effects.iter().map(|effect| &effect.kind);
+    if any_timed(asked.filter_map(|pick| pick.kind.as_ref()).chain(own)) {
+        findings.extend(late_clock(&all, &name));
+    }
     let failed = |error| identify_failure(&name, &error);
     let whole = |found: Found, findings: Vec<Finding>| {
         let tables = tables.clone();
@@ -270,6 +275,7 @@ fn of_found(
     (profile, name, sha256, tables): (&ProfileFile, String, Vec<String>, Option<Tables>),
 ) -> Calibration {
     reported.extend(findings(&found.remarks, &name));
+    reported.extend(left_with_data(&found, &name));
     let device = found
         .device
         .filter(|_| !found.base_replaced && !is_of_plates(&found));
@@ -312,6 +318,23 @@ fn of_found(
         found,
         name,
     }
+}
+
+/// Effects of the data that were identified along: the profile is without them.
+fn left_with_data(found: &Found, name: &str) -> Option<Finding> {
+    let effects = found.solution.estimate.effects.iter();
+    let of_data = effects.filter(|e| e.definition().of_data && !e.is_zero());
+    let labels: Vec<String> = of_data.map(Effect::label).collect();
+    if labels.is_empty() {
+        return None;
+    }
+    let message = format!(
+        "{}: of the measurements, not of the arm: the errors stated are with it, the profile is \
+         without it, and what it moved stands as before the first row",
+        labels.join(", ")
+    );
+    let finding = Finding::of_file("effect-of-data", Severity::Warning, name, message);
+    Some(finding.hint("`poseshift diagnose -o` writes what moved as it stands after the last row"))
 }
 
 /// Whether it is of points on plates.
@@ -383,6 +406,8 @@ impl Calibration {
             "after": self.after,
             "observability": self.observability,
             "sigma_factor": u.sigma_factor,
+            "shared_factor": u.shared_factor,
+            "configurations": self.found.problem.configurations(),
             "degrees_of_freedom": u.degrees_of_freedom,
             "parameters": keys,
             "covariance_lower_triangle": (0..parameters.len()).map(row).collect::<Vec<_>>(),

@@ -16,6 +16,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::ops::Range;
 
+/// Runs whose errors differ by more than so many times are not alike.
+const GROSS: f64 = 3.0;
+
 /// A run: what the profile misses of rows that it was not calibrated with.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Run {
@@ -85,6 +88,16 @@ impl Drift {
         }
     }
 
+    /// How many times the smallest error of a run the largest is.
+    fn ratio(&self) -> f64 {
+        let errors = || self.runs.iter().map(|run| run.rms_mm);
+        let largest = errors().fold(0.0, f64::max);
+        largest
+            / errors()
+                .fold(f64::INFINITY, f64::min)
+                .max(f64::MIN_POSITIVE)
+    }
+
     /// What is to be said of it.
     #[must_use]
     pub fn sentence(&self) -> String {
@@ -114,6 +127,12 @@ impl Drift {
             (None, Some(apart)) => {
                 format!("{apart} The rows of all {count} runs are diagnosed together.")
             }
+            (None, None) if self.ratio() > GROSS => format!(
+                "The errors of the {count} runs differ by up to {:.0} times, and no change from \
+                 one run on is sure. Their rows are diagnosed together: look at the runs one by \
+                 one.",
+                self.ratio()
+            ),
             (None, None) => format!(
                 "The error has not changed in {count} runs. Their rows are diagnosed together."
             ),
@@ -205,4 +224,30 @@ pub fn diagnose_runs(
     })?;
     found.drift = Some(drift);
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_that_differ_grossly_are_said_to() {
+        let sentence = |errors: &[f64]| {
+            let run = |(number, rms_mm): (usize, &f64)| Run {
+                file: format!("n{number}.csv"),
+                rows: 20,
+                rms_mm: *rms_mm,
+            };
+            Drift::of(errors.iter().enumerate().map(run).collect()).sentence()
+        };
+        let alike = sentence(&[0.05, 0.06, 0.05, 0.055, 0.05]);
+        assert!(alike.contains("has not changed"), "{alike}");
+        let to_and_fro = sentence(&[0.05, 0.2, 0.05, 0.2, 0.05, 0.2, 0.05]);
+        assert!(to_and_fro.contains("by up to 4 times"), "{to_and_fro}");
+        let changed = sentence(&[0.05, 0.052, 0.33, 0.32, 0.34, 0.33]);
+        assert!(
+            changed.contains("changed with run 3 of 6, n2.csv"),
+            "{changed}"
+        );
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::Document;
 use super::failure::Failure;
-use super::measurements::{Rows, identify_failure};
+use super::measurements::{Rows, any_timed, identify_failure, late_clock};
 use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use crate::diagnose::as_calibrated::{self as standing, Unsaid, as_calibrated};
@@ -280,9 +280,12 @@ pub fn validate(
         mut all,
         name,
         sha256,
-        findings: read,
+        findings: mut read,
         ..
     } = measurements;
+    if any_timed(file.profile.effects.iter().map(|effect| &effect.kind)) {
+        read.extend(late_clock(&all, &name));
+    }
     let is_for = |row: &Measurement| row.purpose == Some(Purpose::Validate);
     let some = all.rows.iter().any(is_for) && !options.all_sets;
     let refit = match options.refit_frames {

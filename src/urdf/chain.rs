@@ -5,7 +5,7 @@
 //! from the common normal before. Parallel axes have many common normals: the one through the foot
 //! of the last is taken. The base takes up where axis 1 is, the flange what is behind axis 6.
 
-use super::{UrdfArm, UrdfError};
+use super::{MOST_M, UrdfArm, UrdfError};
 use crate::geometry::{Pose, Rotation, Vector, add, cross, dot, norm, scale, sub};
 use crate::model::Link;
 
@@ -141,6 +141,16 @@ pub(super) fn rows(arm: &UrdfArm) -> Result<Rows, UrdfError> {
                 direction,
             }
         };
+        let far_m = norm(sub(next.feet[0], points[i]));
+        if i < 5 && far_m > MOST_M {
+            return Err(UrdfError::FarNormal {
+                first: arm.joints[i].name.clone(),
+                second: arm.joints[i + 1].name.clone(),
+                apart_rad: norm(cross(z, axes[i + 1])),
+                far_m,
+                limit_m: MOST_M,
+            });
+        }
         links[i].theta_rad = angle(z, from, next.direction);
         links[i].d_m = length(dot(sub(next.feet[0], arrived), z));
         frames[i + 1] = frame(next.feet[0], next.direction, z);

@@ -144,6 +144,23 @@ pub enum UrdfError {
         /// The other.
         second: String,
     },
+    /// Two axes that are parallel but for so little that their common normal is out of reach.
+    #[error(
+        "the axes of `{first}` and `{second}` are {apart_rad:.1e} rad from parallel: their common \
+         normal is {far_m:.0} m away (limit {limit_m} m)"
+    )]
+    FarNormal {
+        /// The one joint.
+        first: String,
+        /// The other.
+        second: String,
+        /// Angle between them, radians.
+        apart_rad: f64,
+        /// How far, metres.
+        far_m: f64,
+        /// The largest that a profile has, metres.
+        limit_m: f64,
+    },
     /// A package that nobody said where it is.
     #[error("cannot find the mesh `{file}` of link `{link}`")]
     Mesh {
@@ -204,6 +221,11 @@ impl UrdfError {
             Self::Mesh { .. } => {
                 "--package-path FOLDER (the folder that holds the package, or NAME=FOLDER), or \
                  --no-shapes"
+                    .into()
+            }
+            Self::FarNormal { .. } => {
+                "write the file with more decimals, or leave --exact-angles out: axes that are \
+                 parallel but for the rounding of its numbers are then taken as parallel"
                     .into()
             }
             Self::Name { .. } => "give it another name in the file".into(),

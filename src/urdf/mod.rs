@@ -29,6 +29,7 @@ mod chain;
 mod error;
 mod export;
 mod names;
+mod parallel;
 mod text;
 mod tree;
 mod write;

@@ -1,6 +1,7 @@
 //! The way from the base to the tip.
 
 use super::names::{judge_names, leads_out};
+use super::parallel::Digits;
 use super::text::{has_macros, judge_size, without_comments, without_looks};
 use super::{Choice, UrdfArm, UrdfError, UrdfForm, UrdfJoint, UrdfShape};
 use crate::geometry::units::{DEG, mm_from_m};
@@ -297,11 +298,18 @@ impl<'a> Tree<'a> {
         let mut rounding = self.rounding();
         let mut joints = Vec::new();
         let mut notes = Vec::new();
+        let mut digits = Digits::default();
         let base_from_foot = foot_from_base.inverse();
         let mut fixed = base_from_foot;
         for joint in &way {
             finite("an origin", &joint.name, &joint.origin)?;
             fixed = fixed * rounding.pose(&joint.origin);
+            let written = joint.origin.rpy.0;
+            digits.frame(
+                written.map(|a| rounding.angle(a)),
+                written,
+                &joint.origin.xyz.0,
+            );
             match joint.joint_type {
                 JointType::Fixed => continue,
                 JointType::Revolute | JointType::Continuous => {}
@@ -319,6 +327,7 @@ impl<'a> Tree<'a> {
                 });
             }
             joints.push(turning(joint, fixed, &mut notes)?);
+            digits.axis(&joint.axis.xyz.0);
             fixed = Pose::identity();
         }
         if joints.len() != 6 {
@@ -343,6 +352,9 @@ impl<'a> Tree<'a> {
             packages: BTreeSet::new(),
             notes,
         };
+        if !rounding.exact {
+            digits.make_exact(&mut arm);
+        }
         self.contents((foot, base_from_foot), &mut arm, choice, &mut rounding)?;
         if rounding.by > 0.0 {
             arm.notes.push(format!(

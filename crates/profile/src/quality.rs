@@ -24,6 +24,10 @@ struct QualityFile {
     after: Option<Errors>,
     observability: Option<BTreeMap<String, Option<f64>>>,
     sigma_factor: Option<f64>,
+    /// How many times larger sigmas are because rows of one configuration miss alike.
+    shared_factor: Option<f64>,
+    /// How many configurations the rows have.
+    configurations: Option<f64>,
     degrees_of_freedom: Option<f64>,
     parameters: Vec<Parameter>,
     covariance_lower_triangle: Option<Vec<Vec<Option<f64>>>>,
@@ -102,6 +106,8 @@ impl QualityFile {
         });
         let negative = [
             ("sigma_factor", self.sigma_factor),
+            ("shared_factor", self.shared_factor),
+            ("configurations", self.configurations),
             ("degrees_of_freedom", self.degrees_of_freedom),
         ];
         let negative = negative

@@ -435,3 +435,144 @@ fn an_arm_in_metres_is_refused() {
     assert!(matches!(error.fault, Fault::TinyArm { .. }), "{error}");
     assert!(error.to_string().contains("1.004 mm"), "{error}");
 }
+
+/// Universal Robots, "DH parameters for calculations of kinematics and dynamics": a of rows 2 and
+/// 3, d of rows 1, 4, 5 and 6, metres.
+const TABLES: [(&str, [f64; 2], [f64; 4]); 9] = [
+    (
+        "universal_robots_ur3",
+        [-0.24365, -0.21325],
+        [0.1519, 0.11235, 0.08535, 0.0819],
+    ),
+    (
+        "universal_robots_ur5",
+        [-0.425, -0.39225],
+        [0.089_159, 0.10915, 0.09465, 0.0823],
+    ),
+    (
+        "universal_robots_ur10",
+        [-0.612, -0.5723],
+        [0.1273, 0.163_941, 0.1157, 0.0922],
+    ),
+    (
+        "universal_robots_ur3e",
+        [-0.24355, -0.2132],
+        [0.15185, 0.13105, 0.08535, 0.0921],
+    ),
+    (
+        "universal_robots_ur5e",
+        [-0.425, -0.3922],
+        [0.1625, 0.1333, 0.0997, 0.0996],
+    ),
+    (
+        "universal_robots_ur10e",
+        [-0.6127, -0.57155],
+        [0.1807, 0.17415, 0.11985, 0.11655],
+    ),
+    (
+        "universal_robots_ur16e",
+        [-0.4784, -0.36],
+        [0.1807, 0.17415, 0.11985, 0.11655],
+    ),
+    (
+        "universal_robots_ur20",
+        [-0.862, -0.7287],
+        [0.2363, 0.201, 0.1593, 0.1543],
+    ),
+    (
+        "universal_robots_ur30",
+        [-0.637, -0.5037],
+        [0.2363, 0.201, 0.1593, 0.1543],
+    ),
+];
+/// Differences of an arm that is made up: theta, a, d, alpha.
+const DELTAS: [[f64; 6]; 4] = [
+    [1.1e-3, -0.9e-3, 1.4e-3, 2.2e-3, -2.1e-3, 0.7e-3],
+    [2.1e-4, -3.3e-4, 1.9e-4, -0.8e-4, 2.6e-4, 0.0],
+    [-1.7e-4, 0.8e-4, -2.4e-4, 1.2e-4, 2.2e-4, -3.1e-4],
+    [0.9e-3, -1.2e-3, 0.6e-3, -0.4e-3, 1.5e-3, 0.0],
+];
+
+/// Rows of a homogeneous matrix, `Rz(theta) Tz(d) Tx(a) Rx(alpha)` multiplied out.
+fn maker_s_step([theta, d, a, alpha]: [f64; 4]) -> [[f64; 4]; 3] {
+    let ((st, ct), (sa, ca)) = (theta.sin_cos(), alpha.sin_cos());
+    [
+        [ct, -st * ca, st * sa, a * ct],
+        [st, ct * ca, -ct * sa, a * st],
+        [0.0, sa, ca, d],
+    ]
+}
+
+fn product(a: [[f64; 4]; 3], b: [[f64; 4]; 3]) -> [[f64; 4]; 3] {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let own = if j == 3 { a[i][3] } else { 0.0 };
+            (0..3).map(|k| a[i][k] * b[k][j]).sum::<f64>() + own
+        })
+    })
+}
+
+#[test]
+fn every_built_in_arm_of_universal_robots_takes_its_factory_calibration() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let names = ["delta_theta", "delta_a", "delta_d", "delta_alpha"];
+    for (name, [a2, a3], [d1, d4, d5, d6]) in TABLES {
+        let built_in = catalogue().into_iter().find(|arm| arm.name == name);
+        let nominal = match (built_in, name) {
+            (Some(arm), _) => Profile::from_yaml(&arm.text()).expect(name),
+            (None, "universal_robots_ur5") => Profile::from_yaml(UR5).expect(name),
+            (None, _) => {
+                let ur10 = include_str!("../../../robots/universal_robots_ur10.yaml");
+                Profile::from_yaml(ur10).expect(name)
+            }
+        };
+        for is_far in [false, true] {
+            let mut deltas = DELTAS;
+            if is_far {
+                // along axes that are exactly parallel lengths that cancel say nothing
+                deltas[2][1..4].copy_from_slice(&[412.123, -398.7, -13.4229]);
+                deltas[3][1..3].fill(0.0);
+            }
+            let mut conf = String::from("[mounting]\n");
+            for (key, list) in names.iter().zip(deltas) {
+                conf += &format!("{key} = {list:?}\n");
+            }
+            conf += "calibration_status = 2\n";
+            let effects = link_geometry(&conf, &nominal).expect(name);
+            let profile = Profile {
+                controller: ControllerModel::Calibrated,
+                own_effects: Some(effects),
+                ..nominal.clone()
+            };
+            let controller = profile.controller_model(&Mounted::flange());
+            let table = [
+                [d1, 0.0, quarter],
+                [0.0, a2, 0.0],
+                [0.0, a3, 0.0],
+                [d4, 0.0, quarter],
+                [d5, 0.0, -quarter],
+                [d6, 0.0, 0.0],
+            ];
+            for k in 0..50 {
+                let q: [f64; 6] =
+                    std::array::from_fn(|i| 2.6 * (f64::from(k) * (i as f64 + 1.3) + 0.4).sin());
+                let steps = (0..6).map(|i| {
+                    let [d, a, alpha] = table[i];
+                    let [dt, da, dd, dalpha] = deltas.map(|list| list[i]);
+                    maker_s_step([q[i] + dt, d + dd, a + da, alpha + dalpha])
+                });
+                let there = steps.reduce(product).expect("six");
+                let found = controller.forward(&q, &Conditions::default());
+                for i in 0..3 {
+                    let off = found.translation[i] - there[i][3];
+                    // lengths of the catalogue are rounded to 1e-10 m
+                    assert!(off.abs() < 5e-10, "{name} {q:?}: {off}");
+                    for j in 0..3 {
+                        let off = found.rotation.0[i][j] - there[i][j];
+                        assert!(off.abs() < 1e-10, "{name} {q:?}: {off}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -32,6 +32,7 @@ use crate::geometry::{Pose, Rotation};
 use crate::model::effects::{Effect, Kind, MOST_PARAMETERS, Site};
 use crate::model::{Axes, RowsError};
 use serde::Deserialize;
+use std::f64::consts::PI;
 
 /// Why a calibration cannot be imported.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -244,21 +245,37 @@ struct StandardRow {
     alpha_rad: f64,
 }
 
-/// The maker's table from the rows of a profile, which must be that table in our form.
+/// The maker's table from the rows of a profile, which must be that table in our form, with the x
+/// axes of frames in either direction.
+///
+/// Where x of a row's frame is turned over (half a revolution about z, which θ of the row begins and
+/// that of another ends), `Rz(π) · Rx(α) · Tx(a) = Rx(−α) · Tx(−a) · Rz(π)`: α and a of the next row
+/// change their signs.
 fn standard_rows(nominal: &Profile) -> Result<[StandardRow; 6], UrError> {
     const ALPHA_DEG: [f64; 6] = [0.0, 90.0, 0.0, 0.0, 90.0, -90.0];
     let links = &nominal.links;
-    let flange = nominal.link6_from_flange.separation(&Pose::identity());
+    let mut rows = [const {
+        StandardRow {
+            d_m: 0.0,
+            a_m: 0.0,
+            alpha_rad: 0.0,
+        }
+    }; 6];
+    let mut is_over = false;
     for (i, (link, joint)) in links.iter().zip(&nominal.mechanism.joints).enumerate() {
+        let side = if is_over { -1.0 } else { 1.0 };
         let first_a = if i == 0 { link.a_m } else { 0.0 };
+        let turned = (link.theta_rad + joint.offset_rad).to_degrees();
+        let halves = (turned / 180.0).round();
         let checks = [
-            ("alpha_deg", link.alpha_rad.to_degrees(), ALPHA_DEG[i]),
-            ("a_mm", 1e3 * first_a, 0.0),
             (
-                "theta_deg + offset_deg",
-                (link.theta_rad + joint.offset_rad).to_degrees(),
-                0.0,
+                "alpha_deg",
+                link.alpha_rad.to_degrees(),
+                side * ALPHA_DEG[i],
             ),
+            ("a_mm", 1e3 * first_a, 0.0),
+            ("beta_deg", link.beta_rad.to_degrees(), 0.0),
+            ("theta_deg + offset_deg", turned, 180.0 * halves),
             ("sign", joint.sign, 1.0),
         ];
         for (what, found, wanted) in checks {
@@ -271,7 +288,16 @@ fn standard_rows(nominal: &Profile) -> Result<[StandardRow; 6], UrError> {
                 });
             }
         }
+        if i > 0 {
+            rows[i - 1].a_m = side * link.a_m;
+            rows[i - 1].alpha_rad = side * link.alpha_rad;
+        }
+        rows[i].d_m = link.d_m;
+        is_over ^= halves.rem_euclid(2.0) > 0.5;
     }
+    let back = if is_over { PI } else { 0.0 };
+    let back = Pose::from_rotation(Rotation::about_z(back));
+    let flange = nominal.link6_from_flange.separation(&back);
     if flange.distance_m > 1e-9 || flange.angle_rad > 1e-9 {
         return Err(UrError::NotTheTable {
             what: "the flange on link 6, distance in mm,",
@@ -280,11 +306,7 @@ fn standard_rows(nominal: &Profile) -> Result<[StandardRow; 6], UrError> {
             wanted: 0.0,
         });
     }
-    Ok(std::array::from_fn(|i| StandardRow {
-        d_m: links[i].d_m,
-        a_m: links.get(i + 1).map_or(0.0, |next| next.a_m),
-        alpha_rad: links.get(i + 1).map_or(0.0, |next| next.alpha_rad),
-    }))
+    Ok(rows)
 }
 
 #[derive(Deserialize)]

@@ -46,8 +46,8 @@ pub(super) struct FromUrdf {
         allow_hyphen_values = true
     )]
     tools: Vec<String>,
-    /// Take angles near a multiple of 45 degrees as they are written: files with three decimals
-    /// write 1.571
+    /// Take angles near a multiple of 45 degrees, and axes that are nearly parallel, as they are
+    /// written: files with three decimals write 1.571
     #[arg(long)]
     exact_angles: bool,
     /// What xacro is given with a xacro file

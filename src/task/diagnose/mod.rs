@@ -14,7 +14,7 @@ pub use rows::{
 
 use super::drift::Drift;
 use super::failure::Failure;
-use super::measurements::{Rows, identify_failure};
+use super::measurements::{Rows, identify_failure, late_clock};
 use super::parts::{SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
@@ -214,6 +214,7 @@ pub fn diagnose(
         ..
     } = measurements;
     refuse_both(&options.accept, &options.reject)?;
+    read.extend(late_clock(&all, &name));
     let (tool, plates) = of_the_arm(all, &name)?;
     let of_arm = Options {
         is_new: is_new(file, &sha256),

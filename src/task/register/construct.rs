@@ -47,8 +47,7 @@ pub(super) fn construct(
     options: &Options,
 ) -> Result<Registration, Failure> {
     let touched = Touched::new(table, kind, options.probe_radius_m)?;
-    let fail =
-        |error: FrameError| Failure::with_hint(format!("{}: {error}", table.name), error.hint());
+    let fail = |error: FrameError| touched.failure(&error);
     let pose = touched.frame(&touched.points).map_err(fail)?;
     touched.refuse_other_normals(&pose)?;
     let sigmas = sigmas(table, options)?;
@@ -139,15 +138,33 @@ impl<'a> Touched<'a> {
             sets[*datum].push(*point);
         }
         let [primary_m, secondary_m, tertiary_m] = sets;
-        let rows = self.table.rows.iter().zip(&self.datums);
-        let primary = rows.filter(|(_, datum)| **datum == 0);
+        let outward = |of: usize| {
+            let rows = self.table.rows.iter().zip(&self.datums);
+            let rows = rows.filter(|(_, datum)| **datum == of);
+            rows.filter_map(|(row, _)| row.normal).reduce(add)
+        };
         let datums = Datums {
             primary_m,
-            primary_outward: primary.filter_map(|(row, _)| row.normal).reduce(add),
+            primary_outward: outward(0),
             secondary_m,
+            secondary_outward: outward(1),
             tertiary_m,
         };
         three_two_one(&datums, self.radius_m)
+    }
+
+    fn failure(&self, error: &FrameError) -> Failure {
+        let mut message = format!("{}: {error}", self.table.name);
+        if let FrameError::OtherSide { touches, .. } = error {
+            let row = |(of, index): &(usize, usize)| {
+                let rows = self.table.rows.iter().zip(&self.datums);
+                let mut rows = rows.filter(|(_, datum)| *datum == of);
+                rows.nth(*index).map(|(row, _)| row.id.clone())
+            };
+            let ids: Vec<String> = touches.iter().filter_map(row).collect();
+            message += &format!(" (rows {})", ids.join(", "));
+        }
+        Failure::with_hint(message, error.hint())
     }
 
     /// Refuses normals that are not those of the datums.
@@ -168,7 +185,7 @@ impl<'a> Touched<'a> {
                     NORMAL_RAD / DEG
                 );
                 let hint = "normals point out of the part, along the axes that the touches have \
-                            (not those of the drawing); secondary touches stand in the order of +x";
+                            (not those of the drawing)";
                 return Err(Failure::with_hint(message, hint));
             }
         }

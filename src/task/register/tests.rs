@@ -212,11 +212,96 @@ fn z_of_three_two_one_does_not_hang_on_touches_in_a_line() {
         let found = frame(&text, &Options::default()).expect("a frame");
         assert!(turned(&found), "{y}: {:?}", found.rotation);
     }
-    // to and fro: they surround nothing
+    // to and fro
     let text = "datum,x_mm,y_mm,z_mm\n1,0,0,0\n1,100,0,0\n1,200,0,0\n1,0,100,0\n1,200,100,0\n\
         2,30,0,-20\n2,260,0,-30\n3,0,50,-25\n";
-    let refused = refusal(frame(text, &Options::default()));
-    assert!(refused.contains("counter-clockwise"), "{refused}");
+    let found = frame(text, &Options::default()).expect("a frame");
+    assert!(turned(&found), "{:?}", found.rotation);
+}
+
+/// Datum and place of a ball of 2 mm at a corner at the origin, mm.
+const CORNER: [(usize, [f64; 3]); 9] = [
+    (1, [10.0, 10.0, 2.0]),
+    (1, [280.0, 20.0, 2.0]),
+    (1, [150.0, 190.0, 2.0]),
+    (2, [20.0, -2.0, -15.0]),
+    (2, [270.0, -2.0, -12.0]),
+    (3, [-2.0, 90.0, -14.0]),
+    (2, [150.0, -2.0, -20.0]),
+    (1, [40.0, 150.0, 2.0]),
+    (3, [-2.0, 30.0, -18.0]),
+];
+
+/// Touches of the corner in an order.
+fn corner(order: &[usize], with_datum: bool, with_normals: bool) -> String {
+    let mut text = String::from("id,x_mm,y_mm,z_mm");
+    text += if with_datum { ",datum" } else { "" };
+    text += if with_normals { ",nx,ny,nz" } else { "" };
+    for index in order {
+        let (datum, [x, y, z]) = CORNER[*index];
+        text += &format!("\np{index},{x},{y},{z}");
+        if with_datum {
+            text += &format!(",{datum}");
+        }
+        if with_normals {
+            text += [",0,0,1", ",0,-1,0", ",-1,0,0"][datum - 1];
+        }
+    }
+    text + "\n"
+}
+
+#[test]
+fn touches_of_three_two_one_may_stand_in_any_order() {
+    for (order, with_datum) in [
+        (&[0, 1, 2, 3, 4, 5][..], false),
+        (&[0, 1, 2, 4, 3, 5], false),
+        (&[2, 1, 0, 3, 4, 5], false),
+        (&[1, 0, 2, 4, 3, 5], false),
+        (&[5, 4, 3, 2, 1, 0], true),
+        (&[0, 1, 2, 3, 4, 6, 5], true),
+        (&[0, 1, 2, 4, 6, 3, 5], true),
+        (&[8, 7, 1, 6, 4, 0, 3, 2, 5], true),
+    ] {
+        for with_normals in [false, true] {
+            let text = corner(order, with_datum, with_normals);
+            let found = frame(&text, &ball(2e-3)).expect("a frame");
+            assert!(turned(&found), "{text}: {:?}", found.rotation);
+            let off = found.translation_mm.map(f64::abs);
+            assert!(off.iter().all(|x| *x < 1e-9), "{text}: {off:?}");
+        }
+    }
+}
+
+#[test]
+fn touches_on_the_side_where_no_part_is_are_named() {
+    // what is in front for the left one, and the other way round
+    let order = [0, 1, 2, 5, 8, 3, 4];
+    let exchanged = corner(&order, true, false).replace("p0,", "top,");
+    let swap = |line: &str| match line.chars().last() {
+        Some('2') => format!("{}3\n", &line[..line.len() - 1]),
+        Some('3') => format!("{}2\n", &line[..line.len() - 1]),
+        _ => format!("{line}\n"),
+    };
+    let exchanged: String = exchanged.lines().map(swap).collect();
+    let refused = refusal(frame(&exchanged, &ball(2e-3)));
+    for words in [
+        "primary touch 1",
+        "the -x side of the tertiary datum",
+        "(rows top, p1, p2, p5, p8)",
+        "nx,ny,nz",
+    ] {
+        assert!(refused.contains(words), "{words}: {refused}");
+    }
+    // a ledge below a block: normals say where its faces look
+    let ledge = "x_mm,y_mm,z_mm,datum,nx,ny,nz\n10,-40,2,1,0,0,1\n280,-50,2,1,0,0,1\n150,-10,2,1,0,0,1\n\
+        20,-2,30,2,0,-1,0\n270,-2,35,2,0,-1,0\n-2,90,40,3,-1,0,0\n";
+    let found = frame(ledge, &ball(2e-3)).expect("a frame");
+    assert!(turned(&found), "{:?}", found.rotation);
+    let bare: String = (ledge.lines())
+        .map(|line| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n")
+        .collect();
+    let refused = refusal(frame(&bare, &ball(2e-3)));
+    assert!(refused.contains("not convex"), "{refused}");
 }
 
 const CLOCKWISE: &str = "x_mm,y_mm,z_mm,nx,ny,nz

@@ -281,6 +281,75 @@ fn ten_poses_say_whether_an_arm_is_as_calibrated() {
     );
 }
 
+/// Three reflectors at each of so many configurations, in which joints repeat to this (uniform),
+/// in `m.csv`; the profile with their places is `three.yaml`.
+fn three_reflectors(count: usize, repeats_deg: f64) -> TempDir {
+    let folder = measured(count);
+    let at = folder.path();
+    let places = "points: {a: [0, 0, 0], b: [60, -40, 20], \
+                  c: [-50, -30, 40]}";
+    let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
+    let three = truth.replace("points: {}", places);
+    std::fs::write(at.join("three.yaml"), three).expect("scratch");
+    let commanded = std::fs::read_to_string(at.join("q.csv")).expect("joints");
+    let mut random = seeded(count + 1);
+    let mut stood = String::from("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg");
+    for line in commanded.lines().skip(1) {
+        let angles = line.split(',').map(|cell| {
+            let off = random.random_range(-1.0..1.0) * repeats_deg;
+            (cell.parse::<f64>().expect("a number") + off).to_string()
+        });
+        stood += &format!("\n{}", angles.collect::<Vec<_>>().join(","));
+    }
+    std::fs::write(at.join("stood.csv"), stood).expect("scratch");
+    let simulate = "simulate --profile three.yaml --joints stood.csv --noise-mm 0.015 -o m.csv";
+    let (status, _, reported) = run(at, simulate);
+    assert_eq!(status, Some(0), "{reported}");
+    // the table has what was commanded
+    let text = std::fs::read_to_string(at.join("m.csv")).expect("measurements");
+    let mut out = text.lines().next().expect("a header").to_owned();
+    for (k, line) in text.lines().skip(1).enumerate() {
+        let angles = commanded.lines().nth(1 + k / 3).expect("a configuration");
+        let cells: Vec<&str> = line.split(',').collect();
+        out += &format!("\n{},{angles},{}", cells[0], cells[7..].join(","));
+    }
+    assert!(
+        out.starts_with("id,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,"),
+        "{out}"
+    );
+    std::fs::write(at.join("m.csv"), out).expect("scratch");
+    folder
+}
+
+#[test]
+fn reflectors_of_one_pose_are_no_poses_of_their_own() {
+    // the limit of an F test of 90 numbers is 1.43, that of 30 is 1.8
+    for (repeats_deg, limits) in [(0.0, 1.35..1.5), (0.005, 1.55..1.95)] {
+        let folder = three_reflectors(60, repeats_deg);
+        let at = folder.path();
+        let calibrate = "calibrate --profile three.yaml --measurements m.csv --level 0 -o c.yaml";
+        let (status, _, reported) = run(at, calibrate);
+        assert_eq!(status, Some(0), "{reported}");
+        let ten = three_reflectors(10, repeats_deg);
+        std::fs::copy(ten.path().join("m.csv"), at.join("m.csv")).expect("scratch");
+        let (_, report, reported) = validate(at, "c.yaml", " --as-calibrated");
+        let said = &report["as_calibrated"];
+        let limit = said["limit"].as_f64();
+        let limit = limit.unwrap_or_else(|| panic!("{reported}"));
+        assert!(limits.contains(&limit), "{repeats_deg}: {said}");
+        // a profile that does not say how its rows missed: as if they had missed alike
+        let text = std::fs::read_to_string(at.join("c.yaml")).expect("a profile");
+        let older: Vec<&str> = (text.lines())
+            .filter(|line| !line.contains("shared_factor:") && !line.contains("configurations:"))
+            .collect();
+        assert_eq!(older.len() + 2, text.lines().count(), "{text}");
+        std::fs::write(at.join("c.yaml"), older.join("\n")).expect("scratch");
+        let (_, report, _) = validate(at, "c.yaml", " --as-calibrated");
+        let limit = report["as_calibrated"]["limit"].as_f64();
+        assert!(limit.is_some_and(|l| (1.6..1.95).contains(&l)), "{report}");
+    }
+}
+
 #[test]
 fn runs_say_since_when_an_arm_errs_otherwise() {
     let folder = measured(40);

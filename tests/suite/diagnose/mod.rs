@@ -1,6 +1,7 @@
 //! The diagnosis, against hidden truth: a reduced blind trial, and the command line.
 
 mod changed;
+mod clock;
 mod commands;
 mod doubted;
 mod page;

@@ -6,7 +6,14 @@
 //! rows are parameters of which nothing is known. What a change must be to be seen is the
 //! noncentrality at which F exceeds its limit with the power wanted.
 //!
+//! Of `k` rows of one configuration the gaps correlate by `ρ`: joints that repeat imperfectly move
+//! them alike. The mean square of `n` such numbers spreads as that of `n·c` independent ones, `c =
+//! k / ((1 + (k − 1)ρ)² + (k − 1)(1 − ρ)²)`, by the eigenvalues of their correlation; `ρ` is that of
+//! the calibration's own rows, by its design effect `1 + (k − 1)ρ`, and one where it does not say.
+//!
 //! # Source
+//! F. E. Satterthwaite, Biometrics Bulletin 2 (1946), for the degrees of freedom of a mean square of
+//! numbers that correlate; L. Kish, *Survey Sampling* (1965), for the design effect.
 //! H. Scheffé, *The Analysis of Variance* (1959), 2.8 and appendix IV, for F and its power; C. R.
 //! Rao, *Linear Statistical Inference* (1973), 4a, for predicted rows; M. A. Woodbury (1950) for
 //! `S⁻¹`.
@@ -33,6 +40,8 @@ const STEP: f64 = 1e-6;
 const UNKNOWN: f64 = 1.0;
 /// Of a joint's effect a smaller part is not seen: frames that are fitted take it up.
 const LEAST_SEEN: f64 = 1e-5;
+/// Rows of one configuration say how alike they miss where there are so many of them.
+const LEAST_TOGETHER: f64 = 1.2;
 /// Of a variance, rounding.
 const ROUNDED: f64 = 1e-6;
 
@@ -67,6 +76,17 @@ struct Quality<'a> {
     names: Vec<&'a str>,
     /// The lower triangle of their covariance, in the units of files.
     covariance: Vec<Vec<f64>>,
+    /// How the rows of one configuration correlate.
+    alike: f64,
+    /// Rows of one configuration, their mean.
+    together: f64,
+}
+
+/// How many independent numbers tell as much as one of so many that correlate by `alike`.
+fn counting(together: f64, alike: f64) -> f64 {
+    let others = (together - 1.0).max(0.0);
+    let common = 1.0 + others * alike;
+    (1.0 + others) / (common * common + others * (1.0 - alike).powi(2))
 }
 
 /// Why a profile and rows do not say whether the arm is as it was calibrated.
@@ -122,7 +142,20 @@ fn quality_of(profile: &Profile) -> Result<Quality<'_>, Unsaid> {
     let row = |row: &Value| row.as_array()?.iter().map(Value::as_f64).collect();
     // orientations count among the numbers, and not here
     let part = freedom / (freedom + parameters.len() as f64);
+    // rows of one configuration, and how many times their common variance is that of each
+    let together = quality["configurations"]
+        .as_f64()
+        .map(|all| n / all.max(1.0));
+    let design = quality["shared_factor"]
+        .as_f64()
+        .map(|factor| factor * factor);
+    let alike = together.zip(design).filter(|(k, _)| *k > LEAST_TOGETHER);
+    let together = together.unwrap_or(1.0).max(1.0);
     let found = Quality {
+        alike: alike.map_or(1.0, |(k, design)| {
+            ((design - 1.0) / (k - 1.0)).clamp(0.0, 1.0)
+        }),
+        together,
         variance: rms_m * rms_m / coordinates / part,
         freedom: part * n * coordinates,
         names: names.collect::<Option<_>>().ok_or(no_list)?,
@@ -321,8 +354,12 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Result<AsCalibrat
         return Err(too_few);
     }
     let ratio = expected.size(&gaps) / numbers / quality.variance;
-    let limit = f_quantile(1.0 - SIGNIFICANCE, numbers, quality.freedom);
-    let noncentrality = visible(limit, numbers, quality.freedom) * quality.variance;
+    let together = problem.rows.len() as f64 / problem.configurations().max(1) as f64;
+    let part = counting(together, quality.alike);
+    let independent = (numbers * part).max(1.0);
+    let freedom = (quality.freedom * counting(quality.together, quality.alike)).max(1.0);
+    let limit = f_quantile(1.0 - SIGNIFICANCE, independent, freedom);
+    let noncentrality = visible(limit, independent, freedom) / part * quality.variance;
     let rows = problem.rows.len() as f64;
     let sees_rad = std::array::from_fn(|joint| {
         let whole = slope(problem, estimate, |p, _, step| {
@@ -339,7 +376,7 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Result<AsCalibrat
         rms_m: (gaps.norm_squared() / rows).sqrt(),
         ratio,
         limit,
-        p_value: f_tail(ratio, numbers, quality.freedom),
+        p_value: f_tail(ratio, independent, freedom),
         sees_m: (noncentrality / rows / expected.mean()).sqrt(),
         sees_rad,
     })
@@ -348,7 +385,37 @@ pub fn as_calibrated(profile: &Profile, found: &Validation) -> Result<AsCalibrat
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::random::Random;
     use serde_json::json;
+
+    #[test]
+    fn numbers_that_correlate_count_as_fewer() {
+        assert!((counting(1.0, 1.0) - 1.0).abs() < 1e-12);
+        assert!((counting(3.0, 0.0) - 1.0).abs() < 1e-12);
+        assert!((counting(3.0, 1.0) - 1.0 / 3.0).abs() < 1e-12);
+        // the variance of the mean square of 30 groups of three is 2 / (90 c)
+        for alike in [0.3, 0.8] {
+            let mut random = Random::new(4);
+            let (count, mut squares) = (20_000, 0.0);
+            for _ in 0..count {
+                let mut sum = 0.0;
+                for _ in 0..30 {
+                    let common = f64::sqrt(alike) * random.normal();
+                    let own = || f64::sqrt(1.0 - alike);
+                    sum += (0..3)
+                        .map(|_| (common + own() * random.normal()).powi(2))
+                        .sum::<f64>();
+                }
+                squares += (sum / 90.0 - 1.0_f64).powi(2);
+            }
+            let found = squares / f64::from(count);
+            let expected = 2.0 / (90.0 * counting(3.0, alike));
+            assert!(
+                (found / expected - 1.0).abs() < 0.05,
+                "{alike}: {found} {expected}"
+            );
+        }
+    }
 
     #[test]
     fn a_block_that_does_not_say_how_well_names_its_key() {

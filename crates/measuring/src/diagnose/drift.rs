@@ -3,7 +3,8 @@
 //! Logarithms of the errors are compared with those before them by a CUSUM chart that learns mean
 //! and spread as it goes: with `m` and `s` of the `n − 1` runs before, `T = √((n−1)/n)·(x − m)/s`
 //! is Student's with `n − 2` degrees of freedom where nothing has changed, and its normal score `u`
-//! independent of the others. Behind a change the mean is learnt anew; the spread within the runs
+//! independent of the others. So that a large change is seen after few runs the spread begins as if
+//! two differences of [`USUAL_SPREAD`] were known, which many runs outweigh. Behind a change the mean is learnt anew; the spread within the runs
 //! before stays known; from a run that is too rare nothing is learnt. `up = max(0, up + u − k)` and
 //! `down` likewise; one beyond `h` is a change. When it came is the most likely split of the runs:
 //! the one with the largest sum of squares between its halves.
@@ -22,6 +23,10 @@ pub const ALLOWANCE: f64 = 0.5;
 pub const LIMIT: f64 = 6.0;
 /// Runs vary by this part of their error at least: less is no change that matters.
 const LEAST_SPREAD: f64 = 0.02;
+/// Spread from run to run that errors of 10 to 60 positions commonly have, in their logarithm.
+const USUAL_SPREAD: f64 = 0.1;
+/// For so many degrees of freedom it counts.
+const USUAL_FREEDOM: f64 = 2.0;
 /// From a run that is as rare as this nothing is learnt: it may be the first after a change.
 const UNLIKELY: f64 = 4.0;
 /// The same with fewer degrees of freedom than [`FEW`]: Student's hardly comes to 4 there.
@@ -63,7 +68,7 @@ fn charted(errors: &[f64], h: f64) -> (Vec<Change>, Option<f64>) {
         .map(|e| e.max(f64::MIN_POSITIVE).ln())
         .collect();
     let mut found: Vec<Change> = Vec::new();
-    let (mut start, mut known) = (0, Spread::default());
+    let (mut start, mut known) = (0, Spread::usual());
     let mut chart = Chart::of(&logs[start..], known, h);
     while let Some(noticed) = chart.alarm.map(|n| start + n) {
         let since = start + split(&logs[start..=noticed]);
@@ -107,6 +112,14 @@ struct Spread {
 }
 
 impl Spread {
+    /// What is known before the first run.
+    fn usual() -> Self {
+        Self {
+            squares: USUAL_FREEDOM * USUAL_SPREAD * USUAL_SPREAD,
+            freedom: USUAL_FREEDOM,
+        }
+    }
+
     fn and(self, x: &[f64]) -> Self {
         let mean = mean(x);
         Self {
@@ -209,6 +222,38 @@ mod tests {
             let found = changes(&[&before[..], &after].concat());
             assert_eq!(found.len(), 1, "{after:?}");
             assert_eq!(found[0].since, 4, "{after:?}");
+        }
+    }
+
+    #[test]
+    fn a_large_change_is_seen_after_two_runs() {
+        let mut random = Random::new(12);
+        for (before, times, within) in [(2, 6.0, 4), (2, 60.0, 3), (3, 6.0, 3), (4, 3.0, 4)] {
+            let (mut seen, count) = (0, 500);
+            for _ in 0..count {
+                let mut errors: Vec<f64> = (0..10).map(|_| error(&mut random, 60, 0.03)).collect();
+                for e in &mut errors[before..] {
+                    *e *= times;
+                }
+                let found = changes(&errors);
+                seen += usize::from(
+                    found
+                        .first()
+                        .is_some_and(|c| c.since == before && c.noticed < before + within),
+                );
+            }
+            println!("{times} times after {before} runs: {seen} of {count}");
+            assert!(20 * seen > 19 * count, "{before} {times}: {seen}");
+        }
+        // and where nothing changes, a few runs are as quiet as many
+        for spread in [0.0, 0.05, 0.2] {
+            let (mut alarms, count) = (0, 4000);
+            for _ in 0..count {
+                let errors: Vec<f64> = (0..10).map(|_| error(&mut random, 60, spread)).collect();
+                alarms += changes(&errors).len();
+            }
+            println!("{spread}: {alarms} alarms in {count} times ten runs");
+            assert!(50 * alarms < count, "{spread}: {alarms}");
         }
     }
 

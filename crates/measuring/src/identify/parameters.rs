@@ -144,16 +144,8 @@ pub(super) struct Seen {
     pub places: Vec<usize>,
     /// Parameters of unknown features, which are kept first.
     pub features: Vec<Parameter>,
-    /// The mean temperature, °C.
-    pub temperature_c: Option<f64>,
-}
-
-/// The parameter of an effect that says at which temperature the arm has its lengths: these are
-/// fitted, and it would do what they do.
-fn reference(effect: &Effect) -> Option<usize> {
-    let listed = effect.definition().listed();
-    let reference = listed.filter(|(_, list)| *list == List::Temperatures);
-    reference.map(|(number, _)| number)
+    /// Mean temperature of the rows that have one, °C.
+    pub mean_c: Option<f64>,
 }
 
 fn nearly_parallel(profile: &Profile, link: usize) -> bool {
@@ -288,6 +280,16 @@ impl Wanted {
     }
 }
 
+/// The temperature at which an effect counts for nothing, by its number and key, where lengths are
+/// identified along: at another one they are others, and nothing else differs. It stays where the
+/// profile has it, or at the mean of the rows, unless it is asked for by its own key.
+fn gauge(effect: &Effect, pick: &Pick, level: Level) -> Option<(usize, &'static str)> {
+    let with_lengths = matches!(level, Level::Geometry | Level::Compliance);
+    let (number, list) = effect.definition().listed()?;
+    (with_lengths && list == List::Temperatures && pick.key.is_none())
+        .then(|| (number, effect.definition().parameters[number].key))
+}
+
 /// The effects of a problem and the parameters that are identified, in the order in which they are
 /// kept.
 pub(super) fn choose(
@@ -339,17 +341,56 @@ pub(super) fn choose(
             if effect.kind == Kind::ToolFrame {
                 effect.site.tool = seen.tools.first().map(|(name, _)| name.clone());
             }
-            let reference = reference(&effect);
-            if let (Some(number), Some(mean)) = (reference, seen.temperature_c) {
+            let gauge = gauge(&effect, pick, selection.level);
+            if let (Some((number, _)), Some(mean)) = (gauge, seen.mean_c) {
                 effect.parameters[number] = mean;
             }
-            let reference = reference.map(|number| effect.definition().parameters[number].key);
-            let is_held = |key: &str| reference == Some(key) && pick.key.is_none();
+            let is_gauge = |key: &str| gauge.is_some_and(|(_, own)| own == key);
             wanted.add(&effect, &|key| {
-                pick.holds(&effect, key) && effect.has(key) && !is_held(key)
+                pick.holds(&effect, key) && effect.has(key) && !is_gauge(key)
             });
         }
     }
     let features = seen.features.clone();
     wanted.parameters(profile, selection, features, &seen.unknown_points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::identify::measurements::Measurements;
+    use crate::identify::problem::Problem;
+
+    #[test]
+    fn the_temperature_of_lengths_is_held_where_lengths_are_identified() {
+        let text = include_str!("../../../../robots/abb_irb120_thesis.yaml");
+        let profile = Profile::from_yaml(text).expect("a shipped profile");
+        let rows = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,temperature_c\n\
+                    0,0,0,0,30,0,400,0,600,18\n10,20,-30,40,50,60,300,100,500,28\n\
+                    -20,10,5,-40,60,90,350,-90,550,26\n";
+        let rows = Measurements::from_csv(rows.as_bytes()).expect("rows");
+        let chosen = |profile: &Profile, level, word: &str| {
+            let mut selection = Selection::level(level);
+            selection.identify = Pick::parse_list(word).expect("a word");
+            let (problem, start) =
+                Problem::new(profile, &rows, &selection, profile.world_from_base).expect("rows");
+            let growth = start.effects.iter().find(|e| e.label() == "thermal_growth");
+            let reference = growth.expect("it is asked for").parameters[1];
+            let mut keys = problem.parameters.iter().map(|p| p.key.as_str());
+            let is_sought = keys.any(|key| key == "thermal_growth reference_c");
+            let mut keys = problem.parameters.iter().map(|p| p.key.as_str());
+            assert!(word.contains('.') || keys.any(|key| key == "thermal_growth per_k"));
+            (is_sought, reference)
+        };
+        let whole = "thermal_growth";
+        assert_eq!(chosen(&profile, Level::Geometry, whole), (false, 24.0));
+        // with all lengths as they are it says at which temperature they are so
+        assert!(chosen(&profile, Level::Frames, whole).0);
+        assert!(chosen(&profile, Level::Geometry, "thermal_growth.reference_c").0);
+        let mut known = profile.clone();
+        let mut growth = at(Kind::by_id(whole).expect("an effect"), 0);
+        growth.parameters[..2].copy_from_slice(&[1.2e-5, 20.0]);
+        known.effects.push(growth);
+        assert_eq!(chosen(&known, Level::Geometry, whole), (false, 20.0));
+    }
 }

@@ -4,7 +4,7 @@ use super::contact::{self, Feature, MOST_VALUES};
 use super::error::IdentifyError;
 use super::external;
 use super::holder::{Holder, Plate};
-use super::measurements::{Measurement, Measurements, Observed};
+use super::measurements::{Measurement, Measurements, Observed, numbered};
 use super::needs::{check_needs, loaded, refuse_others_axes};
 use super::observation::Observation;
 use super::parameters::{Parameter, Seen, Selection, Subject, choose};
@@ -268,7 +268,10 @@ impl Problem {
         let pose = rows
             .iter()
             .any(|row| matches!(row.observed, Observed::Pose(_)));
+        let temperatures = || rows.iter().filter_map(|row| row.conditions.temperature_c);
+        let warm = temperatures().count();
         let seen = Seen {
+            mean_c: (warm > 0).then(|| temperatures().sum::<f64>() / warm as f64),
             tools: tools
                 .iter()
                 .enumerate()
@@ -284,7 +287,6 @@ impl Problem {
             loaded: loaded(&placed, &tools, &rows, true),
             features: contact::parameters(&features),
             places: external::places(&profile.external, measurements),
-            temperature_c: mean_temperature_c(&rows),
         };
         refuse_others_axes(profile, measurements, &selection.identify)?;
         let (effects, parameters) = choose(profile, selection, &seen);
@@ -500,6 +502,13 @@ impl Problem {
         self.rows.iter().map(|row| row.observed.count()).sum()
     }
 
+    /// How many configurations the rows have.
+    #[must_use]
+    pub fn configurations(&self) -> usize {
+        let numbers = numbered(self.rows.iter().map(|row| (&row.q, &row.stand)));
+        numbers.iter().max().map_or(0, |last| last + 1)
+    }
+
     /// How many numbers were measured in different ways: what is repeated tells of the noise, not
     /// of the arm.
     #[must_use]
@@ -544,13 +553,4 @@ impl Problem {
         }
         other
     }
-}
-
-/// The mean temperature of the rows that have one, °C.
-fn mean_temperature_c(rows: &[Row]) -> Option<f64> {
-    let all: Vec<f64> = (rows.iter())
-        .filter_map(|row| row.conditions.temperature_c)
-        .collect();
-    let mean = all.iter().sum::<f64>() / all.len() as f64;
-    (!all.is_empty()).then_some(mean)
 }

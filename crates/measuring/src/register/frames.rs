@@ -52,16 +52,22 @@ pub enum FrameError {
         /// How many it takes.
         needed: usize,
     },
-    /// Touches of the primary datum that do not show its outer side.
+    /// Touches on the side of a datum on which the part is not.
     #[error(
-        "the primary touches go round no area: the first three lie nearly in a line, and all of \
-         them in order surround {part:.3} of what they spread over (limit {limit})"
+        "{} {} on the {} side of the {} datum, by up to {off_mm:.3} mm (limit {limit_mm:.3} mm): \
+         the part lies on its {} side",
+        touches_of(touches), if touches.len() == 1 { "lies" } else { "lie" },
+        SIDES[*datum].1, NAMES[*datum], SIDES[*datum].0
     )]
-    Order {
-        /// Area that the touches go round, by the product of their extents.
-        part: f64,
-        /// The smallest that is accepted.
-        limit: f64,
+    OtherSide {
+        /// The datum, from 0.
+        datum: usize,
+        /// Datum and place in it of each touch, both from 0.
+        touches: Vec<(usize, usize)>,
+        /// How far the farthest is off, mm.
+        off_mm: f64,
+        /// The largest that is accepted, mm.
+        limit_mm: f64,
     },
     /// Points and planes that leave a motion open.
     #[error(
@@ -92,6 +98,16 @@ pub enum FrameError {
     Points(#[from] RegisterError),
 }
 
+/// Datums of a part.
+const NAMES: [&str; 3] = ["primary", "secondary", "tertiary"];
+/// On which side of each the part lies in the frame that they make, and on which it does not.
+const SIDES: [(&str, &str); 3] = [("-z", "+z"), ("+y", "-y"), ("+x", "-x")];
+
+fn touches_of(touches: &[(usize, usize)]) -> String {
+    let name = |(datum, touch): &(usize, usize)| format!("{} touch {}", NAMES[*datum], touch + 1);
+    touches.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
 impl FrameError {
     /// The way out; empty where the message says it all.
     #[must_use]
@@ -102,9 +118,9 @@ impl FrameError {
                  off their lines of intersection, too"
             }
             Self::Points(error) => error.hint(),
-            Self::Order { .. } => {
-                "put the primary touches in order counter-clockwise seen from outside, or give all \
-                 touches their outward normals nx,ny,nz"
+            Self::OtherSide { .. } => {
+                "look whether the touches have the right datum; of a part that is not convex there \
+                 give all touches their outward normals nx,ny,nz"
             }
             _ => "",
         }

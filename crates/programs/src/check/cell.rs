@@ -102,17 +102,15 @@ const POSITIONER: &str = "positioner";
 /// Why the clearance of two bodies is the same wherever the robot goes.
 fn why_still(names: [&str; 2], attached: &[Attached]) -> Option<&'static str> {
     let own = names.map(|name| LINKS.iter().position(|link| *link == name));
-    let carrier = |name: &str, own: Option<usize>| match own {
-        Some(link) => Some(Carrier::Link(link)),
-        None => {
-            let body = attached.iter().find(|body| body.name == name);
-            body.map(|body| match &body.to {
-                Carrier::Flange => Carrier::Link(6),
-                other => other.clone(),
-            })
-        }
+    let carrier = |at: usize| {
+        let body = attached.iter().find(|body| body.name == names[at]);
+        let carried = body.map(|body| match &body.to {
+            Carrier::Flange => Carrier::Link(6),
+            other => other.clone(),
+        });
+        own[at].map(Carrier::Link).or(carried)
     };
-    match [carrier(names[0], own[0]), carrier(names[1], own[1])] {
+    match [carrier(0), carrier(1)] {
         [None, None] => Some("neither of them moves"),
         [Some(a), Some(b)] if a == b => Some("they move together"),
         _ => match own {

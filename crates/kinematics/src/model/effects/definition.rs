@@ -377,7 +377,7 @@ pub enum Need {
     Load,
     /// Places or distances, not contacts.
     Places,
-    /// Rows in order and no column `time_s`, which says more.
+    /// Rows in order and no column `time_s`, which says more; unless it begins late.
     NoTime,
 }
 

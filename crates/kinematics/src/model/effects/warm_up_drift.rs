@@ -6,7 +6,8 @@ use super::words::{deg, joint, length, mm};
 use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
-/// A joint or the base moves to its warm place, exponentially.
+/// A joint or the base moves to its warm place, exponentially. Time counts from when the robot, cold
+/// until then, was switched on; without a time it is cold.
 pub(super) struct WarmUpDrift;
 
 /// Shorter time constants count as this, seconds.

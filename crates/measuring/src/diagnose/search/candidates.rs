@@ -5,7 +5,7 @@ use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::gain::shows;
 use crate::diagnose::estimator::table::{Numbers, Stored, dot, table_into};
 use crate::identify::external::places;
-use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements, Observed};
+use crate::identify::measurements::{DIRECTION_COLUMNS, Late, Measurements, Observed};
 use crate::identify::parameters::{Parameter, Subject, minimal};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
@@ -288,12 +288,11 @@ impl Tried {
             .collect();
         let mean = temperatures.iter().sum::<f64>() / temperatures.len().max(1) as f64;
         let mut references = vec![20.0, mean];
-        match calibrated_at(&problem.profile) {
-            Some(calibrated) => references.push(calibrated),
-            None => {
-                let range = range(temperatures.iter().copied());
-                references.extend(REFERENCES.map(|part| mean + part * range));
-            }
+        if let Some(calibrated) = calibrated_at(&problem.profile) {
+            references.push(calibrated);
+        } else {
+            let range = range(temperatures.iter().copied());
+            references.extend(REFERENCES.map(|part| mean + part * range));
         }
         // the first link's are the base's, the last one's turn and offset the tool's
         let keys = Kind::LinkGeometry.definition().parameters;
@@ -367,8 +366,13 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
             }
             Need::Time if !measurements.has(&["time_s"]) => Some(need.describe().to_owned()),
             Need::Time => {
-                let by = range(rows.iter().filter_map(|r| r.conditions.time_s));
-                (by <= 0.0).then(|| "times that differ: time_s is constant".to_owned())
+                let times = || rows.iter().filter_map(|r| r.conditions.time_s);
+                let constant = (range(times()) <= 0.0)
+                    .then(|| "times that differ: time_s is constant".to_owned());
+                constant.or_else(|| {
+                    let late = Late::of(times())?;
+                    Some(format!("times from switching the cold robot on: {late}"))
+                })
             }
             Need::Order | Need::NoTime => {
                 (rows.len() < 20).then(|| "at least 20 rows in order".to_owned())
@@ -472,9 +476,10 @@ impl Candidates {
         let mut wanted: Vec<(Effect, Vec<usize>)> = Vec::new();
         let mut groups: Vec<(usize, Vec<usize>, usize, usize)> = Vec::new();
         let mut of_kind: Vec<usize> = Vec::new();
-        let times = problem.rows.iter().filter_map(|r| r.conditions.time_s);
-        let length_s = range(times);
-        let has_time = length_s > 0.0;
+        let times = || problem.rows.iter().filter_map(|r| r.conditions.time_s);
+        let length_s = range(times());
+        // what a clock that begins late says is in the order of rows, too
+        let has_time = length_s > 0.0 && Late::of(times()).is_none();
         let track = problem.profile.external.track.len();
         let mut stood = places(&problem.profile.external, measurements);
         stood.truncate(track);

@@ -251,7 +251,7 @@ impl Variables<'_, '_> {
                     values.extend(given.iter().map(|(_, value)| *value));
                 }
                 Expr::Made(from, to) => {
-                    open.extend(self.named(parsed.composed_in(from..to), function))
+                    open.extend(self.named(parsed.composed_in(from..to), function));
                 }
                 Expr::Actual { .. } | Expr::Number(_) | Expr::Other => {}
             }
