@@ -156,6 +156,10 @@ impl Translator<'_> {
 
     /// Where data that are no targets have numbers of: the targets behind them, displaced.
     pub(super) fn at_targets_behind(&mut self, name: Symbol, member: Option<&[u8]>) -> Vec<Expr> {
+        let key = (name, self.context, member.map(<[u8]>::to_vec));
+        if let Some(known) = self.behind.get(&key) {
+            return known.clone();
+        }
         let resolved = self.resolved;
         let origins = self.origins.get_or_insert_with(|| resolved.origins());
         let behind = resolved.behind(origins, (name, self.context), member);
@@ -174,6 +178,7 @@ impl Translator<'_> {
                 script.displaced(base, UNBOUNDED)
             });
         }
+        self.behind.insert(key, all.clone());
         all
     }
 }

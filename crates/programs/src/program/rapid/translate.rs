@@ -39,6 +39,8 @@ pub(super) struct Translator<'a> {
     pub resolved: &'a Resolved<'a>,
     /// What data that are no targets get, where a move needed that.
     pub origins: Option<Origins>,
+    /// Where data are that are no targets, by their name, by where that stands and by the member.
+    pub behind: HashMap<(Symbol, Context, Option<Vec<u8>>), Vec<Expr>>,
     pub builder: Builder,
     /// Where the present statement stands.
     pub here: Place,
@@ -122,6 +124,7 @@ pub(super) fn translate(
     let mut translator = Translator {
         resolved,
         origins: None,
+        behind: HashMap::default(),
         here: Place::NOWHERE,
         context: Context {
             module: 0,

@@ -130,6 +130,18 @@ fn many_uses_of_large_arrays_stay_linear() {
 }
 
 #[test]
+fn what_is_behind_numbers_that_are_written_often_is_looked_up_once() {
+    // each move asks for all that is written into x: a minute for so many where each looks itself
+    let moves = "x:=x+0.5;\nMoveL [[x,0,4],[1,0,0,0],CONF,v5,z5,t;\n".replace("CONF", CONF);
+    let program = read(&format!(
+        "MODULE m\nVAR num x:=0;\nPROC a()\n{}ENDPROC\nENDMODULE",
+        moves.repeat(20_000)
+    ));
+    assert_eq!(program.moves.len(), 20_000);
+    assert!(program.moves.iter().all(|of| of.target.is_none()));
+}
+
+#[test]
 fn more_uses_of_arrays_than_are_listed_are_an_error_that_says_so() {
     let elements = vec![format!("[[1,2,3],[1,0,0,0],{CONF}"); 1000].join(",");
     let moves: String = (0..600)
