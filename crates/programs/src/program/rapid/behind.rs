@@ -5,7 +5,7 @@
 use super::derived::{Holder, Origin, Origins};
 use super::parts::small;
 use super::resolved::{Entity, Resolved, named};
-use super::syntax::{Index, Type};
+use super::syntax::{Index, Storage, Type};
 use super::translate::Translator;
 use crate::program::Source;
 use crate::program::names::{Context, Meaning, Symbol};
@@ -15,6 +15,9 @@ use std::cell::RefCell;
 
 /// Data between a position and the targets that flow into it, that are looked into.
 const MOST_BETWEEN: usize = 256;
+
+/// Data by their name, where that stands, and the path of the member that counts.
+pub(super) type Asked = (Symbol, Context, Option<Vec<u8>>);
 
 /// The targets behind data.
 #[derive(Default)]
@@ -49,11 +52,11 @@ impl Resolved<'_> {
     fn behind(
         &self,
         origins: &Origins,
-        (name, context): (Symbol, Context),
+        (name, here): (Symbol, Context),
         member: Option<&[u8]>,
     ) -> Behind {
         let mut found = Behind::default();
-        let mut open = self.holders(name, context, member);
+        let mut open = self.holders(name, here, member);
         let mut seen = HashSet::new();
         while let Some((holder, member)) = open.pop() {
             if !seen.insert((holder, member.is_some())) || seen.len() > MOST_BETWEEN {
@@ -62,6 +65,7 @@ impl Resolved<'_> {
             for origin in origins.of(holder) {
                 let (value, context, at) = match *origin {
                     Origin::Value(value, context, at) => (value, context, at),
+                    Origin::Given(value, context) => (value, context, None),
                     Origin::Parameter(datum) => {
                         open.push((Holder::Data(Entity::Declared(datum)), None));
                         continue;
@@ -74,7 +78,9 @@ impl Resolved<'_> {
                     if into.is_none() && after(member, &written).is_none() {
                         continue;
                     }
-                    is_copy = into.is_some_and(<[u8]>::is_empty) && named(&value).is_some();
+                    // what a parameter was in a call that is over nobody knows
+                    let copied = named(&value).filter(|name| !self.is_parameter(*name, context));
+                    is_copy = into.is_some_and(<[u8]>::is_empty) && copied.is_some();
                     found.overwritten |= into.is_some_and(|part| part.starts_with(b".trans"))
                         && !self.is_from_target(&value, context);
                 }
@@ -84,7 +90,10 @@ impl Resolved<'_> {
                     false
                 });
                 for name in names.into_inner() {
-                    if self.kind(name, context).is_some_and(Type::is_target) {
+                    let is_target = self.kind(name, context).is_some_and(Type::is_target);
+                    // of another routine's parameter what calls give it
+                    let is_elsewhere = context.routine != here.routine;
+                    if is_target && !(is_elsewhere && self.is_parameter(name, context)) {
                         found.targets.insert((name, context, is_copy));
                     } else {
                         open.extend(self.holders(name, context, None));
@@ -110,6 +119,11 @@ impl Resolved<'_> {
         let data = data.into_iter().map(|data| (Holder::Data(data), member));
         let result = self.function_of(name, context).map(Holder::Result);
         data.chain(result.map(|result| (result, None))).collect()
+    }
+
+    fn is_parameter(&self, name: Symbol, context: Context) -> bool {
+        let is_parameter = |of: &u32| matches!(self.datum(*of).storage, Storage::Parameter { .. });
+        self.data_named(name, context).iter().any(is_parameter)
     }
 
     /// What the assignment in this place writes.

@@ -25,6 +25,8 @@ pub(super) enum Holder {
 pub(super) enum Origin {
     /// The assignment stands in this place.
     Value(Expression, Context, Option<Place>),
+    /// What a call gives to a parameter that is written back: it has that from its beginning.
+    Given(Expression, Context),
     Parameter(u32),
 }
 
@@ -176,10 +178,13 @@ impl Resolved<'_> {
                 let own = |name| self.entity_of(name, *context).map(Holder::Data) == Some(holder);
                 !self.any_name(value, &own)
             }
+            Origin::Given(..) => false,
             Origin::Parameter(_) => true,
         });
         let comes = |origin: &Origin| match origin {
-            Origin::Value(value, context, _) => self.is_from_target(value, *context),
+            Origin::Value(value, context, _) | Origin::Given(value, context) => {
+                self.is_from_target(value, *context)
+            }
             Origin::Parameter(datum) => self
                 .derived
                 .contains(&Holder::Data(Entity::Declared(*datum))),
@@ -269,9 +274,11 @@ impl Resolved<'_> {
                 };
                 let of_target = matches!(value, Expression::Member { .. })
                     && self.is_from_target(&value, context);
+                let parameter = Holder::Data(Entity::Declared(datum));
                 if of_target || !self.is_written_back(datum) {
-                    let parameter = Holder::Data(Entity::Declared(datum));
                     origins.add(parameter, Origin::Value(value, context, None));
+                } else {
+                    origins.add(parameter, Origin::Given(value, context));
                 }
                 if self.is_written_back(datum)
                     && let Some((name, _)) = self.place_of(&value)

@@ -1,6 +1,7 @@
 //! From what was noted to statements: who may be where, is for [`crate::motion`].
 
 use super::EXTERNAL;
+use super::behind::Asked;
 use super::derived::Origins;
 use super::handlers::Handlers;
 use super::modes::{Modes, switched};
@@ -39,8 +40,8 @@ pub(super) struct Translator<'a> {
     pub resolved: &'a Resolved<'a>,
     /// What data that are no targets get, where a move needed that.
     pub origins: Option<Origins>,
-    /// Where data are that are no targets, by their name, by where that stands and by the member.
-    pub behind: HashMap<(Symbol, Context, Option<Vec<u8>>), Vec<Expr>>,
+    /// Where data are that are no targets.
+    pub behind: HashMap<Asked, Vec<Expr>>,
     pub builder: Builder,
     /// Where the present statement stands.
     pub here: Place,

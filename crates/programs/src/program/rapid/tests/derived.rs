@@ -419,6 +419,21 @@ fn members_of_records_take_the_correction_of_the_targets_behind_them_along() {
         let all = by(&of(write));
         assert!(all.contains(&Displacement::Unbounded), "{write}: {all:?}");
     }
+    // a record by reference, and one that a routine fills
+    for statements in [
+        "MoveL p1,v5,z5,t;\na.at:=p1;\nlift a,150;\nENDPROC\nPROC lift(INOUT rec s,num h)\n\
+         s.at.trans.z:=s.at.trans.z+h;\nMoveL s.at,v5,z5,t;",
+        "MoveL p1,v5,z5,t;\nfill a,p1;\nMoveL a.at,v5,z5,t;\nENDPROC\nPROC fill(INOUT rec s,robtarget q)\n\
+         s.at:=Offs(q,-150,0,0);",
+        "MoveL p1,v5,z5,t;\nfill a,p1;\nMoveL a.at,v5,z5,t;\nENDPROC\nPROC fill(INOUT rec s,robtarget q)\n\
+         s.at:=q;",
+    ] {
+        let all = by(&of(statements));
+        assert!(
+            all.contains(&Displacement::Unbounded),
+            "{statements}: {all:?}"
+        );
+    }
     let all = by(&of("a.at:=p1;\na.at.trans.y:=-200;\nMoveL a.at,v5,z5,t;"));
     assert!(all.contains(&Displacement::Overwritten), "{all:?}");
     // nothing of a target flows into these
