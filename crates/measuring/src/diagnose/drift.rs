@@ -4,10 +4,11 @@
 //! and spread as it goes: with `m` and `s` of the `n − 1` runs before, `T = √((n−1)/n)·(x − m)/s`
 //! is Student's with `n − 2` degrees of freedom where nothing has changed, and its normal score `u`
 //! independent of the others. So that a large change is seen after few runs the spread begins as if
-//! two differences of the usual spread were known, which many runs outweigh. Behind a change the mean is learnt anew; the spread within the runs
-//! before stays known; from a run that is too rare nothing is learnt. `up = max(0, up + u − k)` and
-//! `down` likewise; one beyond `h` is a change. When it came is the most likely split of the runs:
-//! the one with the largest sum of squares between its halves.
+//! two differences of the usual spread were known, which many runs outweigh. Behind a change the
+//! mean is learnt anew; the spread within the runs before stays known; from a run that is too rare
+//! nothing is learnt. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a change.
+//! When it came is the most likely split of the runs: the one with the largest sum of squares between
+//! its halves.
 //!
 //! # Source
 //! E. S. Page, "Continuous inspection schemes", Biometrika 41 (1954); D. M. Hawkins, "Self-starting

@@ -241,15 +241,19 @@ impl Reader {
         Ok(is_it.then_some(Structured::Named(symbol, at)))
     }
 
-    /// A position in a structure as a whole.
-    fn place_of(&mut self, of: &Structured, path: &[u8]) -> Option<Expr> {
-        match *of {
-            Structured::Named(name, at) => {
-                let name = self.place_in(name, path);
-                self.named(name, at)
+    /// A position in a structure as a whole; `None` is: the text does not tell which.
+    fn place_of(&mut self, of: Option<&Structured>, path: &[u8]) -> Expr {
+        let known = match of {
+            Some(Structured::Named(name, at)) => {
+                let name = self.place_in(*name, path);
+                self.named(name, *at)
             }
-            Structured::Returned(routine) => Some(Expr::Variable(self.returned_in(routine, path))),
-        }
+            Some(Structured::Returned(routine)) => {
+                Some(Expr::Variable(self.returned_in(*routine, path)))
+            }
+            None => None,
+        };
+        known.unwrap_or_else(|| self.unknown(COMPUTED))
     }
 
     /// `S2=S`, `S2=MK(XP1)`; the cursor stands behind `=`.
@@ -276,14 +280,13 @@ impl Reader {
             let Some(datum) = self.names.datum(own, self.context()) else {
                 continue;
             };
-            let known = value.and_then(|value| self.place_of(value, &path));
-            let value = known.unwrap_or_else(|| self.unknown(COMPUTED));
+            let value = self.place_of(value, &path);
             self.write_element(Owner::Datum(datum), at, How::Whole(value));
         }
     }
 
-    /// The positions in a structure that a call gives to a parameter, which is none of the same type
-    /// where the routine is not in the files.
+    /// The positions in a structure that a call gives to a parameter of the same type, or to a routine
+    /// that is not in the files.
     pub(super) fn positions_given(
         &mut self,
         (name, at): (Symbol, Index),
@@ -405,8 +408,7 @@ impl Reader {
         if let (Some(routine), DataKind::Structure(_)) = (routine, returns) {
             let value = self.structure_value(returns, &mut cursor)?;
             for (path, _) in self.places_of(returns, 0) {
-                let known = value.as_ref().and_then(|value| self.place_of(value, &path));
-                let value = known.unwrap_or_else(|| self.unknown(COMPUTED));
+                let value = self.place_of(value.as_ref(), &path);
                 let variable = self.returned_in(routine, &path);
                 self.put(self.here, variable, value);
             }

@@ -13,9 +13,6 @@ use crate::program::script::{Expr, OVERWRITTEN, Place, Remark, UNBOUNDED};
 use foldhash::{HashSet, HashSetExt};
 use std::cell::RefCell;
 
-/// Data between a position and the targets that flow into it, that are looked into.
-const MOST_BETWEEN: usize = 256;
-
 /// Data by their name, where that stands, and the path of the member that counts.
 pub(super) type Asked = (Symbol, Context, Option<Vec<u8>>);
 
@@ -59,7 +56,7 @@ impl Resolved<'_> {
         let mut open = self.holders(name, here, member);
         let mut seen = HashSet::new();
         while let Some((holder, member)) = open.pop() {
-            if !seen.insert((holder, member.is_some())) || seen.len() > MOST_BETWEEN {
+            if !seen.insert((holder, member.is_some())) {
                 continue;
             }
             for origin in origins.of(holder) {
@@ -152,7 +149,7 @@ impl Translator<'_> {
         let bytes = &self.resolved.sources[self.here.file as usize].bytes;
         let text = &bytes[start as usize..end as usize];
         let member = path(text);
-        let own = Remark::warning_about(
+        let own = self.builder.script.unknown(Remark::warning_about(
             "computed-target",
             format!(
                 "{}, where this move goes to, is a part of a record; what it holds is known at run \
@@ -160,10 +157,16 @@ impl Translator<'_> {
                 Source::text(text).trim()
             ),
             "declare the target as data of its own, with numbers",
-        );
-        let mut all = self.at_targets_behind(name, Some(&member));
+        ));
+        self.at_member(name, Some(&member), own)
+    }
+
+    /// Where a member of data that are no target is: at the targets behind it; `own` where there are
+    /// none, or the data have a value before the program runs.
+    pub(super) fn at_member(&mut self, name: Symbol, member: Option<&[u8]>, own: Expr) -> Expr {
+        let mut all = self.at_targets_behind(name, member);
         if all.is_empty() || self.resolved.has_value(name, self.context) {
-            all.push(self.builder.script.unknown(own));
+            all.push(own);
         }
         self.builder.script.any(all)
     }

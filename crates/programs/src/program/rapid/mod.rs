@@ -9,8 +9,8 @@
 //!
 //! # Limits
 //!
-//! Targets computed inside records, Load at run time of modules that are not given, and functions that move
-//! are not followed.
+//! Targets computed inside records, Load at run time of modules that are not given, and functions
+//! that move are not followed.
 
 mod aggregate;
 mod ahead;

@@ -215,11 +215,8 @@ impl Translator<'_> {
                 self.stepped(base, steps)
             }
             Expression::Member { name, .. } => {
-                let mut all = self.at_targets_behind(name, None);
-                if all.is_empty() || self.resolved.has_value(name, self.context) {
-                    all.push(self.computed_name(name));
-                }
-                self.builder.script.any(all)
+                let own = self.computed_name(name);
+                self.at_member(name, None, own)
             }
             Expression::Composed(composed) => self.composed_apart(composed),
             Expression::List(composed) => self

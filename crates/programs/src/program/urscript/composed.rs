@@ -24,7 +24,7 @@ const MOST_BETWEEN: usize = 256;
 /// Names of a list that are compared with each further one, so that each is noted once.
 const MOST_COMPARED: usize = 64;
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     /// What the brackets behind `open` name.
     pub(super) fn look_into(&mut self, literal: &mut Literal, open: Token) {
         let end = self.scanner.at;
@@ -41,11 +41,7 @@ impl Reader<'_> {
             }
             literal.computed = is_pose;
             if !ahead.peek().is(b'(') {
-                let (symbol, _) = self.member(text);
-                let known = &self.parsed.composed[first..];
-                if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
-                    self.parsed.composed.push(symbol);
-                }
+                self.note_name(text, first);
             }
         }
         literal.names = short(first)..short(self.parsed.composed.len());
@@ -53,6 +49,15 @@ impl Reader<'_> {
             let coordinates = self.coordinates(open, end);
             let literal = short(self.parsed.literals.len());
             self.parsed.coordinates.insert(literal, coordinates);
+        }
+    }
+
+    /// Notes a name of which a value is computed whose others stand from `first` on.
+    fn note_name(&mut self, text: &'a [u8], first: usize) {
+        let (symbol, _) = self.member(text);
+        let known = &self.parsed.composed[first..];
+        if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
+            self.parsed.composed.push(symbol);
         }
     }
 
@@ -66,11 +71,7 @@ impl Reader<'_> {
         {
             let text = self.text(token);
             if token.kind == Kind::Word && !verbs::is_operator(text) && !verbs::is_constant(text) {
-                let (symbol, _) = self.member(text);
-                let known = &self.parsed.composed[first..];
-                if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
-                    self.parsed.composed.push(symbol);
-                }
+                self.note_name(text, first);
             }
         }
         let behind = self.parsed.composed.len();
@@ -107,11 +108,7 @@ impl Reader<'_> {
                     let is_call = ahead.peek().is(b'(');
                     asks |=
                         is_call && matches!(verbs::value_of(text), Some(PoseCall::Actual { .. }));
-                    let (symbol, _) = self.member(text);
-                    let known = &self.parsed.composed[first..];
-                    if !known[..known.len().min(MOST_COMPARED)].contains(&symbol) {
-                        self.parsed.composed.push(symbol);
-                    }
+                    self.note_name(text, first);
                 }
                 _ => {}
             }
