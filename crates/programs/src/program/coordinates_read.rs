@@ -73,6 +73,17 @@ impl Readings {
         self
     }
 
+    /// Gives the targets their new numbers; those without one have no moves, and stay as they are.
+    pub(super) fn renumber(&mut self, new: impl Fn(TargetId) -> Option<TargetId>) {
+        for all in self.varied.iter_mut().chain([&mut self.together]) {
+            all.retain_mut(|reading| {
+                let number = new(reading.target);
+                reading.target = number.unwrap_or_default();
+                number.is_some()
+            });
+        }
+    }
+
     /// The targets.
     pub(crate) fn targets(&self) -> impl Iterator<Item = TargetId> {
         let all = self.varied.iter().flatten().chain(&self.together);

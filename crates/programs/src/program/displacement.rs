@@ -1,6 +1,6 @@
 //! What a program adds to a target before the robot goes there.
 
-use super::{Move, Readings};
+use super::{Move, Readings, TargetId};
 use crate::geometry::{Pose, Vector};
 
 /// What is added to a target before the robot goes there.
@@ -24,6 +24,19 @@ pub enum Displacement {
     /// The running program puts numbers of its own in the place of some of a copy's: these lose
     /// their correction.
     Overwritten,
+}
+
+impl Displacement {
+    /// Gives the targets whose coordinates it is worked out from their new numbers.
+    pub(super) fn renumber(&mut self, new: impl Fn(TargetId) -> Option<TargetId>) {
+        if let Self::Within(strides) | Self::AtLeast(strides) = self {
+            for stride in strides {
+                if let Stride::Read { of, .. } = stride {
+                    of.renumber(&new);
+                }
+            }
+        }
+    }
 }
 
 /// One of the steps of [`Displacement::Within`].

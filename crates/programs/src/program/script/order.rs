@@ -23,7 +23,7 @@ impl Script {
             visit(&mut variable.declared);
         }
         for write in &mut self.writes {
-            if let How::Whole(value) = &mut write.how {
+            if let How::Whole(value) | How::PartOf { of: value, .. } = &mut write.how {
                 visit(value);
             }
         }
@@ -58,6 +58,13 @@ impl Script {
                 *target = new_ids[*target];
             }
         });
+        for displacement in &mut self.displacements {
+            displacement.renumber(|target| kept[target].then(|| new_ids[target]));
+        }
+        self.named.retain(|&(target, _)| kept[target]);
+        for (target, _) in &mut self.named {
+            *target = new_ids[*target];
+        }
         self.refused.retain(|&(target, _)| kept[target]);
         for (target, _) in &mut self.refused {
             *target = new_ids[*target];

@@ -193,3 +193,31 @@ fn status_and_turn_in_bits_with_blanks_are_read() {
         assert_eq!(reported(&program), [""; 0], "{text}");
     }
 }
+
+/// Points of a data list behind joints in the text, which come first.
+#[test]
+fn parts_of_points_are_those_of_the_points_that_are_named() {
+    let last = |write: &str| {
+        let text = format!("PTP {{A1 0,A2 -90,A3 90,A4 0,A5 45,A6 0}}\nq=XP2\n{write}\nLIN q");
+        let program = path(&format!("DECL E6POS q\nREAL r\n{text}"));
+        let last = program.moves.last().expect("a move").clone();
+        let name = program.targets[last.target.expect("known")].name.clone();
+        assert_eq!(name.as_deref(), Some("XP2"), "{write}");
+        (program, last.displacement)
+    };
+    assert_eq!(last("q.X=XP1.X").1, Displacement::Overwritten);
+    assert_eq!(last("q.X=XP3.X+5").1, Displacement::Overwritten);
+    let along = Shift::along([0.005, 0.0, 0.0]);
+    assert_eq!(last("q.X=XP2.X+5").1, Displacement::By(Box::new(along)));
+    // a coordinate that is read of one of them
+    let (program, by) = last("r=XP3.Z/4\nq.Z=q.Z+r");
+    let Displacement::Within(strides) = by else {
+        panic!("{by:?}");
+    };
+    let read = strides.iter().flat_map(|stride| match stride {
+        Stride::Read { of, .. } => of.targets().collect(),
+        _ => Vec::new(),
+    });
+    let names: Vec<_> = read.map(|at| program.targets[at].name.as_deref()).collect();
+    assert_eq!(names, [Some("XP3")]);
+}
