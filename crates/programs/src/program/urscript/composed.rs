@@ -184,7 +184,7 @@ impl Variables<'_, '_> {
     }
 
     /// The variables of these names, and what functions of these names return.
-    fn named(&self, names: &[Symbol], function: FunctionId) -> Vec<VarId> {
+    pub(super) fn named(&self, names: &[Symbol], function: FunctionId) -> Vec<VarId> {
         let variable = |name: &Symbol| {
             let variable = self.meaning(*name, function);
             variable.or_else(|| self.result_named(*name, function))

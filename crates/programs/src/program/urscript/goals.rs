@@ -13,6 +13,9 @@ use crate::program::script::{
 use crate::program::{Displacement, Shift, TargetId};
 use foldhash::HashMap;
 
+/// Values of a variable that are looked at where it had one of them.
+const MOST_GIVEN: usize = 64;
+
 /// Where a move goes.
 pub(super) struct Goal {
     pub target: script::Expr,
@@ -66,6 +69,10 @@ pub(super) struct Goals<'m, 'n, 'a> {
     pub builder: &'m mut Builder,
     pub common: &'m mut Common,
     pub tcp: VariableId,
+    /// The function whose statements are translated.
+    pub here: FunctionId,
+    /// What is followed is an element of a list or structure: what stood in it when that was made.
+    pub is_element: bool,
     /// By variable of the program.
     pub held: Vec<Facets>,
     /// By literal.
@@ -219,7 +226,10 @@ impl Goals<'_, '_, '_> {
             return Goal::to(self.not_in_files(name));
         };
         let Some(source) = self.variables.fixed(variable) else {
-            return self.variable(variable);
+            return match self.held_before(variable) {
+                Some(values) => self.any_of(values, steps / 2),
+                None => self.variable(variable),
+            };
         };
         let goal = self.goal_within(source.value, source.function, steps);
         let span = Span {
@@ -230,6 +240,24 @@ impl Goals<'_, '_, '_> {
             span: if goal.is_plain { span } else { Span::default() },
             ..goal
         }
+    }
+
+    /// All values that a variable gets, where the one that counts is not the one that it holds where the
+    /// move is: a parameter of a function that has ended, or what was put into a list before.
+    fn held_before(&self, variable: VarId) -> Option<Vec<(ExprId, FunctionId)>> {
+        let of = &self.variables.list[variable as usize];
+        let is_gone = match of.parameter {
+            Some(function) => !self.parsed.is_in(self.here, function),
+            None => self.is_element && self.variables.sources(variable).nth(1).is_some(),
+        };
+        if !is_gone {
+            return None;
+        }
+        let values = self.variables.sources(variable).take(MOST_GIVEN + 1);
+        let values: Vec<_> = values.map(|of| (of.value, of.function)).collect();
+        // too many, or changed in part: none that is known
+        let is_known = values.len() <= MOST_GIVEN && !of.has_parts;
+        Some(if is_known { values } else { Vec::new() })
     }
 
     /// What displaces by an offset that has not one value.
@@ -330,22 +358,36 @@ impl Goals<'_, '_, '_> {
                 _ => return self.made_of(vec![variable], UNBOUNDED, self.common.computed, steps),
             },
         };
-        let mut all = Vec::with_capacity(elements.values.len());
-        for (value, within) in elements.values {
+        let is_inside = std::mem::replace(&mut self.is_element, true);
+        let goal = self.any_of(elements.values, steps);
+        self.is_element = is_inside;
+        match elements.changed {
+            Some(by) => self.displaced_by(goal, by),
+            None => goal,
+        }
+    }
+
+    /// One of several values, each with the function in which its names are looked up.
+    fn any_of(&mut self, values: Vec<(ExprId, FunctionId)>, steps: u32) -> Goal {
+        if let [(value, within)] = values[..] {
+            let goal = self.goal_within(value, within, steps);
+            return Goal {
+                span: Span::default(),
+                is_plain: false,
+                ..goal
+            };
+        }
+        let mut all = Vec::with_capacity(values.len());
+        for (value, within) in values {
             let goal = self.goal_within(value, within, steps);
             if !matches!(goal.feature, Feature::Base) || goal.tool.is_some() {
                 return self.unknown();
             }
             all.push(goal.target);
         }
-        let goal = match *all {
-            [] => return self.unknown(),
-            [one] => Goal::to(one),
+        match *all {
+            [] => self.unknown(),
             _ => Goal::to(self.builder.script.any(all)),
-        };
-        match elements.changed {
-            Some(by) => self.displaced_by(goal, by),
-            None => goal,
         }
     }
 

@@ -324,6 +324,12 @@ impl<'a> Parsed<'a> {
         })
     }
 
+    /// Whether a function is another one or stands in it.
+    pub(super) fn is_in(&self, function: FunctionId, other: FunctionId) -> bool {
+        let parent = |of: &FunctionId| (*of != 0).then(|| self.functions[*of as usize].parent);
+        std::iter::successors(Some(function), parent).any(|of| of == other)
+    }
+
     /// The symbol of a name that was read.
     pub(super) fn known_symbol(&self, name: &[u8]) -> Option<Symbol> {
         self.symbols.get(name).copied()

@@ -122,6 +122,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 builder,
                 common,
                 tcp,
+                here: 0,
+                is_element: false,
                 held: vec![Facets::default(); variables.list.len()],
                 targets: vec![None; parsed.literals.len()],
                 unknown: HashMap::new(),
@@ -315,6 +317,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
     fn function(&mut self, function: FunctionId) {
         let parsed = self.goals.parsed;
         let routine = self.first_routine + function;
+        self.goals.here = function;
         self.goals.builder.open(routine);
         let of = &parsed.functions[function as usize];
         self.present = Present {
@@ -567,17 +570,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let Some(variable) = self.goals.variables.meaning(name, function) else {
                 continue;
             };
-            let targets = &self.goals.builder.script.targets;
-            let mut sources = self.goals.variables.sources(variable);
-            let is_target = !self.goals.variables.list[variable as usize].has_parts
-                && sources.any(|source| match parsed.expression(source.value) {
-                    Expr::Literal(id) => self.goals.targets[id as usize].is_some_and(|target| {
-                        let target = &targets[target];
-                        !target.blocked && target.layout.shape == Shape::Pose
-                    }),
-                    _ => false,
-                });
-            if !is_target || !said.insert((variable, offset)) {
+            if !self.holds_rewritten(variable, MOST_STEPS) || !said.insert((variable, offset)) {
                 continue;
             }
             let message = format!(
@@ -590,5 +583,27 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Remark::warning_about("target-copied", message, hint),
             );
         }
+    }
+
+    /// Whether numbers that change are in a variable, or in what calls give a parameter.
+    fn holds_rewritten(&self, variable: VarId, steps: u32) -> bool {
+        let of = &self.goals.variables.list[variable as usize];
+        let (Some(steps), false) = (steps.checked_sub(1), of.has_parts) else {
+            return false;
+        };
+        let targets = &self.goals.builder.script.targets;
+        let is_parameter = of.parameter.is_some();
+        let mut sources = self.goals.variables.sources(variable);
+        sources.any(|source| match self.goals.parsed.expression(source.value) {
+            Expr::Literal(id) => self.goals.targets[id as usize].is_some_and(|target| {
+                let target = &targets[target];
+                !target.blocked && target.layout.shape == Shape::Pose
+            }),
+            Expr::Name(name, _) | Expr::Element(name, _) if is_parameter => {
+                let given = self.goals.variables.meaning(name, source.function);
+                given.is_some_and(|given| self.holds_rewritten(given, steps / 2))
+            }
+            _ => false,
+        })
     }
 }

@@ -431,12 +431,17 @@ impl<'n, 'a> Variables<'n, 'a> {
     /// Whether a value says the same at any time if the variables that it names do.
     fn is_plain(&self, value: ExprId, function: FunctionId, named: &mut Vec<VarId>) -> bool {
         match self.parsed.expression(value) {
-            Expr::Literal(_)
-            | Expr::List(_)
-            | Expr::Element(..)
-            | Expr::Number(_)
-            | Expr::Made(..)
-            | Expr::Other => true,
+            // what it is computed from may change before a move goes there
+            Expr::Literal(id) => {
+                let names = self.parsed.names_in(id).iter();
+                named.extend(names.filter_map(|name| self.meaning(*name, function)));
+                true
+            }
+            Expr::Made(from, to) => {
+                named.extend(self.named(self.parsed.composed_in(from..to), function));
+                true
+            }
+            Expr::List(_) | Expr::Element(..) | Expr::Number(_) | Expr::Other => true,
             // a pose is that of the tool which is set where it is read
             Expr::Actual { is_pose } => !is_pose || !self.sets_tool,
             Expr::Name(name, _) => {

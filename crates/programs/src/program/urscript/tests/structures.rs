@@ -234,3 +234,71 @@ fn what_calls_make_of_a_target_takes_its_correction_along() {
     ));
     assert_eq!(to(&program), ["w", "?"]);
 }
+
+#[test]
+fn members_that_a_called_function_writes_are_what_its_calls_give() {
+    let s = format!("{W}v=p[.1,.2,.4,0,0,1]\ns=struct(a=v,b=2)\nl=[v,v]\n");
+    let put = "def put(x):\ns.a=x\nl[0]=x\nend\n";
+    for go in [
+        "put(w)\nmovel(s.a)",
+        "put(x=w)\nmovel(s.a)",
+        "def twice(y):\nput(y)\nend\ntwice(w)\nmovel(s.a)",
+    ] {
+        let program = path(&format!("{s}{put}{go}"));
+        assert_eq!(
+            gone_to(&program),
+            ("v w".into(), String::new()),
+            "{go} {:?}",
+            program.findings
+        );
+    }
+    let program = path(&format!("{s}{put}put(w)\nmovel(l[0])"));
+    assert!(to(&program).contains(&"w".into()), "{:?}", to(&program));
+    let above = put.replace("=x", "=pose_trans(x,p[0,0,-.1,0,0,0])");
+    let program = path(&format!("{s}{above}movel(w)\nput(w)\nmovel(s.a)"));
+    assert_eq!(to(&program), ["w", "v", "w"]);
+    assert_eq!(shift(&program).in_tool.translation, [0.0, 0.0, -0.1]);
+    // nothing calls it, or with what nobody knows
+    for go in ["movel(s.a)", "put(sensor())\nmovel(s.a)"] {
+        let program = path(&format!("{s}{put}{go}"));
+        assert_eq!(ids(&program), ["computed-target"], "{go}");
+    }
+}
+
+#[test]
+fn coordinates_that_a_called_function_computes_from_a_target_are_reported() {
+    let put = "def put(x):\nv[2]=x[2]+0.02\nend\n";
+    let is_said = |given: &str| {
+        let text = format!("{W}v=p[.1,.2,.4,0,0,1]\n{put}movel(w)\nput({given})\nmovel(v)");
+        ids(&path(&text)).contains(&"target-copied")
+    };
+    assert!(is_said("w"));
+    assert!(!is_said("p[.1,.2,.5,0,0,0]"));
+}
+
+#[test]
+fn a_list_holds_what_a_variable_was_when_it_was_made() {
+    let later = format!("{W}l=[w,p[.1,.2,.5,0,0,1]]\nw=p[.1,.2,.4,0,0,1]\n");
+    for go in ["movel(l[0])", "def f(m):\nmovel(m[0])\nend\nf(l)"] {
+        let program = path(&format!("{later}{go}"));
+        let heights: Vec<f64> = program
+            .moves
+            .iter()
+            .map(|of| program.numbers_of(&program.targets[of.target.expect("known")])[2].value)
+            .collect();
+        assert_eq!(heights, [0.3, 0.4], "{go} {:?}", program.findings);
+    }
+    // what is computed from a variable keeps the value that it had
+    let composed = format!("{W}b=p[w[0],w[1],w[2]+.01,w[3],w[4],w[5]]\nw=p[.1,.2,.4,0,0,1]\n");
+    let program = path(&format!("{composed}movel(b)"));
+    let first = program.moves[0].target.expect("known");
+    assert_eq!(program.numbers_of(&program.targets[first])[2].value, 0.3);
+    // one element may stand in a feature
+    let program = path(&format!(
+        "f=p[1,0,0,0,0,0]\n{W}l=[pose_trans(f,w),w]\nmovel(l[0])"
+    ));
+    let frame = &program.frames[program.moves[0].frame];
+    let origin = frame.world_from_frame.expect("known").translation;
+    assert_eq!(to(&program), ["w"]);
+    assert_eq!(origin, [1.0, 0.0, 0.0]);
+}
