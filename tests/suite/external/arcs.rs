@@ -200,7 +200,7 @@ fn written_as(pose: &M4) -> String {
 fn arc_behind(before: &str, via: &M4, e: f64, from: &M4) -> String {
     let data = format!(
         "{}\nPERS tooldata u:=[TRUE,[{}],[2,[10,0,60],[1,0,0,0],0,0,0]];\n\
-         PERS wobjdata w:=[FALSE,TRUE,\"\",[{}],[[0,0,0],[1,0,0,0]]];",
+         PERS wobjdata w:=[FALSE,TRUE,\"\",[{}],[[0,0,0],[1,0,0,0]]];\nVAR robtarget p9;",
         tooldata(),
         written_as(&frame(&OTHER)),
         written_as(&frame(&WORK))
@@ -233,6 +233,11 @@ fn the_point_lands_in_the_rotation_of_the_path_behind_another_tool_and_work_fram
         line(&in_work(&with_other), "u\\WObj:=w"),
         // joints alone
         String::new(),
+        // back from elsewhere to a position that was read
+        line(&from, "t")
+            + "p9:=CRobT(\\Tool:=t\\WObj:=wobj0);\n"
+            + &joint_move(&FIRST, ENDS[1])
+            + "MoveL p9,v100,fine,t;\n",
     ];
     let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
     let wanted = turning(&from, PART);
@@ -261,6 +266,26 @@ fn the_point_lands_in_the_rotation_of_the_path_behind_another_tool_and_work_fram
             assert!(off_mm < 0.002, "{before} {e} {by}: {off_mm}");
         }
     }
+}
+
+#[test]
+fn an_arc_that_begins_where_nobody_knows_says_so_of_its_axes() {
+    let (text, robot, _) = robot(&tool());
+    let profile = Profile::from_yaml(&text).expect("a profile");
+    let first = at(&robot, &rails()[0], ENDS[0]);
+    let from = tool_pose(&first, &[], &FIRST, &Moment::default());
+    let said = |before: &str| {
+        let program = arc_behind(before, &turning(&from, PART), 0.46, &from);
+        let done = run(&profile, &[("t.mod", program.as_str())]).expect("read");
+        let found = done.findings.iter();
+        let found = found.filter(|f| f.message.contains("nobody knows where this arc begins"));
+        found.map(|f| f.id).collect::<Vec<_>>()
+    };
+    let read = "p9:=CRobT(\\Tool:=t\\WObj:=wobj0);\n";
+    let go = "MoveL p9,v100,fine,t;\n";
+    assert_eq!(said(&format!("{read}{go}")), [""; 0]);
+    let sensed = format!("{read}p9.trans.z:=AInput(ai1);\n{go}");
+    assert_eq!(said(&sensed), ["arc-external", "arc-rotation"]);
 }
 
 #[test]

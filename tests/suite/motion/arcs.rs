@@ -335,3 +335,46 @@ fn the_middle_of_an_arc_behind_joint_angles_lands_with_the_rotation_that_it_has_
     ));
     assert!(missed < 5e-6, "{missed} m");
 }
+
+/// Where the robot goes back to a position that it read, the arc begins where it stood then.
+#[test]
+fn an_arc_behind_a_position_that_was_read_begins_where_the_robot_stood() {
+    let written = "[0.3420201433,0,0.9396926208,0]";
+    let plain = middle_of(&done(&[PLAIN], &[("t.mod", &rapid_arc(written))]));
+    let end = format!("[[370,0,440],[0,0,1,0],{EXTERNAL}");
+    let behind = |read: &str, corner: &str| {
+        let start = format!("MoveL [[430,0,400],[0,0,1,0],{EXTERNAL},v100,{corner},tool0;");
+        let away = format!("MoveL [[430,0,300],[0,0,1,0],{EXTERNAL},v100,fine,tool0;");
+        let body = format!(
+            "{HOME}\n{start}\n{read}\n{away}\nMoveL p9,v100,fine,tool0;\nMoveC m,{end},v100,fine,tool0;"
+        );
+        let data =
+            format!("CONST robtarget m := [[400,60,420],{written},{EXTERNAL};\nVAR robtarget p9;");
+        done(&[PLAIN], &[("t.mod", &rapid(&data, &body))])
+    };
+    let read = "p9:=CRobT(\\Tool:=tool0\\WObj:=wobj0);";
+    let is_said = |of: &Compensation| of.findings.iter().any(|f| f.id == "arc-rotation");
+    let known = behind(read, "fine");
+    assert!(!is_said(&known), "{:?}", known.findings);
+    let gap = middle_of(&known).separation(&plain);
+    assert!(gap.distance_m < 1e-7 && gap.angle_rad < 1e-6, "{gap:?}");
+    for unknown in [
+        // in a corner, after a call of a routine that nobody knows, displaced by a sensor
+        behind(read, "z10"),
+        behind(&format!("search;\n{read}"), "fine"),
+        behind(&format!("{read}\np9.trans.x:=AInput(ai1);"), "fine"),
+    ] {
+        assert!(is_said(&unknown), "{:?}", unknown.findings);
+    }
+    let krl = krl_arc("A 40,B 150,C 0").replace(
+        "\nCIRC",
+        "\nXA=$POS_ACT\nLIN {X 430,Y 0,Z 300,A 0,B 180,C 0}\nLIN XA\nCIRC",
+    );
+    let krl = krl.replace("$TOOL", "DECL POS XA\n$TOOL");
+    let found = done(&[PLAIN], &[("t.src", &krl)]);
+    assert!(!is_said(&found), "{:?}", found.findings);
+    let along = done(&[PLAIN], &[("t.src", &krl_arc("A 0,B 180,C 0"))]);
+    let [found, along] = [&found, &along].map(middle);
+    let apart = norm(sub(found.translation, along.translation));
+    assert!(apart < 1e-7, "{apart} m");
+}

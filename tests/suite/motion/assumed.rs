@@ -9,7 +9,7 @@ const FLIPPED: &str = "[0.279,0.209,-0.035,-1.745,-1.047,-2.793]";
 const OF_FLIPPED: &str = "joints 16.0, 12.0, -2.0, -100.0, -60.0, -160.0 deg";
 const OF_OTHER: &str = "joints 16.0, 12.0, -2.0, 80.0, 60.0, 20.0 deg";
 /// The robot stands where only the running program knows.
-const AWAY: &str = "away = get_actual_tcp_pose()\nmovel(away)\n";
+const AWAY: &str = "away = get_actual_tcp_pose()\naway[2] = x\nmovel(away)\n";
 
 fn assumed(body: &str) -> String {
     let text = format!("def t():\nset_tcp(p[0,0,0.1,0,0,0])\n{body}end\nt()\n");

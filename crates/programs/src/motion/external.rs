@@ -17,6 +17,7 @@ use crate::geometry::units::{DEG, m_from_mm, mm_from_m};
 use crate::model::effects::Need;
 use crate::model::external::{ExternalAxes, Follows, Listed};
 use crate::profile::Profile;
+use crate::program::script::short;
 use crate::program::{
     ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape, Source,
     Stand,
@@ -143,10 +144,12 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
         })
         .collect();
     let mut own = vec![None; program.moves.len() * axes.len()];
-    for (motion, slots) in program.moves.iter().zip(own.chunks_mut(axes.len().max(1))) {
+    let each = own.chunks_mut(axes.len().max(1));
+    for (at, (motion, slots)) in program.moves.iter().zip(each).enumerate() {
         let of_target = match motion.target {
             Some(target) => part_of(&program.externals, target),
             None if program.turned(motion).is_some() => &[],
+            None if program.stands_as(short(at)) != short(at) => &[],
             None => {
                 slots.fill(Some(f64::NAN));
                 continue;

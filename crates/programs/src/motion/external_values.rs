@@ -110,8 +110,13 @@ pub(super) fn followed(program: &Program, own: &[Option<f64>], count: usize) -> 
                 for (_, to) in led_by.iter().filter(|(of, _)| !is_own(of)) {
                     value = value.and(to[k]);
                 }
-                for before in program.before(motion) {
-                    value = value.and(from_of(program, &values, before, (k, count)));
+                match stood_with_axes(program, at) {
+                    Some(stood) => value = value.and(values[stood * count + k]),
+                    None => {
+                        for before in program.before(motion) {
+                            value = value.and(from_of(program, &values, before, (k, count)));
+                        }
+                    }
                 }
                 if values[here] != values[here].and(value) {
                     values[here] = values[here].and(value);
@@ -121,6 +126,15 @@ pub(super) fn followed(program: &Program, own: &[Option<f64>], count: usize) -> 
         }
     }
     values
+}
+
+/// The move behind which a move has the external axes stand as they stood there: it goes back to a
+/// position that was read with them.
+fn stood_with_axes(program: &Program, motion: usize) -> Option<usize> {
+    let stands_as = program.stands_as(short(motion)) as usize;
+    let instruction = program.moves[motion].instruction;
+    let stay = || program.axes_stay.binary_search(&instruction).is_ok();
+    (stands_as != motion && !stay()).then_some(stands_as)
 }
 
 /// From where each axis comes to its value at each move.

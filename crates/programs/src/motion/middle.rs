@@ -161,7 +161,8 @@ fn start_pose(
     start: &Arrival,
     walk_options: &WalkOptions,
 ) -> Pose {
-    let before = &ground.program.moves[start.motion as usize];
+    let stands_as = ground.program.stands_as(start.motion);
+    let before = &ground.program.moves[stands_as as usize];
     let is_in_joints = before.target.is_some_and(|of| ground.is_joints(of));
     let stays = before
         .target
@@ -215,6 +216,16 @@ fn end_of(ground: &Ground, at: usize, end: &Move) -> Option<(Pose, bool)> {
         .any(|ride| ride.moves());
     let goal = ground.goal(end).filter(|goal| !goal.is_near)?;
     Some((ground.meant(&goal.value, end.tool, frame), moves_axes))
+}
+
+/// That nobody knows how the tool is rotated where an arc begins.
+pub(super) fn begins_unknown(ground: &Ground, motion: &Move) -> Finding {
+    let message = "nobody knows where this arc begins, and so not in which rotation of the tool the \
+        robot passes its middle: it is corrected in the one that is written";
+    let hint = "write where the arc begins with numbers, or the middle in the rotation that the \
+        path has there";
+    let severity = Severity::Warning;
+    ground.at_move("arc-rotation", severity, motion, message.into(), hint)
 }
 
 /// That an arc ends now here and now there, in other rotations at its middle.

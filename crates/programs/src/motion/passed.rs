@@ -19,6 +19,7 @@ use crate::geometry::{Pose, Vector};
 use crate::model::Conditions;
 use crate::model::external::Listed;
 use crate::profile::Profile;
+use crate::program::script::short;
 use crate::program::{
     Before, Displacement, FrameId, Language, Motion, Program, Settings, Source, Stand, Value,
 };
@@ -74,11 +75,17 @@ impl Arcs<'_> {
                 let off = |passed: &f64| written.map_or(0.0, |written| (passed - written).abs());
                 let nearest = passed.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
                 let Some(&first) = nearest else {
+                    if let (Some(kept), false) = (value(via), is_reported)
+                        && self
+                            .may_move(via, |at| value(at).is_none_or(|at| differ(axis, at, kept)))
+                    {
+                        is_reported = true;
+                        findings.push(self.begins_unknown(via, axis, kept));
+                    }
                     continue;
                 };
                 values[here] = Known::Is(first);
-                let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
-                let differs = |other: &f64| (other - first).abs() > same;
+                let differs = |other: &f64| differ(axis, *other, first);
                 let finding = match written.filter(differs) {
                     Some(written) => Some(self.elsewhere(via, axis, [written, first])),
                     None => (passed.iter().copied().find(differs))
@@ -90,6 +97,20 @@ impl Arcs<'_> {
                 }
             }
         }
+    }
+
+    /// Whether an axis may move on an arc through the point of a move: it stands elsewhere at one of
+    /// the moves where that begins or ends.
+    fn may_move(&self, via: usize, is_elsewhere: impl Fn(usize) -> bool) -> bool {
+        let motion = &self.program.moves[via];
+        if motion.motion != Motion::ArcVia || motion.target.is_none() {
+            return false;
+        }
+        let mut starts = self.program.before(motion).iter();
+        starts.any(|before| match before {
+            Before::One(start) => is_elsewhere(*start as usize),
+            _ => true,
+        }) || ends_of(self.program, via).any(is_elsewhere)
     }
 
     /// The arcs through the point of a move, as far as they are known: several where a routine is
@@ -119,7 +140,8 @@ impl Arcs<'_> {
         if (point.frame, point.tool) != (last.frame, last.tool) {
             return None;
         }
-        let from = self.start_of(start, via, values)?;
+        let stands_as = self.program.stands_as(short(start)) as usize;
+        let from = self.start_of(stands_as, via, values)?;
         let [via, end] = [via, end].map(|at| match self.value(at) {
             Some(Value::Pose(pose)) => Some(pose.translation),
             _ => None,
@@ -210,6 +232,18 @@ impl Arcs<'_> {
         )
     }
 
+    /// That nobody knows with which value the robot passes the point of an arc.
+    fn begins_unknown(&self, via: usize, axis: &Listed, kept: f64) -> Finding {
+        let message = format!(
+            "nobody knows where this arc begins, and so not at which value of external axis {} the \
+             robot passes its point: it is corrected for {}",
+            axis.name(),
+            shown(axis, kept)
+        );
+        let hint = "write where the arc begins with numbers, or move the axis before or after it";
+        self.finding(via, message, hint)
+    }
+
     /// That the robot passes the point of an arc with several values.
     fn several(&self, via: usize, axis: &Listed, values: [f64; 2]) -> Finding {
         let [first, other] = values.map(|value| shown(axis, value));
@@ -233,6 +267,12 @@ impl Arcs<'_> {
     }
 }
 
+/// Whether two values of an axis are not the same.
+fn differ(axis: &Listed, a: f64, b: f64) -> bool {
+    let same = if axis.is_linear() { SAME_M } else { SAME_RAD };
+    (a - b).abs() > same
+}
+
 /// The moves that end the arc through the point of a move.
 pub(super) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usize> {
     let moves = &program.moves;
@@ -242,7 +282,7 @@ pub(super) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usi
         .peekable();
     let last = behind.peek().map(|at| moves[*at].instruction);
     let ends = behind.take_while(move |at| Some(moves[*at].instruction) == last);
-    let this = crate::program::script::short(via);
+    let this = short(via);
     ends.filter(move |at| {
         let end = &moves[*at];
         end.motion == Motion::ArcEnd && program.before(end).contains(&Before::One(this))

@@ -202,7 +202,7 @@ pub(crate) fn revisits(
 }
 
 /// From which side each joint comes back to where the robot stood; 0 where nothing says it.
-fn sides_from(
+pub(super) fn sides_from(
     ground: &Ground,
     walk_options: &WalkOptions,
     motion: &Move,

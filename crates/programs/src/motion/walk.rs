@@ -11,7 +11,7 @@ use super::follow::{course, direction_of, turned};
 use super::ground::Ground;
 use super::inherited::Assumptions;
 use super::posture::OUT_OF_REACH;
-use super::{middle, plausibility, ride};
+use super::{middle, plausibility, ride, sides};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation};
@@ -417,6 +417,19 @@ impl Walker<'_, '_> {
             }
         };
         let Some(target) = motion.target else {
+            if let Some(there) = self.stood(at, from) {
+                let direction = before.map_or([0; 6], |before| {
+                    sides::sides_from(ground, self.walk_options, motion, before, there)
+                });
+                return Arrival {
+                    q: there.q,
+                    branch: there.branch,
+                    direction,
+                    known: true,
+                    assumed: there.assumed,
+                    ..nowhere
+                };
+            }
             // a call that may have led the robot elsewhere leaves the other joints unknown, and so
             // does a move that turns them on, again and again
             let is_led = ground.program.led.binary_search_by_key(&at, |led| led.0);
@@ -470,10 +483,15 @@ impl Walker<'_, '_> {
             self.say_far(target, &wanted);
             return nowhere;
         }
-        let middle = before.filter(|before| before.known).and_then(|before| {
+        let known = before.filter(|before| before.known);
+        let middle = known.and_then(|before| {
             let (at, walk_options) = (at as usize, self.walk_options);
             middle::middle(ground, walk_options, at, before, &wanted, self.findings)
         });
+        let is_via = motion.motion == Motion::ArcVia;
+        if is_via && known.is_none() && !ground.language.turns_through_middle() {
+            self.findings.push(middle::begins_unknown(ground, motion));
+        }
         let mut configuration = goal.configuration;
         if let Some(middle) = middle.filter(|middle| *middle != Rotation::identity()) {
             wanted.rotation = wanted.rotation * middle;
@@ -557,6 +575,15 @@ impl Walker<'_, '_> {
             middle: middle.map(Arc::new),
             ..nowhere
         }
+    }
+
+    /// How the robot stood where a move goes back to, the last time that it was there.
+    fn stood(&self, motion: u32, from: u32) -> Option<&Arrival> {
+        let stood = self.ground.program.stands_as(motion);
+        let back = |arrival: &&Arrival| self.arrivals.all.get(arrival.from as usize);
+        let chain = std::iter::successors(self.arrivals.all.get(from as usize), back);
+        let there = chain.take(MOST_UNKNOWN).find(|at| at.motion == stood);
+        there.filter(|there| there.known && !there.displaced)
     }
 
     /// The pose that an arc passes through, and the joints where it begins.

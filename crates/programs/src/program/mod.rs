@@ -80,6 +80,9 @@ use crate::geometry::{Pose, Vector};
 use std::ops::Range;
 use std::path::Path;
 
+/// Moves back to where the robot stood, one to where it stood after another, that are followed.
+const MOST_REVISITS: usize = 8;
+
 /// Every language there is.
 pub const LANGUAGES: &[&dyn Language] = &[
     &rapid::Rapid,
@@ -525,6 +528,22 @@ impl Program {
     pub fn stands_at(&self, motion: usize) -> &[Option<f64>] {
         let count = self.stands.len() / self.moves.len().max(1);
         &self.stands[motion * count..(motion + 1) * count]
+    }
+
+    /// The move at whose end the robot stands as it does at the end of a move: another one where
+    /// that goes back to where the robot stood after one move, and stopped there.
+    pub fn stands_as(&self, motion: u32) -> u32 {
+        let stood = |motion: &u32| {
+            let at = self.revisits.binary_search_by_key(motion, |(of, _)| *of);
+            let (_, Before::One(stood)) = self.revisits[at.ok()?] else {
+                return None;
+            };
+            let stops = !self.speed_zone(&self.moves[stood as usize]).cuts_corner();
+            let is_led = self.interrupts.iter().any(|of| !of.moves.is_empty());
+            Some(stood).filter(|_| stops && !is_led)
+        };
+        let all = std::iter::successors(Some(motion), stood);
+        all.take(MOST_REVISITS).last().unwrap_or(motion)
     }
 
     /// How fast a move is, and with which corner.

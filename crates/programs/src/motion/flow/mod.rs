@@ -20,8 +20,8 @@ pub(super) use moved::OF_MOVE;
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    Expr, Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start, Statement, TableId,
-    ValueId, VariableId, short,
+    DisplacementId, Expr, Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start,
+    Statement, TableId, ValueId, VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::{BTreeSet, BinaryHeap};
@@ -36,6 +36,8 @@ const MOST_MORE: usize = 20_000;
 const MOST_ROUNDS: usize = 8;
 /// Entries of a table that all its writes by unknown numbers may reach; beyond, they hold anywhere.
 const MOST_WRITES: usize = 1_000_000;
+/// Displaced positions of the robot that are distinguished.
+const MOST_NEAR: usize = 1000;
 /// Statements gone through, times those of the instances, after which the flow gives up.
 const MOST_VISITS: usize = 200;
 
@@ -159,8 +161,10 @@ pub(super) struct Flow<'a> {
     fresh: Vec<(ValueId, [Expr; 2], ValueId)>,
     /// Which moves may come before a statement that reads such a position.
     pub stood: HashMap<Site, Before>,
-    /// Those positions, and what they are displaced.
-    near: Vec<(ValueId, ValueId)>,
+    /// Those positions displaced, each by so much where that is distinguished, and by how much each of
+    /// them is.
+    near: HashMap<(ValueId, Option<DisplacementId>), ValueId>,
+    near_by: HashMap<ValueId, Option<DisplacementId>>,
     /// The position of the robot itself that a move reads and goes to.
     here: Option<ValueId>,
     /// Slots of the variables of each routine's own.
@@ -217,7 +221,7 @@ pub(super) struct Flow<'a> {
     pub left: Vec<(VariableId, Site)>,
     is_concurrent: bool,
     /// Whether routines run at any time, or concurrently with others.
-    has_concurrent: bool,
+    pub has_concurrent: bool,
     /// All of these are started by statements of the files.
     all_are_started: bool,
     /// With what routines are started concurrently with others.
@@ -256,7 +260,8 @@ impl<'a> Flow<'a> {
             reads: Vec::new(),
             fresh: Vec::new(),
             stood: HashMap::new(),
-            near: Vec::new(),
+            near: HashMap::new(),
+            near_by: HashMap::new(),
             here: None,
             locals: HashMap::new(),
             slots: Vec::new(),

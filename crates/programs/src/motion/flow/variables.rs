@@ -1,7 +1,7 @@
 //! What variables hold: which are followed, and the value of an expression.
 
-use super::{Flow, MOST_WRITES, Modes, State};
-use crate::motion::before::Stop;
+use super::{Flow, MOST_NEAR, MOST_WRITES, Modes, State};
+use crate::motion::before::{ANYWHERE, Stop};
 use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::program::Displacement;
 use crate::program::script::{
@@ -376,15 +376,19 @@ impl Flow<'_> {
         if !self.is_said(by) {
             return Atom::Anything;
         }
-        if *self.value(value) == Held::NearActual {
-            return Atom::Value(value);
-        }
-        if let Some((_, near)) = self.near.iter().find(|(of, _)| *of == value) {
+        let by = match self.near_by.get(&value) {
+            // displaced again and again
+            Some(None) => return Atom::Value(value),
+            Some(_) => None,
+            None => Some(by).filter(|_| self.near_by.len() < MOST_NEAR),
+        };
+        if let Some(near) = self.near.get(&(value, by)) {
             return Atom::Value(*near);
         }
         self.made.push(Held::NearActual);
         let near = short(self.script.values.len() + self.made.len() - 1);
-        self.near.push((value, near));
+        self.near.insert((value, by), near);
+        self.near_by.insert(near, by);
         let fresh = self.fresh.iter().find(|(fresh, ..)| *fresh == value);
         let read = fresh.map_or(value, |(.., then)| *then);
         let with = self.reads.iter().find(|(of, _)| *of == read);
@@ -392,6 +396,19 @@ impl Flow<'_> {
             self.reads.push((near, with));
         }
         Atom::Value(near)
+    }
+
+    /// By what a move to where the robot was, displaced by so much, is displaced in all, where that is
+    /// one amount that the text says.
+    pub(in crate::motion) fn near_by(
+        &self,
+        value: ValueId,
+        by: DisplacementId,
+    ) -> Option<DisplacementId> {
+        match self.near_by.get(&value) {
+            None => Some(by),
+            Some(before) => before.filter(|_| by == NOT_DISPLACED),
+        }
     }
 
     /// Whether a move to where the robot was has the tool and the work frame of that position.
@@ -455,7 +472,11 @@ impl Flow<'_> {
             && self.is_of_robot(held)
         {
             let known = self.stood.get(&site).copied().unwrap_or(state.before);
-            let before = self.sets.union(known, state.before);
+            let mut before = self.sets.union(known, state.before);
+            if state.led.is_some() {
+                let anywhere = self.sets.one(ANYWHERE);
+                before = self.sets.union(before, anywhere);
+            }
             self.stood.insert(site, before);
             if let Held::ActualWith { tool, frame } = *self.value(held) {
                 let read = self.plain(value, site, &mut |flow, inner| {

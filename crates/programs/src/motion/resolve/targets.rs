@@ -5,7 +5,7 @@ use crate::finding::Severity;
 use crate::motion::flow::OF_MOVE;
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
-    Expr, Held, Instruction, NOT_DISPLACED, Place, RemarkId, ValueId, short,
+    DisplacementId, Expr, Held, Instruction, NOT_DISPLACED, Place, RemarkId, ValueId, short,
 };
 use crate::program::{Before, Displacement, Frame, FrameId, Move, Shape, TargetId, Tool, ToolId};
 
@@ -113,6 +113,11 @@ impl Resolver<'_, '_> {
                         if self.flow.is_said(displacement)
                             && self.flow.is_as_read(value, listed.stop) =>
                     {
+                        let by = self.flow.near_by(value, displacement);
+                        let stood = by.map(|by| self.stood(by, site, listed));
+                        if let Some(stood) = stood.filter(|stood| !stood.is_empty()) {
+                            return self.go_to_stood(stood, listed);
+                        }
                         self.near_robot(listed.instruction.place);
                     }
                     Held::Remark(remark) => {
@@ -126,6 +131,11 @@ impl Resolver<'_, '_> {
             Atom::Unknown(remark) => {
                 let remark = &script.remarks[remark as usize];
                 let place = listed.instruction.place;
+                let is_step = self.step(listed).is_some();
+                let stood = is_step.then(|| self.stood(displacement, None, listed));
+                if let Some(stood) = stood.filter(|stood| !stood.is_empty()) {
+                    return self.go_to_stood(stood, listed);
+                }
                 if remark.id == "computed-target" && listed.is_one_of {
                     self.computed_too(place, remark.hint);
                 } else if remark.id.starts_with("frame-") {
@@ -198,11 +208,12 @@ impl Resolver<'_, '_> {
     /// By what the text displaces a move from where the robot stands.
     fn step(&self, listed: &Listed) -> Option<Displacement> {
         let script = self.script;
-        let Expr::Displaced { base, by } = listed.instruction.target else {
-            return None;
+        let (base, by) = match listed.instruction.target {
+            Expr::Displaced { base, by } => (script.lists[base as usize], by),
+            other => (other, listed.instruction.displacement),
         };
         let modal = &script.modals[listed.instruction.modal as usize];
-        let is_here = match script.lists[base as usize] {
+        let is_here = match base {
             Expr::Unknown(remark) => script.remarks[remark as usize].id.starts_with("relative-"),
             Expr::Value(value) => match script.values[value as usize] {
                 Held::ActualWith { tool, frame } => (modal.tool, modal.frame) == (tool, frame),
@@ -220,7 +231,81 @@ impl Resolver<'_, '_> {
         (is_here && is_one && is_said).then(|| by.clone())
     }
 
+    /// The targets at which the robot may stand when a move displaces it by as much from there, with
+    /// all that displaces it then: where it stopped after moves to targets with the tool and in the
+    /// work frame of this one. None where it may stand elsewhere.
+    fn stood(
+        &self,
+        by: DisplacementId,
+        read: Option<Site>,
+        listed: &Listed,
+    ) -> Vec<(TargetId, Displacement)> {
+        let choices = &listed.choices;
+        let ([(tool, _)], [(frame, _)]) = (&choices.tools[..], &choices.frames[..]) else {
+            return Vec::new();
+        };
+        let is_sure = choices.refused.is_empty() && choices.uncertainty.is_none();
+        if !is_sure || listed.is_shifted || self.flow.has_concurrent {
+            return Vec::new();
+        }
+        let before = match (read, self.flow.reached[listed.stop as usize]) {
+            (Some(read), _) => self.flow.stood.get(&read).copied(),
+            (None, Some(reached)) if reached.led.is_none() => Some(reached.before),
+            _ => None,
+        };
+        let mut stood = Vec::new();
+        for stop in before.iter().flat_map(|before| self.flow.sets.of(before)) {
+            let (first, end) = self.stops.get(*stop as usize).copied().unwrap_or_default();
+            let moves = &self.report.program.moves[first as usize..end as usize];
+            let there = moves.iter().map(|there| {
+                let is_equipped = (there.tool, there.frame) == (*tool, *frame);
+                self.displaced_from(there, by).filter(|_| is_equipped)
+            });
+            match there.collect::<Option<Vec<_>>>() {
+                Some(there) if !there.is_empty() => stood.extend(there),
+                _ => return Vec::new(),
+            }
+        }
+        stood
+    }
+
+    /// The target to which a move leads, and by what it is displaced with `by` in addition.
+    fn displaced_from(&self, there: &Move, by: DisplacementId) -> Option<(TargetId, Displacement)> {
+        let target = there.target?;
+        let modal = self.script.instructions[there.instruction as usize].modal;
+        let speed_zone = self.script.modals[modal as usize].speed_zone;
+        let is_pose = self.report.program.targets[target].layout.shape == Shape::Pose;
+        if speed_zone.cuts_corner() || !is_pose || self.own_frames.contains_key(&target) {
+            return None;
+        }
+        let displacement = match (&there.displacement, self.flow.displacement(by)) {
+            (Displacement::None, Displacement::By(by)) => by.clone(),
+            (Displacement::By(shift), Displacement::By(by)) => Box::new(shift.then(by)),
+            _ => return None,
+        };
+        Some((target, Displacement::By(displacement)))
+    }
+
+    fn go_to_stood(&mut self, stood: Vec<(TargetId, Displacement)>, listed: &mut Listed) {
+        for (target, displacement) in stood {
+            self.go_displaced(target, displacement, true, listed);
+        }
+    }
+
     pub(super) fn go_target(&mut self, target: TargetId, displacement: u32, listed: &mut Listed) {
+        let is_made = self.flow.is_made(displacement);
+        let displacement = self.flow.displacement(displacement).clone();
+        self.go_displaced(target, displacement, is_made, listed);
+    }
+
+    /// Lists the moves to a target; `is_made`: what displaces it is put together of several.
+    fn go_displaced(
+        &mut self,
+        target: TargetId,
+        displacement: Displacement,
+        is_made: bool,
+        listed: &mut Listed,
+    ) {
         self.used[target] = true;
         self.as_written[target] = true;
         for &(remark, site) in &listed.guards {
@@ -235,11 +320,10 @@ impl Resolver<'_, '_> {
         }
         let is_joints = self.report.program.targets[target].layout.shape == Shape::Joints;
         // of another joint the correction is another one
-        let is_made = self.flow.is_made(displacement);
         let displacement = if is_joints && listed.is_shifted {
             Displacement::Unbounded
         } else {
-            self.flow.displacement(displacement).clone()
+            displacement
         };
         if matches!(
             displacement,

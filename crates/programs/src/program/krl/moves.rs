@@ -167,9 +167,8 @@ impl Reader {
             let plain = !context.has_frame();
             if !is_via && plain && !rest.has_angle && point.is_pose {
                 self.last = self.shift_of(point).map(|shift| Last {
-                    target: point.target,
                     shift,
-                    external: [None; 6],
+                    ..Last::at(point.target)
                 });
             }
         }
@@ -369,8 +368,12 @@ impl Reader {
                 (Some(last), Some(step), Some(in_tool)) if is_known => last.moved(step, in_tool),
                 _ => None,
             };
+            let is_from_target = there.is_some();
+            // both points of a relative arc are from where it begins
+            let step = step.filter(|_| is_known && motions.len() == 1);
+            let target = self.unknown(FROM_NOWHERE);
+            let there = there.or_else(|| Last::at(target).moved(step?, rest.in_tool?));
             let Some(mut there) = there else {
-                let target = self.unknown(FROM_NOWHERE);
                 let modal = self.modal_of(place, *motion, target, &rest, false);
                 self.builder
                     .go(move_to(target, place, *motion, &rest), modal);
@@ -384,7 +387,8 @@ impl Reader {
             instruction.displacement = self.builder.script.displacement(displacement);
             let modal = self.modal_of(place, *motion, there.target, &rest, false);
             self.builder.go(instruction, modal);
-            self.last = (*motion != Motion::ArcVia && !rest.has_angle).then_some(there);
+            let is_end = *motion != Motion::ArcVia && !rest.has_angle;
+            self.last = (is_end && is_from_target).then_some(there);
         }
         Ok(())
     }
@@ -495,6 +499,14 @@ fn turned(found: &Aggregate, turn: fn(f64) -> Turn) -> [Turn; 6] {
 }
 
 impl Last {
+    fn at(target: Expr) -> Self {
+        Self {
+            target,
+            shift: Shift::none(),
+            external: [None; 6],
+        }
+    }
+
     /// Where the robot is behind a relative move.
     fn moved(mut self, step: &Step, in_tool: bool) -> Option<Self> {
         let Way::Along([x, y, z]) = step.way else {

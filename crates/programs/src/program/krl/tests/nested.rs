@@ -92,7 +92,8 @@ fn relative_moves_behind_functions_that_move_start_anywhere() {
         ("n=calls(1)", &["relative-move"]),
         ("sub(calls(1))", &["relative-move"]),
         ("n=three(1)", &["relative-move"]),
-        ("n=raises(XP2)", &["relative-move"]),
+        // it does not move
+        ("n=raises(XP2)", &[]),
     ] {
         let program = with_functions(&format!("LIN XP1\n{call}\nLIN_REL {{Z 10}}\n{MOVING}"));
         let mut found = reported(&program);
@@ -136,5 +137,45 @@ fn relative_moves_with_angles_of_zero_go_straight() {
             }
             None => assert_eq!(reported(&program), ["relative-move"], "{text}"),
         }
+    }
+}
+
+#[test]
+fn relative_moves_go_from_each_target_at_which_the_robot_may_stand() {
+    let targets = |text: &str| {
+        let program = path(text);
+        assert_eq!(reported(&program), [""; 0], "{text}");
+        to(&program).join(" ")
+    };
+    let choice = "IF $IN[1] THEN\nLIN XP1\nELSE\nLIN XP2\nENDIF\n";
+    assert_eq!(
+        targets(&format!("{choice}LIN_REL {{Z 100}} #BASE")),
+        "XP1 XP2 XP1 XP2"
+    );
+    // and from there on
+    let program = path(&format!("{choice}LIN_REL {{Z 100}}\nLIN_REL {{X 5}}"));
+    let shift = Shift::along([0.005, 0.0, 0.1]);
+    for last in &program.moves[4..] {
+        assert_eq!(last.displacement, Displacement::By(Box::new(shift)));
+    }
+    assert_eq!(program.moves.len(), 6, "{:?}", reported(&program));
+    let program = path("LIN XP1\nIF $IN[1] THEN\nLIN XP2\nENDIF\nLIN_REL {X 10} #TOOL");
+    let by: Vec<_> = program.moves[2..]
+        .iter()
+        .map(|of| &of.displacement)
+        .collect();
+    let shift = Shift {
+        in_tool: Pose::from_translation(0.01, 0.0, 0.0),
+        ..Shift::none()
+    };
+    assert_eq!(by, [&Displacement::By(Box::new(shift)); 2]);
+    // with another base, in a corner, in a loop
+    for text in [
+        "BAS(#BASE,2)\nLIN XP1\nIF $IN[1] THEN\nBAS(#BASE,3)\nENDIF\nLIN_REL {Z 10}",
+        "IF $IN[1] THEN\nLIN XP1 C_DIS\nELSE\nLIN XP2\nENDIF\nLIN_REL {Z 10}",
+        "LIN XP1\nLOOP\nLIN_REL {Z 10}\nENDLOOP",
+    ] {
+        let program = path(text);
+        assert!(reported(&program).contains(&"relative-move"), "{text}");
     }
 }

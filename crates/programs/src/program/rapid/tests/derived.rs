@@ -449,3 +449,46 @@ fn members_of_records_take_the_correction_of_the_targets_behind_them_along() {
         );
     }
 }
+
+#[test]
+fn what_is_displaced_from_where_the_robot_stopped_is_next_to_the_target_there() {
+    const READ: &str = "CRobT(\\Tool:=t\\WObj:=wobj0)";
+    let along = |by| Displacement::By(Box::new(Shift::along(by)));
+    for (go, by) in [
+        (
+            format!("MoveL Offs({READ},0,0,50),v5,fine,t;"),
+            [0.0, 0.0, 0.05],
+        ),
+        (
+            format!("q:={READ};\nMoveL Offs(q,0,0,50),v5,fine,t;"),
+            [0.0, 0.0, 0.05],
+        ),
+        (
+            format!("q:=Offs({READ},0,0,50);\nMoveL q,v5,fine,t;"),
+            [0.0, 0.0, 0.05],
+        ),
+        (
+            format!("MoveL Offs(p1,5,0,0),v5,fine,t;\nMoveL Offs({READ},0,0,50),v5,fine,t;"),
+            [0.005, 0.0, 0.05],
+        ),
+    ] {
+        let program = path(&format!("VAR robtarget q;\nMoveL p1,v5,fine,t;\n{go}"));
+        assert_eq!(ids(&program), [""; 0], "{go}");
+        let last = program.moves.last().expect("a move");
+        assert_eq!(last.displacement, along(by), "{go}");
+    }
+    // elsewhere than at p1, displaced twice, in a corner, with another tool, where a routine led it
+    for go in [
+        format!("WHILE a DO\nMoveL Offs({READ},0,0,50),v5,fine,t;\nENDWHILE"),
+        format!("q:=Offs({READ},0,0,50);\nq:=Offs(q,0,0,50);\nMoveL q,v5,fine,t;"),
+        format!("MoveL p1,v5,z5,t;\nMoveL Offs({READ},0,0,50),v5,fine,t;"),
+        format!("elsewhere;\nMoveL Offs({READ},0,0,50),v5,fine,t;"),
+    ] {
+        let program = path(&format!("VAR robtarget q;\nMoveL p1,v5,fine,t;\n{go}"));
+        assert!(
+            ids(&program).contains(&"run-time-position"),
+            "{go}: {:?}",
+            ids(&program)
+        );
+    }
+}
