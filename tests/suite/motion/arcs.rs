@@ -4,7 +4,7 @@
 use super::{PLAIN, done, errors, fakes, given, message, profile, rapid, try_with};
 use poseshift::compensate::{Compensation, Options};
 use poseshift::finding::Severity;
-use poseshift::geometry::{Pose, Rotation, add, dot, norm, scale, sub};
+use poseshift::geometry::{Pose, Rotation, add, cross, dot, norm, scale, sub};
 use poseshift::inverse::Arm;
 use poseshift::model::Conditions;
 use poseshift::model::profile::Mounted;
@@ -377,4 +377,76 @@ fn an_arc_behind_a_position_that_was_read_begins_where_the_robot_stood() {
     let [found, along] = [&found, &along].map(middle);
     let apart = norm(sub(found.translation, along.translation));
     assert!(apart < 1e-7, "{apart} m");
+}
+
+/// Joints with backlash come to the middle from other sides than to the ends: between fake ends the tool is
+/// rotated there by another angle than a correction of the middle alone takes it to be.
+#[test]
+fn a_middle_lands_in_the_rotation_between_fake_ends() {
+    let widths = [-0.03, -0.025, -0.03, -0.05, -0.04, -0.06];
+    let effects: Vec<String> = (1..=6)
+        .zip(widths)
+        .map(|(joint, width)| format!("{{effect: backlash, joint: {joint}, width_deg: {width}}}"))
+        .collect();
+    let effects: Vec<&str> = effects.iter().map(String::as_str).collect();
+    let profile = profile(&effects);
+    let tool = Mounted {
+        name: "t".into(),
+        flange_from_tool: Pose::from_translation(0.03, 0.01, 0.12),
+        load: None,
+    };
+    let unmoved = Conditions::default();
+    let arm = Arm::of(&profile.geometry(&tool), &profile.mechanism).expect("an arm");
+    let nominal = profile.controller_model(&tool);
+    let data = "PERS tooldata t:=[TRUE,[[30,10,120],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];";
+    let at = |place: &str| format!("[[{place}],[0,0,1,0],{EXTERNAL}");
+    let body = format!(
+        "MoveAbsJ [[0,0,0,0,45,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t;\nMoveL {},v100,fine,t;\nMoveC {},{},v100,fine,t;",
+        at("380,-15,270"),
+        at("420,25,270"),
+        at("440,-25,280")
+    );
+    let done = done(&effects, &[("t.mod", &rapid(data, &body))]);
+    let fakes = fakes(&done);
+    let [start, via, end] = fakes[..] else {
+        panic!("{fakes:?}");
+    };
+    let places = [start, via, end].map(|pose| pose.translation);
+    let turned = (start.rotation.transpose() * end.rotation).vector();
+    let joints = |translation: [f64; 3], near: &[f64; 6]| {
+        let part = part_of_arc([places[0], translation, places[2]]);
+        let passed = Pose {
+            translation,
+            rotation: start.rotation * Rotation::from_vector(scale(part, turned)),
+        };
+        let q = arm.solve_branch(&passed, arm.posture(near).0, near).q;
+        let apart = nominal.forward(&q, &unmoved).separation(&passed);
+        assert!(apart.distance_m < 1e-9, "{apart:?}");
+        q
+    };
+    let near = [0.0, 0.5, -0.1, 0.0, 1.1, 0.0];
+    let q = joints(via.translation, &near);
+    let before = joints(before_on_arc(places), &q);
+    let conditions = Conditions {
+        direction: std::array::from_fn(|i| (q[i] - before[i]).signum()),
+        ..unmoved
+    };
+    let real = profile.real_model(&tool, &conditions);
+    let landed = real.forward(&q, &conditions).translation;
+    let missed = norm(sub(landed, [0.42, 0.025, 0.27]));
+    assert!(missed < 2e-6, "{missed} m");
+}
+
+/// A point of an arc a thousandth of a radian before its middle, of three points.
+fn before_on_arc([a, m, b]: [[f64; 3]; 3]) -> [f64; 3] {
+    let (u, v) = (sub(m, a), sub(b, a));
+    let normal = cross(u, v);
+    let squared = dot(normal, normal);
+    let out = sub(
+        scale(dot(u, u), cross(v, normal)),
+        scale(dot(v, v), cross(u, normal)),
+    );
+    let centre = add(a, scale(0.5 / squared, out));
+    let back = Rotation::from_vector(scale(-1e-3 / squared.sqrt(), normal));
+    add(centre, back * sub(m, centre))
 }

@@ -55,6 +55,7 @@ mod displaced;
 mod ends;
 mod led;
 mod limit;
+mod middles;
 mod outcome;
 mod portions;
 mod postures;

@@ -4,7 +4,7 @@
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
 use super::ends::Ends;
-use super::postures;
+use super::{middles, postures};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
@@ -80,6 +80,16 @@ pub(super) fn solve(
             }
             solve_some(job, approaches, &again, &mut outcomes);
             last = Some(ends);
+        }
+        for _ in 0..MOST_ROUNDS {
+            let walked = (arrivals, walk_options);
+            let again = last.as_ref();
+            let again = again.map(|ends| middles::turn(job, walked, approaches, &outcomes, ends));
+            let Some(again) = again.filter(|again| !again.is_empty()) else {
+                break;
+            };
+            solve_some(job, approaches, &again, &mut outcomes);
+            last = Some(Ends::of(job, arrivals, walk_options, approaches, &outcomes));
         }
         tell_unknown(job, arrivals, approaches, findings);
     }

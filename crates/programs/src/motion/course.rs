@@ -200,6 +200,19 @@ impl ToolCourse {
         }
     }
 
+    /// The rotation of the tool at the point of the path that is nearest to one. Of a path that
+    /// external axes bend both are seen from what they carry.
+    #[must_use]
+    pub(crate) fn rotation_at(&self, point: Vector) -> Rotation {
+        self.pose(self.part_at(point)).rotation
+    }
+
+    /// Whether external axes bend the path.
+    #[must_use]
+    pub(crate) fn is_bent(&self) -> bool {
+        self.ride.is_some()
+    }
+
     /// The rotation at a part of an arc where the tool turns as seen from the path, the shorter way
     /// there; `None` where both ways are as short, or the tool ends as it began: nobody means a
     /// whole turn.

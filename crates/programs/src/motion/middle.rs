@@ -64,12 +64,12 @@ pub(super) fn middle(
         (course, via, end)
     };
     let (course, via, end) = of(ends.first()?);
-    let there = rotation_on(&course, &via);
+    let there = course.rotation_at(via.translation);
     // as seen from the point: parts differ
     let middle = via.rotation.transpose() * there;
     let others = ends[1..].iter().map(|other| {
         let (course, via, _) = of(other);
-        let other = via.rotation.transpose() * rotation_on(&course, &via);
+        let other = via.rotation.transpose() * course.rotation_at(via.translation);
         (middle.transpose() * other).angle()
     });
     let apart = others.fold(0.0, f64::max);
@@ -145,11 +145,6 @@ fn other_way(
     let to_long = (long.transpose() * via.rotation).angle();
     let is_taught = turned_by > LARGE_RAD && to_long < TAUGHT_RAD && to_long < away(via.rotation);
     is_taught.then(|| away(long))
-}
-
-/// The rotation of a path at its point nearest to a pose.
-fn rotation_on(course: &ToolCourse, through: &Pose) -> Rotation {
-    course.pose(course.part_at(through.translation)).rotation
 }
 
 /// Where the tool stands at an arrival. Joints of poses are those of the nominal arm where the walk
