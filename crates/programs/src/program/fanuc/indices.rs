@@ -8,7 +8,7 @@ use super::content::canonical;
 use super::lines::Line;
 use super::moves::Goal;
 use super::numbers::{Known, MOST_NUMBER};
-use super::reader::Reader;
+use super::reader::{Listing, Reader};
 use super::words::{behind_group, bracket_end, is_word, whole, word_length};
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Place, short};
@@ -97,14 +97,10 @@ fn may_be(value: &Quantity, number: u32) -> bool {
 }
 
 /// What an index may tell.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Meant(Quantity);
 
 impl Meant {
-    /// Whether nothing is known of it.
-    pub(super) fn is_any(&self) -> bool {
-        self.0.unknown.is_some() || !self.0.readings.is_empty()
-    }
-
     pub(super) fn may_be(&self, number: u32) -> bool {
         may_be(&self.0, number)
     }
@@ -140,6 +136,21 @@ struct Rounds {
     numbers: Vec<f64>,
     /// Instructions of a round.
     lines: usize,
+}
+
+impl Listing {
+    /// The points with one of these numbers, as indices.
+    fn numbered(&self, numbers: &[u32]) -> Vec<u32> {
+        let mut found = Vec::new();
+        for number in numbers {
+            let mut next = self.by_number.get(number).copied();
+            while let Some(at) = next {
+                found.push(at);
+                next = self.points[at as usize].twin;
+            }
+        }
+        found
+    }
 }
 
 impl Reader<'_> {
@@ -245,10 +256,18 @@ impl Reader<'_> {
     /// together.
     pub(super) fn any_point(&mut self, text: &[u8]) -> Vec<Goal> {
         let meant = self.meant_in(text);
-        let all = meant.is_any().then(|| self.listing.any.take()).flatten();
-        let groups = all.unwrap_or_else(|| {
+        let few = meant.all();
+        let known = self.listing.any.take_if(|_| few.is_none());
+        let known = known.filter(|(of, _)| *of == meant);
+        let groups = known.map(|(_, groups)| groups).unwrap_or_else(|| {
+            let indices: Vec<u32> = match &few {
+                Some(numbers) => self.listing.numbered(numbers),
+                None => (0..short(self.listing.points.len())).collect(),
+            };
+            let points = indices
+                .into_iter()
+                .map(|at| &self.listing.points[at as usize]);
             let mut groups: Vec<(Option<u32>, Option<u32>, Vec<Expr>)> = Vec::new();
-            let points = self.listing.points.iter();
             for point in points.filter(|point| meant.may_be(point.number)) {
                 let Some(target) = point.target.map(Expr::Target) else {
                     continue;
@@ -270,8 +289,8 @@ impl Reader<'_> {
         if goals.is_empty() && !self.listing.points.is_empty() {
             goals.push(self.goal(Expr::Unknown(self.controller.missing), None, None, false));
         }
-        if meant.is_any() {
-            self.listing.any = Some(groups);
+        if few.is_none() {
+            self.listing.any = Some((meant, groups));
         }
         goals
     }

@@ -4,7 +4,7 @@ use super::ABOUT;
 use super::content::gets_elements;
 use super::controller::{Controller, Why};
 use super::frames;
-use super::indices::has_index;
+use super::indices::{Meant, has_index};
 use super::lines::{Line, Lines};
 use super::numbers::Known;
 use super::offsets::{Condition, Copied, Offset};
@@ -28,7 +28,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A tool, a frame, and any of the points taught with them.
-type Group = (Option<u32>, Option<u32>, Expr);
+pub(super) type Group = (Option<u32>, Option<u32>, Expr);
 
 /// One program.
 #[derive(Clone, Debug, Default)]
@@ -41,8 +41,8 @@ pub(super) struct Listing {
     pub points: Vec<Taught>,
     /// The last point of each number.
     pub by_number: HashMap<u32, u32>,
-    /// The points of one tool and frame, for moves to any of them.
-    pub any: Option<Vec<Group>>,
+    /// The points of one tool and frame that an index may tell which tells many, for moves to any of them.
+    pub any: Option<(Meant, Vec<Group>)>,
     /// It follows a conveyor.
     pub tracks_line: bool,
     /// A positioner of the profile carries its frames: `COORD` is relative to these.
