@@ -8,7 +8,7 @@ use super::content::canonical;
 use super::lines::Line;
 use super::moves::Goal;
 use super::numbers::{Known, MOST_NUMBER};
-use super::reader::{Listing, Reader};
+use super::reader::{Group, Listing, Reader};
 use super::words::{behind_group, bracket_end, is_word, whole, word_length};
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Place, short};
@@ -252,6 +252,31 @@ impl Reader<'_> {
         self.meant(behind_group(index[..length].trim_ascii()))
     }
 
+    /// The points that an index may tell, of one tool and frame together.
+    fn grouped(&mut self, meant: &Meant, few: Option<&[u32]>) -> Vec<Group> {
+        let indices: Vec<u32> = match few {
+            Some(numbers) => self.listing.numbered(numbers),
+            None => (0..short(self.listing.points.len())).collect(),
+        };
+        let points = indices
+            .into_iter()
+            .map(|at| &self.listing.points[at as usize]);
+        let mut groups: Vec<(Option<u32>, Option<u32>, Vec<Expr>)> = Vec::new();
+        for point in points.filter(|point| meant.may_be(point.number)) {
+            let Some(target) = point.target.map(Expr::Target) else {
+                continue;
+            };
+            let key = (point.tool, point.frame);
+            match groups.iter_mut().find(|group| (group.0, group.1) == key) {
+                Some((.., all)) => all.push(target),
+                None => groups.push((key.0, key.1, vec![target])),
+            }
+        }
+        let script = &mut self.builder.script;
+        let any = |(tool, frame, all)| (tool, frame, script.any(all));
+        groups.into_iter().map(any).collect()
+    }
+
     /// The points that an index may tell, or any of the program: those of one tool and frame
     /// together.
     pub(super) fn any_point(&mut self, text: &[u8]) -> Vec<Goal> {
@@ -259,34 +284,16 @@ impl Reader<'_> {
         let few = meant.all();
         let known = self.listing.any.take_if(|_| few.is_none());
         let known = known.filter(|(of, _)| *of == meant);
-        let groups = known.map(|(_, groups)| groups).unwrap_or_else(|| {
-            let indices: Vec<u32> = match &few {
-                Some(numbers) => self.listing.numbered(numbers),
-                None => (0..short(self.listing.points.len())).collect(),
-            };
-            let points = indices
-                .into_iter()
-                .map(|at| &self.listing.points[at as usize]);
-            let mut groups: Vec<(Option<u32>, Option<u32>, Vec<Expr>)> = Vec::new();
-            for point in points.filter(|point| meant.may_be(point.number)) {
-                let Some(target) = point.target.map(Expr::Target) else {
-                    continue;
-                };
-                let key = (point.tool, point.frame);
-                match groups.iter_mut().find(|group| (group.0, group.1) == key) {
-                    Some((.., all)) => all.push(target),
-                    None => groups.push((key.0, key.1, vec![target])),
-                }
-            }
-            let script = &mut self.builder.script;
-            let any = |(tool, frame, all)| (tool, frame, script.any(all));
-            groups.into_iter().map(any).collect()
-        });
+        let groups = match known {
+            Some((_, groups)) => groups,
+            None => self.grouped(&meant, few.as_deref()),
+        };
         let goals = groups
             .iter()
             .map(|(tool, frame, any)| self.goal(*any, *tool, *frame, false));
         let mut goals: Vec<Goal> = goals.collect();
-        if goals.is_empty() && !self.listing.points.is_empty() {
+        let is_missing = |numbers: &Vec<u32>| self.listing.numbered(numbers).is_empty();
+        if few.as_ref().is_some_and(is_missing) {
             goals.push(self.goal(Expr::Unknown(self.controller.missing), None, None, false));
         }
         if few.is_none() {

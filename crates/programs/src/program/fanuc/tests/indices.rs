@@ -80,6 +80,9 @@ fn an_index_means_the_points_that_its_register_may_tell() {
         let program = read(&lines, &points);
         assert_eq!(to(&program).len(), 3, "{lines}");
     }
+    // no point has that number
+    let program = read(&format!("R[1]=7 ;\n{go}J P[1] 9% FINE ;"), &usual("1"));
+    assert_eq!(ids(&program), ["target-not-in-files"]);
     // of another program
     let a = listing(&format!("CALL SET ;\n{go}"), &(usual("1") + &usual("2")));
     let b = listing("R[1]=2 ;", "").replace("TEST", "SET");
