@@ -351,7 +351,12 @@ pub fn check_telling(
         original: original.as_ref(),
         parts: parts.as_deref(),
     };
-    let is_own = |stop: &usize| !subject.sources[walk.motion(*stop).file as usize].is_context;
+    // where the robot may stop on the way of another move is no move of its own
+    let is_own = |stop: &usize| {
+        let motion = walk.motion(*stop);
+        let is_context = subject.sources[motion.file as usize].is_context;
+        !is_context && !walk.program.is_stop(motion)
+    };
     let indices: Vec<usize> = (0..walk.stops.all.len()).filter(is_own).collect();
     let mut findings = walk.findings.clone();
     findings.extend(subject.scene.findings.iter().cloned());

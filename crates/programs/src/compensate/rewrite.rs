@@ -388,9 +388,15 @@ impl<'a> Portion<'a> {
             let finding = remarks::changed_configuration(job, approach, roles, &old, new);
             written.findings.push(finding);
         }
+        let is_in_order = ground.language.has_missing_in_order();
+        let is_written = |new: &[f64], index: usize| {
+            let stands_before = is_in_order && numbers[index].length == 0;
+            let end = if stands_before { new.len() } else { index + 1 };
+            (index..end).any(|at| is_other(new, at))
+        };
         let mut inserted = Vec::new();
         for (index, number) in numbers.iter().enumerate() {
-            if !is_other(new, index) {
+            if !is_written(new, index) {
                 continue;
             }
             let old_text = text(job, target, number);
@@ -411,7 +417,7 @@ impl<'a> Portion<'a> {
                 new[index] = number::parse(digits[from..].trim_ascii_start())
                     .expect("a written number is a number");
             }
-            if !is_other(new, index) {
+            if !is_written(new, index) {
                 digits.truncate(from);
                 continue;
             }

@@ -216,7 +216,7 @@ pub const TABLE: &[Kind] = &[
     row("program-name-ambiguous", Warning, "several programs have the name that is called: either may run", "give the programs of one controller, and of its backups one", &["compensate", "check"], &["fanuc"]),
     row("pulses-per-degree-unknown", Warning, "positions in pulses, and a profile without `pulses_per_deg`: they stay; once a job", "write controller.pulses_per_deg into the profile", &["compensate", "check"], &["inform"]),
     row("rconf-of-post", Warning, "RCONF of a post that is known to mix its fields up; it is not used", "see that the controller stands so, or teach the joints", &["compensate", "check"], &["inform"]),
-    row("relative-joint-move", Note, "a relative move of axes", "it stays as it is", &["compensate", "check"], &["krl"]),
+    row("relative-joint-move", Note, "a relative move of axes", "it stays as it is", &["compensate", "check"], &["krl", "kawasaki"]),
     row("relative-move", Error, "a relative move from a position that the text does not give", "move to a target with its own numbers", &["compensate", "check"], &["krl", "fanuc", "inform", "kawasaki"]).was(&["incremental-move"]),
     row("robot-root-differs", Error, "$ROBROOT of the machine data is not `kinematics.base` of the profile", "write $ROBROOT into `kinematics.base`: every tool and base of the program counts from there", &["compensate", "check"], &["krl"]),
     row("rounding", Error, "the decimals that the file can hold leave the tool more than 0.01 mm or 0.01 deg off its wanted pose; a warning of targets in joints", "--decimals 4 writes more, where the controller takes them", &["compensate"], &[]),

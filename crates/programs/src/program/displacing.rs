@@ -3,7 +3,7 @@
 use super::notation::grown_by;
 use super::quantity::Quantity;
 use super::{Displacement, Shift, Stride};
-use crate::geometry::units::MM;
+use crate::geometry::units::{DEG, MM};
 use crate::geometry::{Pose, Rotation, Vector, norm};
 
 /// How far a sensor or a register usually displaces a point, metres.
@@ -71,6 +71,23 @@ impl Displacing {
                         .push(Stride::Turned((angle > 0.0).then_some(angle)));
                 }
             }
+        }
+    }
+
+    /// By angles, degrees, about axes of which nothing is known but that they go through the tool's
+    /// origin.
+    pub(super) fn turned_by_any(&mut self, angles: &[Quantity]) {
+        let mut most = 0.0;
+        for angle in angles {
+            if let Some((least, greatest)) = angle.ends() {
+                most += least.abs().max(greatest.abs());
+            } else {
+                self.is_unknown = true;
+                self.is_endless |= angle.is_of_program();
+            }
+        }
+        if most > 0.0 {
+            self.turned_up_to(most * DEG);
         }
     }
 

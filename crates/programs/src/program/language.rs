@@ -255,6 +255,12 @@ pub trait Language: Sync {
         (String::new(), "")
     }
 
+    /// Whether numbers that a text leaves out are known by their place alone: one that is put in has
+    /// those before it in front.
+    fn has_missing_in_order(&self) -> bool {
+        false
+    }
+
     /// Text that puts moves between those of one file. A move that cannot be repeated, because its
     /// text does more than go to its target, is refused; by default all are.
     fn insert(&self, into: &Insertions) -> Inserted {

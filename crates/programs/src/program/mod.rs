@@ -514,6 +514,12 @@ impl Program {
         turned.filter(|_| motion.target.is_none())
     }
 
+    /// Whether it is where the robot may stop on the way of the move before.
+    pub fn is_stop(&self, motion: &Move) -> bool {
+        let instruction = &self.instructions[motion.instruction as usize];
+        motion.target.is_none() && instruction.span().is_empty()
+    }
+
     /// The call before a move that may have left the robot elsewhere, by its name.
     pub fn call_before(&self, motion: usize) -> Option<&str> {
         let led = self

@@ -3,8 +3,8 @@
 use super::{Flow, State, bits};
 use crate::motion::holding::{Atom, DECLARED, Holding, Site};
 use crate::program::script::{
-    DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part, PartValue, UNBOUNDED,
-    ValueId, VariableId, Write, Written, short,
+    DisplacementId, Expr, Held, How, NOT_DISPLACED, OVERWRITTEN, Part, PartValue, RemarkId,
+    UNBOUNDED, ValueId, VariableId, Write, Written, short,
 };
 
 impl Flow<'_> {
@@ -85,6 +85,7 @@ impl Flow<'_> {
                 return self.holdings.intern(here);
             }
             How::Parts { first, parts } => (*first, parts.clone(), None),
+            How::Axis(_) => (0, 0..0, None),
             How::PartSomehow(remark)
             | How::PartNumber(remark)
             | How::PartBy(remark, _)
@@ -101,7 +102,11 @@ impl Flow<'_> {
         let held = self.variable(state, variable);
         let atoms = self.holdings.of(held).to_vec();
         let mut changed = Vec::with_capacity(atoms.len());
-        for (atom, _) in atoms {
+        for (atom, of_atom) in atoms {
+            if let How::Axis(why) = write.how {
+                changed.push(self.with_other_axis(atom, of_atom, why, site));
+                continue;
+            }
             let atom = match atom {
                 Atom::Target { target, .. } if own == Some(target) => Atom::Changed { target },
                 Atom::Target {
@@ -153,6 +158,24 @@ impl Flow<'_> {
             changed.push((atom, site));
         }
         self.holdings.intern(changed)
+    }
+
+    /// What a position is of which an external axis is written.
+    fn with_other_axis(
+        &self,
+        atom: Atom,
+        of: Site,
+        why: Option<RemarkId>,
+        site: Site,
+    ) -> (Atom, Site) {
+        match (atom, why) {
+            (Atom::Target { .. } | Atom::Changed { .. }, Some(remark)) => {
+                (Atom::Unknown(remark), site)
+            }
+            // from another place the arm comes there otherwise
+            (Atom::Value(value), _) if self.is_of_robot(value) => (Atom::Anything, site),
+            _ => (atom, of),
+        }
     }
 
     /// What displaces a copy of a target a part of which becomes that of another position and

@@ -2,7 +2,8 @@
 
 use super::numbers::{ELEMENTS, Known, MOST_NUMBER, of_call, of_position};
 use super::words::{
-    behind_group, bracket_end, concerns_group_1, element, local, register, whole, word_length,
+    Named, behind_group, bracket_end, concerns_group_1, element, local, position, register, whole,
+    word_length,
 };
 use crate::program::TargetId;
 use crate::program::numbers::counted;
@@ -66,6 +67,17 @@ impl Entered {
     /// Whether a number stands in it.
     pub(super) fn names(&self, number: u32) -> bool {
         self.read.contains(&number) || self.bound.iter().any(|(bound, _)| *bound == number)
+    }
+
+    /// Whether it is the number of a point.
+    pub(super) fn is_of_point(&self) -> bool {
+        match &self.content {
+            Content::Text(text) => text.strip_prefix(b"0+").is_some_and(|text| {
+                let point = position(text);
+                point.is_some_and(|(of, end)| matches!(of, Named::Point(_)) && end == text.len())
+            }),
+            _ => false,
+        }
     }
 
     pub(super) fn exact(&self) -> Option<f64> {
@@ -341,6 +353,18 @@ fn push_index(out: &mut Vec<u8>, index: &[u8]) {
         Some(length) => out.extend_from_slice(&canonical(&index[..length + 3])),
         None => out.push(b'?'),
     }
+}
+
+/// Whether an instruction is `R[1]=PR[4,3]`, or a sum with such an element.
+pub(super) fn gets_elements(bytes: &[u8]) -> bool {
+    memchr::memmem::find_iter(bytes, b"PR[").any(|at| {
+        let start = memchr::memrchr2(b'\n', b'\r', &bytes[..at]).map_or(0, |end| end + 1);
+        let before = &bytes[start..at];
+        let before = before.splitn(2, |&b| b == b':').nth(1).unwrap_or(before);
+        let before = before.trim_ascii_start();
+        let is_number = before.starts_with(b"R[") || before.starts_with(b"LR[");
+        is_number && before.contains(&b'=')
+    })
 }
 
 #[cfg(test)]

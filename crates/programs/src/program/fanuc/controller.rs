@@ -69,6 +69,8 @@ pub(super) enum Why {
     LineTracking,
     /// A register, or a position of a pallet.
     Computed,
+    /// A register whose numbers the program writes one by one.
+    Written,
     Missing,
     FrameAssigned,
     FrameChosen,
@@ -106,6 +108,12 @@ impl Why {
                 "computed-target",
                 "only the running program knows the position (a register); what goes there stays \
                  as it is",
+                "write the position as a point of the program where it must be exact",
+            ),
+            Self::Written => (
+                "computed-target",
+                "the program itself writes all numbers of the register that this move goes to: it \
+                 goes there as they are, uncorrected",
                 "write the position as a point of the program where it must be exact",
             ),
             Self::Missing => (
@@ -153,7 +161,7 @@ impl Why {
             ),
         };
         let severity = match self {
-            Self::Computed | Self::Corrected => Severity::Warning,
+            Self::Computed | Self::Written | Self::Corrected => Severity::Warning,
             _ => Severity::Error,
         };
         let text = text.into();
@@ -184,6 +192,7 @@ pub(super) struct Controller {
     /// Where the robot is.
     pub actual: ValueId,
     pub computed: RemarkId,
+    pub written: RemarkId,
     pub missing: RemarkId,
     pub assigned: RemarkId,
     pub chosen: RemarkId,
@@ -239,6 +248,7 @@ impl Controller {
             honoured: script.value(Held::Flag(true)),
             actual: script.value(Held::Actual),
             computed: script.remark(Why::Computed.remark()),
+            written: script.remark(Why::Written.remark()),
             missing: script.remark(Why::Missing.remark()),
             assigned: script.remark(Why::FrameAssigned.remark()),
             chosen: script.remark(Why::FrameChosen.remark()),

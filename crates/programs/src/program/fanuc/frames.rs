@@ -57,7 +57,7 @@ impl Shown {
 pub(super) type Numbered = BTreeMap<u32, Shown>;
 
 /// The tools and frames of all files.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct All {
     pub tools: Numbered,
     pub frames: Numbered,

@@ -35,8 +35,8 @@
 //!
 //! # Limits
 //!
-//! Which point a register `R[n]` selects is unknown, and which tool or frame unless the program has
-//! just written its number. A program that a local condition of a move (TB, TA, DB) calls may not
+//! Which point or register a register `R[n]` selects is any that the programs may have written
+//! (`indices`), and which tool or frame is unknown unless the program has just written its number. A program that a local condition of a move (TB, TA, DB) calls may not
 //! have run yet at the moves behind it. `PAYLOAD` is not read, several are reported: a tool's load
 //! is the profile's. `LR[n]` and `LPR[n]` are taken for one register of all programs. A translated
 //! INC, RTCP, COORD, IF or CALL is known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
@@ -48,6 +48,7 @@ mod controller;
 mod deciding;
 mod drive;
 mod frames;
+mod indices;
 mod insert;
 mod lines;
 pub mod mark;
@@ -58,10 +59,12 @@ mod points;
 mod posreg;
 mod reader;
 mod registers;
+mod rides;
 mod sections;
 mod start;
 mod statements;
 mod words;
+mod writes;
 
 use super::notation;
 use super::{

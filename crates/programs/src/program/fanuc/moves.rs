@@ -32,7 +32,7 @@ struct Words {
 }
 
 /// Where a move goes, with what.
-struct Goal {
+pub(super) struct Goal {
     target: Expr,
     tool: Expr,
     frame: Expr,
@@ -94,7 +94,8 @@ impl<'a> Reader<'a> {
         words.against[Why::Coordinated as usize] &= !self.listing.is_carried;
         let is_arc = points.len() == 2;
         let is_row = !is_arc && b"AC".contains(&letter);
-        let is_repeatable = words.is_plain && line.is_closed && (is_arc || b"JL".contains(&letter));
+        let is_plain = words.is_plain && line.is_closed && self.state.rounds() == 1;
+        let is_repeatable = is_plain && (is_arc || b"JL".contains(&letter));
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
@@ -126,8 +127,9 @@ impl<'a> Reader<'a> {
             // what is more than a move to its points cannot be repeated
             let target_span = is_repeatable.then(|| Span::of(start + span.start..start + span.end));
             last = self.builder.script.instructions.len();
+            let goals = self.goals(named, &text[span.clone()]);
             self.go_to(
-                named,
+                goals,
                 &Instruction {
                     motion,
                     target_span: target_span.unwrap_or_default(),
@@ -157,28 +159,41 @@ impl<'a> Reader<'a> {
             self.known.clear();
             self.known.open();
         }
-        for part in words.then {
+        let (stops, others): (Vec<_>, Vec<_>) = words.then.into_iter().partition(|part| {
+            // where the robot does not stop on its way the program goes to the label
+            words.may_stop && !is_call(&text[part.clone()])
+        });
+        for part in others {
             // it is done some time before or behind the end of the move, or not at all
             self.builder.begin_if(None);
             self.then(&text[part]);
             self.builder.end_choice();
         }
+        if words.may_stop {
+            self.stop(text, stops);
+        }
         if !words.is_harmless {
             self.known.close();
         }
-        if words.may_stop {
-            // where the robot stands then is known to nobody
-            let script = &self.builder.script;
-            if let Some(last) = script.instructions.last() {
-                let Modal { tool, frame, .. } = script.modals[last.modal as usize];
-                let stopped = Modal {
-                    tool,
-                    frame,
-                    ..Modal::default()
-                };
-                self.builder.go(Instruction::at(self.place), stopped);
-            }
+    }
+
+    /// `Skip,LBL[1],PR[5]=LPOS`: where the signal comes a register becomes where the robot is, which stops
+    /// on its way, and the program goes on with the next line; else with the label, at the end
+    /// of the move. `Search[…]` stops likewise.
+    fn stop(&mut self, text: &'a [u8], parts: Vec<Range<usize>>) {
+        let is_label = |part: &Range<usize>| {
+            let text = &text[part.clone()];
+            is_label(&text[..word_length(text)])
+        };
+        let (labels, writes): (Vec<_>, Vec<_>) = parts.into_iter().partition(is_label);
+        for part in &labels {
+            self.then(&text[part.clone()]);
         }
+        // it stops a little behind where it was when the signal came
+        for part in writes {
+            self.then(&text[part]);
+        }
+        self.builder.stop(self.place);
     }
 
     /// What stands behind the positions of a move: a label, a write, the name of a program that is
@@ -219,8 +234,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Adds the move to each of the positions that may be meant.
-    fn go_to(&mut self, named: Named, instruction: &Instruction, modal: Modal) {
-        let goals = self.goals(named);
+    fn go_to(&mut self, goals: Vec<Goal>, instruction: &Instruction, modal: Modal) {
         let several = goals.len() > 1;
         if several {
             self.builder.begin_choice();
@@ -261,19 +275,29 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What a position may mean; nothing where it is one of another robot.
-    fn goals(&mut self, named: Named) -> Vec<Goal> {
+    /// What a position of this text may mean; nothing where it is one of another robot.
+    fn goals(&mut self, named: Named, text: &[u8]) -> Vec<Goal> {
         let target = match named {
             Named::Point(number) => match self.listing.by_number.get(&number) {
                 Some(&index) => return self.point(index).into_iter().collect(),
                 None => Expr::Unknown(self.controller.missing),
             },
-            Named::AnyPoint => return self.any_point(),
+            Named::AnyPoint => return self.any_point(text),
             Named::Register(register) => {
+                let at = self.builder.script.instructions.len();
                 if let Some(number) = self.reads(register) {
+                    self.goes_to_registers(at, vec![number]);
                     Expr::Variable(self.register(number))
+                } else if let Some(numbers) = self.meant_in(text).all() {
+                    self.goes_to_registers(at, numbers.clone());
+                    let all = numbers.into_iter().map(|number| {
+                        self.read.insert(number);
+                        Expr::Variable(self.register(number))
+                    });
+                    let all: Vec<Expr> = all.collect();
+                    self.builder.script.any(all)
                 } else {
-                    let at = self.builder.script.instructions.len();
+                    self.goes_to_registers(at, Vec::new());
                     self.to_any_register.push(at);
                     Expr::Unknown(self.controller.computed)
                 }
@@ -311,7 +335,7 @@ impl<'a> Reader<'a> {
         Some(self.goal(target, point.tool, point.frame, point.is_joints))
     }
 
-    fn goal(
+    pub(super) fn goal(
         &mut self,
         target: Expr,
         tool: Option<u32>,
@@ -333,32 +357,11 @@ impl<'a> Reader<'a> {
             numbers: [tool, taught],
         }
     }
+}
 
-    /// Any point of the program: those of one tool and frame together.
-    fn any_point(&mut self) -> Vec<Goal> {
-        let groups = self.listing.any.take().unwrap_or_else(|| {
-            let mut groups: Vec<(Option<u32>, Option<u32>, Vec<Expr>)> = Vec::new();
-            for point in &self.listing.points {
-                let Some(target) = point.target.map(Expr::Target) else {
-                    continue;
-                };
-                let key = (point.tool, point.frame);
-                match groups.iter_mut().find(|group| (group.0, group.1) == key) {
-                    Some((.., all)) => all.push(target),
-                    None => groups.push((key.0, key.1, vec![target])),
-                }
-            }
-            let script = &mut self.builder.script;
-            let any = |(tool, frame, all)| (tool, frame, script.any(all));
-            groups.into_iter().map(any).collect()
-        });
-        let goals = groups
-            .iter()
-            .map(|(tool, frame, any)| self.goal(*any, *tool, *frame, false));
-        let goals = goals.collect();
-        self.listing.any = Some(groups);
-        goals
-    }
+/// Whether something behind a move is the name of a program that is called.
+fn is_call(text: &[u8]) -> bool {
+    !text.contains(&b'=') && !is_label(&text[..word_length(text)])
 }
 
 fn is_label(word: &[u8]) -> bool {

@@ -4,14 +4,15 @@
 //! register is any of what the text writes into it (see [`crate::program::numbers`]), and what it
 //! held before where the text may come to a move without a write.
 
+mod loops;
+
 use super::content::{Content, Entered, Own};
 use super::posreg::Shown;
 use super::start::{Step, Steps};
-use super::words::whole;
 use crate::geometry::Pose;
 use crate::program::TargetId;
 use crate::program::notation::pose_of_angles;
-use crate::program::numbers::{Blocks, Numbers, Site, rounds};
+use crate::program::numbers::{Blocks, Numbers, Site};
 use crate::program::quantity::Quantity;
 use crate::program::script::RoutineId;
 use foldhash::{HashMap, HashSet};
@@ -73,6 +74,8 @@ struct Path {
     last_use: u32,
     /// What it does with numbers, and where it does that in no branch.
     steps: Vec<(Option<u32>, Step)>,
+    /// What is written in each of the blocks that are open.
+    written: Vec<Vec<u32>>,
 }
 
 /// A loop that counts.
@@ -165,18 +168,37 @@ impl Known {
     pub(super) fn open(&mut self) {
         self.settle();
         self.path.depth += 1;
+        self.path.written.push(Vec::new());
         self.blocks.open(Some(1));
     }
 
+    /// Another branch begins: what the one before has written is not there.
     pub(super) fn branch(&mut self) {
-        self.clear();
+        self.settle();
+        match self.path.written.last() {
+            Some(written) => written
+                .iter()
+                .for_each(|number| _ = self.now.remove(number)),
+            None => self.now.clear(),
+        }
         self.blocks.branch();
     }
 
     pub(super) fn close(&mut self) {
-        self.clear();
+        self.branch();
         self.path.depth = self.path.depth.saturating_sub(1);
+        let written = self.path.written.pop().unwrap_or_default();
+        if let Some(around) = self.path.written.last_mut() {
+            around.extend(written);
+        }
         self.blocks.close();
+    }
+
+    /// A number is written in the block that is open.
+    fn note_written(&mut self, number: u32) {
+        if let Some(block) = self.path.written.last_mut() {
+            block.push(number);
+        }
     }
 
     pub(super) fn label(&mut self, key: u64) {
@@ -229,7 +251,7 @@ impl Known {
     }
 
     /// What is computed reads numbers as they are.
-    fn reads(&mut self, entered: &Entered) {
+    pub(super) fn reads(&mut self, entered: &Entered) {
         let read = entered.read.iter();
         let steps = read.map(|number| (None, Step::Reads(*number)));
         self.path.steps.extend(steps);
@@ -239,55 +261,6 @@ impl Known {
     pub(super) fn moves(&mut self) {
         self.path.order += 1;
         self.path.last_use = self.path.order;
-    }
-
-    /// `FOR R[1]=1 TO 4`, the next loop of a script; the counter where it is known. How often it runs
-    /// at most.
-    pub(super) fn begin_loop(&mut self, next: usize, counter: Option<(u32, &[u8])>) -> Option<u32> {
-        let counting = counter.and_then(|(number, range)| {
-            let at = |word: &[u8]| memchr::memmem::find(range, word);
-            let (start, length, is_down) = match (at(b"DOWNTO"), at(b"TO")) {
-                (Some(at), _) => (at, 6, true),
-                (None, Some(at)) => (at, 2, false),
-                _ => return None,
-            };
-            Some((number, &range[..start], &range[start + length..], is_down))
-        });
-        let exact = |text: &[u8]| self.entered(u32::MAX, text.trim_ascii(), 0).exact();
-        let mut most = None;
-        if let Some((_, from, to, is_down)) = counting {
-            let step = if is_down { -1.0 } else { 1.0 };
-            let ends = exact(from).zip(exact(to));
-            most = ends.and_then(|(from, to)| rounds(from, to, step));
-        }
-        for text in counting.iter().flat_map(|(_, from, to, _)| [*from, *to]) {
-            let entered = self.entered(u32::MAX, text.trim_ascii(), 0);
-            self.reads(&entered);
-        }
-        self.clear();
-        if let Some((number, from, to, is_down)) = counting {
-            let text = |text: &[u8]| Rc::from(text.trim_ascii());
-            let (from, to) = (text(from), text(to));
-            let content = Content::Counted { from, to, is_down };
-            let entered = Rc::new(Entered::of(content, self.path.routine));
-            let site = self.blocks.site();
-            self.all.insert(number);
-            self.numbers.write(number, entered, Some(site));
-        } else if let Some((number, _)) = counter {
-            self.lose(number);
-        }
-        self.path.depth += 1;
-        self.blocks.open(most);
-        self.loops.extend(counter.map(|(counter, _)| Loop {
-            counter,
-            block: self.blocks.last(),
-            number: next,
-        }));
-        most
-    }
-
-    pub(super) fn end_loop(&mut self) {
-        self.close();
     }
 
     // ---- what is written
@@ -370,6 +343,7 @@ impl Known {
             is_settled: false,
         };
         self.assigned.insert(number);
+        self.note_written(number);
         if self.now.len() > MOST_NOW {
             self.clear();
         }
@@ -399,6 +373,8 @@ impl Known {
     pub(super) fn lose(&mut self, number: u32) {
         self.settle();
         self.now.remove(&number);
+        self.note_written(number);
+        self.assigned.insert(number);
         self.all.insert(number);
         self.numbers.lose(number);
     }
@@ -542,13 +518,4 @@ impl Known {
     pub(super) fn routine(&self) -> RoutineId {
         self.path.routine
     }
-}
-
-/// The counter and range of `R[1]=1 TO 4`.
-pub(super) fn counter(text: &[u8]) -> Option<(u32, &[u8])> {
-    let inside = text.strip_prefix(b"R[")?;
-    let end = memchr::memchr(b']', inside)?;
-    let number = whole(&inside[..end]).filter(|number| *number < MOST_NUMBER)?;
-    let range = inside[end + 1..].trim_ascii_start().strip_prefix(b"=")?;
-    Some((number, range))
 }

@@ -9,7 +9,7 @@ use super::numbers::{ELEMENTS, Known, OF_ARM, of_position};
 use super::reader::{Listing, Reader};
 use super::words::{Named, each_position, position, register, whole};
 use crate::geometry::Pose;
-use crate::geometry::units::{DEG, MM};
+use crate::geometry::units::MM;
 use crate::program::displacing::Displacing;
 use crate::program::notation::pose_of_angles;
 use crate::program::quantity::Quantity;
@@ -20,7 +20,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 /// The external axes of group 1, whose numbers stand behind those of the arm.
-const EXTENDED: [&str; 3] = ["E1", "E2", "E3"];
+pub(super) const EXTENDED: [&str; 3] = ["E1", "E2", "E3"];
 
 /// In which axes an offset counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,8 @@ impl Axes {
 #[derive(Clone, Debug)]
 enum Which {
     One(u32),
+    /// One of a few, as another register says.
+    Few(Vec<u32>),
     /// Another register says it.
     Index(Box<[u8]>),
     /// The condition of the program.
@@ -93,7 +95,7 @@ pub(super) struct Copied {
     /// From a register, or any; into one, or any.
     from: Vec<(Option<u32>, Option<u32>)>,
     /// Likewise, with what is added and subtracted again: that is joints or none.
-    forms: Vec<(Option<u32>, Option<u32>)>,
+    pub forms: Vec<(Option<u32>, Option<u32>)>,
     points: Vec<(TargetId, bool, Option<u32>)>,
     /// Registers with joints.
     joints: HashSet<Option<u32>>,
@@ -140,7 +142,7 @@ impl Copied {
     }
 
     /// All registers that these flow into.
-    fn spread(
+    pub(super) fn spread(
         edges: impl Iterator<Item = (Option<u32>, Option<u32>)>,
         first: &HashSet<Option<u32>>,
     ) -> HashSet<Option<u32>> {
@@ -180,7 +182,7 @@ impl Copied {
 }
 
 /// Whether a register is one of these, or may be.
-fn is_in(all: &HashSet<Option<u32>>, register: Option<u32>) -> bool {
+pub(super) fn is_in(all: &HashSet<Option<u32>>, register: Option<u32>) -> bool {
     all.contains(&register) || all.contains(&None) || register.is_none() && !all.is_empty()
 }
 
@@ -194,7 +196,7 @@ impl Reader<'_> {
     ) {
         let mut amounts = Vec::with_capacity(offsets.len());
         for (axes, text) in offsets {
-            let of = text.map_or(Which::Condition, which);
+            let of = text.map_or(Which::Condition, |text| self.which(text));
             self.reads_offset(&of);
             let now = if let Which::One(number) = of {
                 let all = (0..ELEMENTS).map(|at| self.known.now(of_position(number, at)));
@@ -241,7 +243,7 @@ impl Reader<'_> {
             let inside = inside.and_then(|rest| rest.split(|b| *b == b']').next());
             number = number.or(inside.map(whole));
         }
-        let of = which(&text[at..]);
+        let of = self.which(&text[at..]);
         self.reads_offset(&of);
         self.conditions.push(Condition {
             routine: self.listing.routine,
@@ -251,9 +253,31 @@ impl Reader<'_> {
         });
     }
 
+    /// `PR[4]`, `PR[R[1]]`
+    fn which(&mut self, text: &[u8]) -> Which {
+        let Some((Named::Register(_), length)) = position(text) else {
+            return Which::Condition;
+        };
+        let text = canonical(&text[..length]);
+        let index = &text[3..text.len() - 1];
+        if let Some(number) = register(index).number {
+            return Which::One(number);
+        }
+        match self.meant(index).all() {
+            Some(few) if few.len() == 1 => Which::One(few[0]),
+            Some(few) if !few.is_empty() => Which::Few(few),
+            _ => Which::Index(index.into()),
+        }
+    }
+
     fn reads_offset(&mut self, of: &Which) {
         match of {
             Which::One(number) => self.known.reads_position(*number),
+            Which::Few(numbers) => {
+                for number in numbers {
+                    self.known.reads_position(*number);
+                }
+            }
             Which::Index(index) => self.known.reads_any_position(index),
             Which::Condition => {}
         }
@@ -320,6 +344,7 @@ impl Reader<'_> {
                 self.builder.script.external_shifts.extend(shifts);
             }
         }
+        self.finish_rides(&copied);
         copied
     }
 
@@ -361,6 +386,7 @@ impl Reader<'_> {
     fn shifted(&self, of: &Which, values: &[Quantity]) -> Vec<u8> {
         self.open_axes(values, &|number, _| match of {
             Which::One(one) => number == *one,
+            Which::Few(few) => few.contains(&number),
             Which::Index(_) | Which::Condition => true,
         })
     }
@@ -402,9 +428,12 @@ impl Reader<'_> {
                 });
                 (values.collect(), !copied.is_joints(Some(*number)))
             }
-            Which::Index(_) => {
-                let (values, number) = self.of_register(&amount.of, offset.routine);
-                (values, !copied.is_joints(number))
+            Which::Few(_) | Which::Index(_) => {
+                let (values, numbers) = self.of_register(&amount.of, offset.routine);
+                (
+                    values,
+                    !numbers.iter().any(|number| copied.is_joints(*number)),
+                )
             }
             Which::Condition => {
                 let is_one = |of: &&Condition| of.axes == amount.axes;
@@ -424,8 +453,8 @@ impl Reader<'_> {
                     is_followed &= of
                         .number
                         .is_none_or(|number| number.is_some() && number == taught);
-                    let (of, number) = self.of_register(&of.of, of.routine);
-                    is_followed &= !copied.is_joints(number);
+                    let (of, numbers) = self.of_register(&of.of, of.routine);
+                    is_followed &= !numbers.iter().any(|number| copied.is_joints(*number));
                     values.push(of);
                 }
                 if values.is_empty() {
@@ -440,15 +469,21 @@ impl Reader<'_> {
         }
     }
 
-    /// The numbers of a register anywhere, and which it is.
-    fn of_register(&self, of: &Which, routine: RoutineId) -> (Vec<Quantity>, Option<u32>) {
+    /// The numbers of a register anywhere, and which it may be; `None` for any.
+    fn of_register(&self, of: &Which, routine: RoutineId) -> (Vec<Quantity>, Vec<Option<u32>>) {
         let all = |value: &dyn Fn(u32) -> Quantity| (0..ELEMENTS).map(value).collect();
         let known: &Known = &self.known;
         match of {
             Which::One(number) => {
                 let number = *number;
                 let values = all(&|at| known.anywhere(of_position(number, at)));
-                (values, Some(number))
+                (values, vec![Some(number)])
+            }
+            Which::Few(few) => {
+                let each = |at| few.iter().map(move |number| of_position(*number, at));
+                let of = |at| each(at).map(|number| known.anywhere(number));
+                let values = all(&|at| Quantity::any(&of(at).collect::<Vec<_>>()));
+                (values, few.iter().copied().map(Some).collect())
             }
             Which::Index(index) => {
                 let of = &mut |number| known.anywhere(number);
@@ -461,23 +496,10 @@ impl Reader<'_> {
                     None if known.writes_positions() => Quantity::endless(),
                     None => Quantity::unknown(),
                 });
-                (values, None)
+                (values, vec![None])
             }
             Which::Condition => unreachable!("a condition names a register"),
         }
-    }
-}
-
-/// `PR[4]`, `PR[R[1]]`
-fn which(text: &[u8]) -> Which {
-    let Some((Named::Register(_), length)) = position(text) else {
-        return Which::Condition;
-    };
-    let text = canonical(&text[..length]);
-    let index = &text[3..text.len() - 1];
-    match register(index).number {
-        Some(number) => Which::One(number),
-        None => Which::Index(index.into()),
     }
 }
 
@@ -505,40 +527,24 @@ fn add(by: &mut Displacing, axes: Axes, values: Vec<Quantity>, is_followed: bool
     if axes == Axes::Frame {
         by.along_frame(&along);
         let has_known = |of: &Quantity| is_something(of) && of.of_text() == 0.0;
-        return !angles.iter().any(has_known) && turn(by, &angles);
+        turn(by, &angles);
+        return !angles.iter().any(has_known);
     }
     let none = || Quantity::exactly(0.0);
     let [x, y, z] = along;
     by.in_tool(&[x, y, z, none(), none(), none()]);
-    turn(by, &angles)
+    turn(by, &angles);
+    true
 }
 
 /// About the axes of the tool by W, P and R.
-fn turn(by: &mut Displacing, angles: &[Quantity; 3]) -> bool {
+fn turn(by: &mut Displacing, angles: &[Quantity; 3]) {
     if let [Some(w), Some(p), Some(r)] = angles.each_ref().map(Quantity::exact) {
         let pose = pose_of_angles([0.0, 0.0, 0.0, w, p, r]);
         by.in_tool_exactly(Pose::from_rotation(pose.rotation));
-        return true;
+        return;
     }
-    turn_up_to(by, angles)
-}
-
-/// About axes that the text does not tell.
-fn turn_up_to(by: &mut Displacing, angles: &[Quantity]) -> bool {
-    let mut most = 0.0;
-    for angle in angles {
-        if let Some((least, greatest)) = angle.ends() {
-            most += least.abs().max(greatest.abs());
-        } else if is_something(angle) {
-            return false;
-        } else {
-            somehow(by);
-        }
-    }
-    if most > 0.0 {
-        by.turned_up_to(most * DEG);
-    }
-    true
+    by.turned_by_any(angles);
 }
 
 /// By what only the running program knows.
@@ -559,18 +565,13 @@ pub(super) fn of_sum(values: &[Quantity]) -> Displacement {
     by.along_frame(&[x, y, z].map(|of| of.clone().in_unit(MM)));
     let angles = [w, p, r].map(Clone::clone);
     let exact = angles.each_ref().map(Quantity::exact);
-    let is_known = match exact {
+    match exact {
         // about the tool's x
         [Some(w), Some(0.0), Some(0.0)] => {
             let pose = pose_of_angles([0.0, 0.0, 0.0, w, 0.0, 0.0]);
             by.in_tool_exactly(Pose::from_rotation(pose.rotation));
-            true
         }
-        _ => turn_up_to(&mut by, &angles),
-    };
-    if is_known {
-        by.displacement()
-    } else {
-        Displacement::Unbounded
+        _ => by.turned_by_any(&angles),
     }
+    by.displacement()
 }

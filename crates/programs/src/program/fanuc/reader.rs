@@ -1,13 +1,16 @@
 //! From listings to statements: what the files hold, before their instructions are gone through.
 
 use super::ABOUT;
+use super::content::gets_elements;
 use super::controller::{Controller, Why};
 use super::frames;
-use super::lines::Lines;
+use super::indices::{Meant, has_index};
+use super::lines::{Line, Lines};
 use super::numbers::Known;
 use super::offsets::{Condition, Copied, Offset};
 use super::points::{Axis, Content, Point, Points, bad_value};
 use super::registers::{Part, Sum};
+use super::rides::Riding;
 use super::sections::Sections;
 use super::statements::{State, is_chosen};
 use super::words::{Named, Register, is_word, word_length};
@@ -25,10 +28,10 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A tool, a frame, and any of the points taught with them.
-type Group = (Option<u32>, Option<u32>, Expr);
+pub(super) type Group = (Option<u32>, Option<u32>, Expr);
 
 /// One program.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Listing {
     pub routine: RoutineId,
     /// Index of its file.
@@ -38,8 +41,8 @@ pub(super) struct Listing {
     pub points: Vec<Taught>,
     /// The last point of each number.
     pub by_number: HashMap<u32, u32>,
-    /// The points of one tool and frame, for moves to any of them.
-    pub any: Option<Vec<Group>>,
+    /// The points of one tool and frame that an index may tell which tells many, for moves to any of them.
+    pub any: Option<(Meant, Vec<Group>)>,
     /// It follows a conveyor.
     pub tracks_line: bool,
     /// A positioner of the profile carries its frames: `COORD` is relative to these.
@@ -59,6 +62,7 @@ pub(super) struct Listing {
 /// A point as moves need it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Taught {
+    pub number: u32,
     /// `None` where it has no group 1.
     pub target: Option<TargetId>,
     pub tool: Option<u32>,
@@ -104,10 +108,13 @@ pub(super) struct Reader<'a> {
     pub to_any_register: Vec<usize>,
     /// What the numbers in registers may be.
     pub known: Known,
+    /// Likewise once all programs are read, where they are gone through a second time.
+    pub before: Option<Box<Known>>,
     pub copied: Copied,
     /// What depends on these.
     pub offsets: Vec<Offset>,
     pub conditions: Vec<Condition>,
+    pub rides: Vec<Riding>,
     /// Of the programs with such a condition those that they come to, through calls.
     pub conditioned: HashMap<RoutineId, HashSet<RoutineId>>,
     pub sums: Vec<Sum>,
@@ -145,18 +152,6 @@ fn starts_others(bytes: &[u8], names: &HashMap<Box<str>, Vec<(RoutineId, bool)>>
     })
 }
 
-/// Whether an instruction is `R[1]=PR[4,3]`, or a sum with such an element.
-fn gets_elements(bytes: &[u8]) -> bool {
-    memchr::memmem::find_iter(bytes, b"PR[").any(|at| {
-        let start = memchr::memrchr2(b'\n', b'\r', &bytes[..at]).map_or(0, |end| end + 1);
-        let before = &bytes[start..at];
-        let before = before.splitn(2, |&b| b == b':').nth(1).unwrap_or(before);
-        let before = before.trim_ascii_start();
-        let is_number = before.starts_with(b"R[") || before.starts_with(b"LR[");
-        is_number && before.contains(&b'=')
-    })
-}
-
 /// The statements of all files.
 pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script, ReadError> {
     let mut builder = Builder::default();
@@ -187,7 +182,17 @@ pub(super) fn script(sources: &[Source], names: &ExternalNames) -> Result<Script
         builder.script.findings.push(finding);
     }
     for (_, values, listings) in controllers {
-        builder = of_controller(builder, (sources, names), values, listings);
+        let bytes_of = |listing: &Listing| {
+            let bytes = &sources[listing.file as usize].bytes;
+            &bytes[listing.lines.clone()]
+        };
+        let has_indices = listings.iter().any(|listing| has_index(bytes_of(listing)));
+        let known = has_indices.then(|| {
+            let (builder, values, listings) = (builder.clone(), values.clone(), listings.clone());
+            let (_, known) = of_controller(builder, (sources, names), values, listings, None);
+            Box::new(known)
+        });
+        (builder, _) = of_controller(builder, (sources, names), values, listings, known);
     }
     Ok(builder.finish())
 }
@@ -209,13 +214,14 @@ fn several_controllers(first: &str, more: &[&str]) -> Finding {
     }
 }
 
-/// Adds the programs of one controller.
+/// Adds the programs of one controller; hands over what the numbers in registers may be.
 fn of_controller(
     mut builder: Builder,
     (sources, names): (&[Source], &ExternalNames),
     mut values: frames::All,
     listings: Vec<Listing>,
-) -> Builder {
+    before: Option<Box<Known>>,
+) -> (Builder, Known) {
     let mut known = Known::default();
     known.shown = std::mem::take(&mut values.registers);
     let controller = Controller::new(&mut builder.script, values);
@@ -246,9 +252,11 @@ fn of_controller(
         from_registers: Vec::new(),
         to_any_register: Vec::new(),
         known,
+        before,
         copied: Copied::default(),
         offsets: Vec::new(),
         conditions: Vec::new(),
+        rides: Vec::new(),
         conditioned: HashMap::new(),
         sums: Vec::new(),
         parts: Vec::new(),
@@ -408,6 +416,7 @@ fn add(script: &mut Script, listing: &mut Listing, point: &Point, names: &Extern
     }
     listing.uses_active |= point.tool.is_none() || point.frame.is_none();
     listing.points.push(Taught {
+        number: point.number,
         target,
         tool: point.tool,
         frame: point.frame,
@@ -459,11 +468,8 @@ impl Reader<'_> {
         let (instructions, writes) = (script.instructions.len(), script.writes.len());
         self.builder.open(self.listing.routine);
         self.known.begin(self.listing.routine);
-        for line in Lines::new(self.bytes, self.listing.lines.clone()) {
-            let offset = short(line.text.start);
-            self.place = Place::new(file, offset);
-            self.line(&line);
-        }
+        let lines: Vec<Line> = Lines::new(self.bytes, self.listing.lines.clone()).collect();
+        self.lines(file, &lines);
         self.end();
         self.builder.close();
         // points that the program writes are variables wherever it names them
@@ -552,7 +558,8 @@ impl Reader<'_> {
     }
 
     /// What depends on all programs: what registers hold.
-    fn finish(mut self) -> Builder {
+    fn finish(mut self) -> (Builder, Known) {
+        self.copies.dedup();
         for (place, register) in std::mem::take(&mut self.copies) {
             if !self.reads_any && !self.read.contains(&register) {
                 let message = "a point is copied into a register here, which nothing in the files \
@@ -579,6 +586,6 @@ impl Reader<'_> {
                 self.builder.script.instructions[instruction].target = any;
             }
         }
-        self.builder
+        (self.builder, self.known)
     }
 }

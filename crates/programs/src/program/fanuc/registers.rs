@@ -73,7 +73,10 @@ impl Reader<'_> {
         if is_indirect(&text) || number.is_none() {
             self.known.clear();
         }
-        let how = if is_element {
+        let how = if let Some(at @ OF_ARM..ELEMENTS) = element(index).map(|at| at.saturating_sub(1))
+        {
+            self.axis_becomes(at, &text)
+        } else if is_element {
             self.part_becomes(index, &text)
         } else {
             let (holds, sum) = self.position_value(value);
@@ -97,6 +100,11 @@ impl Reader<'_> {
         };
         self.note_points(&text);
         let mut all = Vec::new();
+        // of an element that nobody knows each may be written
+        let is_open = is_element && element(index).is_none();
+        if is_open {
+            self.known.open();
+        }
         for at in elements.filter(|at| *at < ELEMENTS) {
             let own = of_position(number.unwrap_or(MOST_NUMBER), at);
             all.push((own, self.known.entered(own, &text, at as usize)));
@@ -108,8 +116,18 @@ impl Reader<'_> {
                 None => self.known.write_any(own, entered),
             }
         }
+        if is_open {
+            self.known.close();
+        }
         let Some(number) = number else {
             return self.write(Written::AnyOf(self.controller.registers), how);
+        };
+        // of what it held nothing is left
+        let is_written = is_element && self.known.pose(number).is_some();
+        let how = match how {
+            How::Axis(_) => how,
+            _ if is_written => How::Whole(Expr::Unknown(self.controller.written)),
+            how => how,
         };
         if matches!(how, How::Whole(holds) if !matches!(holds, Expr::Unknown(_))) {
             self.aliased.insert(number);
@@ -394,7 +412,10 @@ impl Reader<'_> {
     pub(super) fn finish_registers(&mut self, copied: &Copied) {
         for part in std::mem::take(&mut self.parts) {
             let how = self.part_of_all(&part);
-            self.builder.script.writes[part.write].how = how;
+            let write = &mut self.builder.script.writes[part.write];
+            if matches!(write.how, How::PartNumber(_)) {
+                write.how = how;
+            }
         }
         for sum in std::mem::take(&mut self.sums) {
             let holds = |register: &Option<u32>| register.is_none_or(|one| copied.holds(one));

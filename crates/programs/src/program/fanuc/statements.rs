@@ -1,20 +1,18 @@
-//! Instructions as statements: calls, jumps, blocks, and writes of tools, frames, registers and
-//! points.
+//! Instructions as statements: calls, jumps, blocks.
 
 use super::content::canonical;
-use super::controller::{Kind, Mode, Which, kinds};
+use super::controller::{Kind, Which};
+use super::indices::counter;
 use super::lines::Line;
 use super::moves::Row;
-use super::numbers::{ANY_LABEL, MOST_NUMBER, counter, of_position};
+use super::numbers::ANY_LABEL;
 use super::offsets::Axes;
 use super::reader::{Reader, called};
 use super::words::{
-    Named, Register, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position,
-    element, indexed, is_word, local, motion, parts, position, register, whole, word_length, words,
+    Named, assigned, behind_group, bracket_end, comma, concerns_group_1, each_position, indexed,
+    is_word, motion, parts, whole, word_length, words,
 };
-use crate::program::script::{
-    Argument, Call, Expr, How, Remark, RoutineId, Start, VariableId, Written, short,
-};
+use crate::program::script::{Argument, Call, Expr, Remark, RoutineId, Start, VariableId, short};
 use std::collections::BTreeSet;
 
 /// Conditions inside conditions.
@@ -35,8 +33,29 @@ pub(super) struct State {
     /// The row of arcs that is open.
     pub row: Option<Row>,
     labels: BTreeSet<u64>,
+    /// The rounds of loops that are open and gone through round by round, one times another; 0 where
+    /// there are none.
+    rounds: usize,
     /// A register says which label the program goes to.
     goes_anywhere: bool,
+}
+
+impl State {
+    /// How often the present text is gone through.
+    pub(super) fn rounds(&self) -> usize {
+        self.rounds.max(1)
+    }
+
+    /// A loop begins of so many rounds that are gone through one by one; hands over what was before.
+    pub(super) fn begin_rounds(&mut self, count: usize) -> usize {
+        let rounds = self.rounds() * count;
+        std::mem::replace(&mut self.rounds, rounds)
+    }
+
+    /// It ends.
+    pub(super) fn end_rounds(&mut self, before: usize) {
+        self.rounds = before;
+    }
 }
 
 impl Reader<'_> {
@@ -51,9 +70,8 @@ impl Reader<'_> {
         let word = &text[..word_length(text)];
         let is_else = word.eq_ignore_ascii_case(b"ELSE") || word.eq_ignore_ascii_case(b"SONST");
         let is_case = text.starts_with(b"=") || is_else && comma(text).is_some();
-        if !is_case && std::mem::take(&mut self.state.selects) {
-            self.builder.end_choice();
-            self.known.close();
+        if !is_case {
+            self.end_select();
         }
         if is_case || is_else {
             // what the branch before wrote is not there in this one
@@ -67,12 +85,18 @@ impl Reader<'_> {
         }
     }
 
+    /// What follows is no case of a SELECT.
+    pub(super) fn end_select(&mut self) {
+        if std::mem::take(&mut self.state.selects) {
+            self.builder.end_choice();
+            self.known.close();
+        }
+    }
+
     /// The end of a program's text.
     pub(super) fn end(&mut self) {
+        self.end_select();
         let state = std::mem::take(&mut self.state);
-        if state.selects {
-            self.builder.end_choice();
-        }
         self.known.end();
         if state.goes_anywhere {
             self.builder.back();
@@ -109,9 +133,9 @@ impl Reader<'_> {
             }
             (b"FOR", _) => {
                 let text = canonical(rest);
-                let most = self
-                    .known
-                    .begin_loop(self.builder.script.loops.len(), counter(&text));
+                let next = self.builder.script.loops.len();
+                let before = self.before.as_deref();
+                let most = self.known.begin_loop(next, counter(&text), before);
                 self.builder.begin_rounds(true, most);
             }
             (b"ENDFOR", _) => {
@@ -265,7 +289,7 @@ impl Reader<'_> {
         }
         let is_quiet = |(routine, _): &(RoutineId, bool)| self.quiet.contains(routine);
         if callees.is_empty() || is_chosen(text) || !callees.iter().all(is_quiet) {
-            self.known.clear();
+            self.known.leave(self.before.as_deref());
         }
         let callees = callees.iter().map(|(routine, _)| *routine).collect();
         let arguments = first..short(self.builder.script.arguments.len());
@@ -365,181 +389,6 @@ impl Reader<'_> {
             self.say(self.place, remark);
         }
     }
-
-    // ---- writes
-
-    pub(super) fn write(&mut self, variable: Written, how: How) {
-        let place = self.place;
-        self.builder.write(place, variable, how);
-    }
-
-    pub(super) fn set(&mut self, variable: VariableId, value: Expr) {
-        self.write(Written::One(variable), How::Whole(value));
-    }
-
-    /// An instruction that nobody knows may write the registers that it names.
-    fn lose_registers(&mut self, text: &[u8]) {
-        let text = canonical(text);
-        for at in memchr::memmem::find_iter(&text, b"R[") {
-            let is_position = at.checked_sub(1).is_some_and(|before| text[before] == b'P');
-            let inside = &text[at + 2..];
-            let number = register(&inside[..bracket_end(inside).unwrap_or(0)]).number;
-            let Some(number) = number.filter(|number| *number < MOST_NUMBER) else {
-                continue;
-            };
-            if is_position {
-                for element in 0..6 {
-                    self.known.lose(of_position(number, element));
-                }
-            } else if at == 0 || !is_word(text[at - 1]) {
-                self.known.lose(number);
-            }
-        }
-    }
-
-    fn mode(&mut self, name: &[u8], rest: &[u8]) {
-        let Some((mode, variable, holds)) = self.controller.mode(name, rest) else {
-            return;
-        };
-        self.set(variable, holds);
-        if mode == Mode::Search && holds != Expr::Absent {
-            // what is found goes into the register
-            let mut found = None;
-            each_position(rest, |named| found = found.or(Some(named)));
-            if let Some(Named::Register(Register {
-                number: Some(number),
-                ..
-            })) = found
-            {
-                let register = self.register(number);
-                self.set(register, Expr::Unknown(self.controller.computed));
-                self.lose_registers(rest);
-            }
-        }
-    }
-
-    /// `UTOOL_NUM=5`
-    fn select(&mut self, which: Which, value: &[u8]) {
-        for kind in kinds(which) {
-            let value = match which {
-                Some(_) => self.selection(which, value),
-                None => Expr::Unknown(self.controller.chosen),
-            };
-            let of = self.controller.of(kind);
-            let (selected, active) = (of.selected, of.active);
-            self.set(selected, value);
-            self.set(active, value);
-        }
-    }
-
-    /// A number that selects a tool or frame: written out, or an argument of the program's call,
-    /// `AR[1]`.
-    fn selection(&mut self, which: Which, text: &[u8]) -> Expr {
-        if let Some(number) = whole(text) {
-            return self
-                .controller
-                .number(&mut self.builder.script, which, number);
-        }
-        // what the program has just written into a register
-        let written = self.known.entered(u32::MAX, &canonical(text), 0).exact();
-        let is_number =
-            |value: &f64| value.fract() == 0.0 && (0.0..=f64::from(u8::MAX)).contains(value);
-        if let Some(number) = written.filter(is_number) {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let number = number as u32;
-            return self
-                .controller
-                .number(&mut self.builder.script, which, number);
-        }
-        match text.strip_prefix(b"AR").and_then(indexed).flatten() {
-            Some(number) => Expr::Variable(self.argument(self.listing.routine, number)),
-            None => Expr::Unknown(self.controller.chosen),
-        }
-    }
-
-    /// `NAME[index]=value`
-    fn assign(&mut self, name: &[u8], index: &[u8], value: &[u8]) {
-        let is_ours = concerns_group_1(index);
-        match name {
-            b"P" => self.set_point(index, value),
-            b"PR" | b"LPR" | b"UFRAME" | b"UTOOL" if !is_ours => {}
-            b"PR" => self.set_register(index, value),
-            b"R" => self.set_number(index, value),
-            b"LPR" => self.set_register(&of_program(index), value),
-            b"LR" => self.set_number(&of_program(index), value),
-            b"UFRAME" | b"UTOOL" => {
-                self.set_frame(kind_of(name), whole(behind_group(index)), value);
-            }
-            b"$MNUTOOLNUM" | b"$MNUFRAMENUM" => {
-                if whole(index).is_none_or(|group| group == 1) {
-                    self.select(kind_of(&name[3..]), value);
-                }
-            }
-            b"$MNUTOOL" | b"$MNUFRAME" => {
-                let mut parts = index.split(|&b| b == b',').map(<[u8]>::trim_ascii);
-                let group = parts.next().and_then(whole);
-                if group.is_none_or(|group| group == 1) {
-                    let number = parts.next().and_then(whole);
-                    self.set_frame(kind_of(&name[3..]), number, value);
-                }
-            }
-            _ => match selects(name) {
-                Some(which) if is_ours => self.select(which, value),
-                Some(_) => {}
-                // a position goes into nothing else, in any dictionary
-                None if is_whole_position(value) && !is_data(name) => {
-                    self.set_frame(None, whole(index), value);
-                }
-                None => {}
-            },
-        }
-    }
-
-    /// `UFRAME[6]=PR[60]`; without a number a register says which.
-    fn set_frame(&mut self, which: Which, number: Option<u32>, value: &[u8]) {
-        let assigned = Expr::Unknown(self.controller.assigned);
-        let source = match position(value) {
-            Some((Named::Register(register), _)) => self.reads(register),
-            _ => None,
-        };
-        for kind in kinds(which).filter(|_| number != Some(0)) {
-            let Some(number) = number else {
-                let others = self.controller.of(kind).others;
-                self.write(Written::AnyOf(others), How::Whole(assigned));
-                continue;
-            };
-            let script = &mut self.builder.script;
-            let entry = self.controller.entry(script, kind, number);
-            let written = source.filter(|_| which.is_some());
-            let numbers = written.and_then(|register| self.known.pose(register));
-            if let Some(pose) = numbers {
-                let value = Expr::Value(script.frame(number.to_string(), Some(pose)));
-                self.set(entry, value);
-                continue;
-            }
-            // whether the register is known depends on the other programs, too
-            if let Some(register) = written {
-                self.from_registers.push((script.writes.len(), register));
-            }
-            let value = self.other_frame(value).unwrap_or(assigned);
-            self.set(entry, value);
-        }
-    }
-
-    /// `UTOOL[1]` as a value.
-    pub(super) fn other_frame(&mut self, value: &[u8]) -> Option<Expr> {
-        let (word, index) = value.split_at(word_length(value));
-        let kind = match word {
-            b"UTOOL" => Kind::Tool,
-            b"UFRAME" => Kind::Frame,
-            _ => return None,
-        };
-        let number = indexed(index)??;
-        let entry = self
-            .controller
-            .entry(&mut self.builder.script, kind, number);
-        Some(Expr::Variable(entry))
-    }
 }
 
 /// Whether a register says which program is called.
@@ -547,18 +396,6 @@ pub(super) fn is_chosen(text: &[u8]) -> bool {
     text[word_length(text)..]
         .trim_ascii_start()
         .starts_with(b"[")
-}
-
-/// The index of `LPR[4,3]`, as that of a register that other programs do not have; `?` where
-/// another register says it.
-fn of_program(index: &[u8]) -> Vec<u8> {
-    let of = register(index);
-    let number = of.number.and_then(local);
-    let number = number.map_or("?".into(), |number| number.to_string());
-    let element = of.is_element.then(|| element(index)).flatten();
-    let element = element.map(|element| format!(",{element}"));
-    let element = element.unwrap_or_else(|| if of.is_element { ",?" } else { "" }.into());
-    (number + &element).into_bytes()
 }
 
 /// Whether `THEN` ends a condition.
@@ -575,36 +412,22 @@ fn is_action(text: &[u8]) -> bool {
 }
 
 /// Whether a word in capitals is one of those.
-fn is_one_of(word: &[u8], all: &str) -> bool {
+pub(super) fn is_one_of(word: &[u8], all: &str) -> bool {
     all.split_ascii_whitespace()
         .any(|known| known.as_bytes() == word)
 }
 
 /// `UTOOL_NUM` and its translations.
-fn selects(name: &[u8]) -> Option<Which> {
+pub(super) fn selects(name: &[u8]) -> Option<Which> {
     name.strip_suffix(b"_NUM").map(kind_of)
 }
 
-fn kind_of(name: &[u8]) -> Which {
+pub(super) fn kind_of(name: &[u8]) -> Which {
     match name {
         [b'U', b'T', ..] | [b'W', b'K', b'Z', ..] => Some(Kind::Tool),
         [b'U', b'F', ..] | [b'B', b'E', b'N', ..] => Some(Kind::Frame),
         _ => None,
     }
-}
-
-/// Whether a value is a position, and not one number of it.
-fn is_whole_position(value: &[u8]) -> bool {
-    position(value).is_some_and(|(named, _)| match named {
-        Named::Register(register) => !register.is_element,
-        Named::Point(_) | Named::AnyPoint => true,
-        Named::Computed => false,
-    })
-}
-
-/// Registers and signals.
-fn is_data(name: &[u8]) -> bool {
-    is_one_of(name, "R AR SR VR DO RO GO AO DI RI GI AI F M TIMER")
 }
 
 /// Whether an instruction that is no assignment writes no registers, and calls nothing.

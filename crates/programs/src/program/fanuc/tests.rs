@@ -3,6 +3,7 @@
 mod compensated;
 mod deciding;
 mod flow;
+mod indices;
 mod offsets;
 mod posts;
 mod registers;
@@ -73,6 +74,21 @@ fn blocked(program: &Program) -> Vec<&str> {
 fn values(program: &Program, target: usize) -> Vec<f64> {
     let numbers = program.numbers_of(&program.targets[target]);
     numbers.iter().map(|number| number.value).collect()
+}
+
+/// A program whose point stands on a rail that the profile lists.
+fn on_a_rail(lines: &str) -> Program {
+    let rail = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
+    let settings = Settings {
+        external: ExternalNames {
+            listed: vec!["E1".into()],
+            linear: vec![true],
+            ..ExternalNames::default()
+        },
+        ..Settings::default()
+    };
+    let files = [("a.ls", &*listing(lines, &rail))];
+    read_with(&files, &settings).expect("a program")
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::lines::words;
 use super::reader::Reader;
 use crate::program::kit::label_key;
-use crate::program::script::{Instruction, Modal, Place};
+use crate::program::script::Place;
 
 /// Words behind the job of a call that say with what it runs.
 const GIVEN: [&[u8]; 2] = [b"ARGF", b"UF#"];
@@ -87,24 +87,9 @@ impl Reader<'_> {
     /// `MOVL … TRAP *E`: the move that was put last may end anywhere, and there the job goes on.
     pub(super) fn trap(&mut self, place: Place, label: &[u8]) {
         self.builder.begin_if(None);
-        self.stop(place);
+        self.builder.stop(place);
         self.jump(label, false);
         self.builder.end_choice();
-    }
-
-    /// The robot stops on its way: where it stands then is known to nobody.
-    pub(super) fn stop(&mut self, place: Place) {
-        let script = &self.builder.script;
-        let Some(last) = script.instructions.last() else {
-            return;
-        };
-        let Modal { tool, frame, .. } = script.modals[last.modal as usize];
-        let stopped = Modal {
-            tool,
-            frame,
-            ..Modal::default()
-        };
-        self.builder.go(Instruction::at(place), stopped);
     }
 }
 

@@ -210,7 +210,8 @@ impl<'a> Reader<'a> {
         if kind == Kind::Joint {
             modal.configured = Expr::Value(self.honoured);
         }
-        let mut reasons = vec![self.variables.shift, self.variables.seam];
+        let of = &self.variables;
+        let mut reasons = vec![of.shift, of.axes, of.seam];
         if let Some(cause) = cause_of(kind) {
             reasons.push(self.variables.reason(&mut self.builder, cause));
         }
@@ -241,7 +242,7 @@ impl<'a> Reader<'a> {
         modal.guards = self.variables.guards(&mut self.builder, &reasons);
         self.builder.go(instruction, modal);
         if words.may_stop {
-            self.stop(place);
+            self.builder.stop(place);
         }
     }
 
@@ -331,8 +332,14 @@ impl<'a> Reader<'a> {
 
     /// The script, with what can only be said at the end.
     pub(super) fn finish(mut self) -> Script {
-        let Variables { shift, seam, .. } = self.variables;
-        for (never, variable) in [(!self.shifts, shift), (!self.tracks_seams, seam)] {
+        let Variables {
+            shift, axes, seam, ..
+        } = self.variables;
+        for (never, variable) in [
+            (!self.shifts, shift),
+            (!self.shifts_axes, axes),
+            (!self.tracks_seams, seam),
+        ] {
             for set in &mut self.builder.script.guards {
                 if never {
                     *set = set.iter().copied().filter(|one| *one != variable).collect();

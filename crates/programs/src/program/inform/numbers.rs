@@ -5,6 +5,10 @@
 //! number is any of what the text writes into it; where a job may read it before it has set it, also
 //! what only the running program knows.
 
+mod sums;
+
+pub(super) use sums::Amounts;
+
 use super::calls::is_macro;
 use super::job::Job;
 use super::lines::{Line, words};
@@ -16,6 +20,7 @@ use crate::program::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use crate::program::script::VariableId;
 use foldhash::{HashMap, HashSet};
 use std::rc::Rc;
+use sums::{Terms, summed};
 
 /// Numbers that are known as they were written last.
 const MOST_NOW: usize = 512;
@@ -38,6 +43,7 @@ pub(super) enum Written {
     Text(Rc<[u8]>, u32),
     /// What `FOR` counts from the first to the second.
     Counted([Rc<[u8]>; 2], u32),
+    Sum(Terms),
 }
 
 /// What a job has just written: the number of a position and something more, or something alone.
@@ -47,9 +53,6 @@ pub(super) struct Now {
     pub value: f64,
 }
 
-/// A position as it is where an instruction adds it.
-pub(super) type Amounts = [Option<f64>; OF_POSITION];
-
 /// What is known of the numbers of all jobs.
 #[derive(Debug, Default)]
 pub(super) struct Known {
@@ -57,8 +60,9 @@ pub(super) struct Known {
     blocks: Blocks,
     keys: HashMap<Key, u32>,
     now: HashMap<u32, Now>,
-    /// The texts that the job has just written.
+    /// The texts that the job has just written, and the sums.
     texts: HashMap<u32, Rc<[u8]>>,
+    sums: HashMap<u32, Terms>,
     job: u32,
     /// Branches and loops that are open, with what these count.
     open: Vec<Option<u32>>,
@@ -78,6 +82,8 @@ pub(super) struct Known {
     loops: Vec<(u32, (u32, u32), usize)>,
     /// Numbers that are written not by FOR alone.
     assigned: HashSet<u32>,
+    /// The positions of which each is a copy or a sum.
+    sources: HashMap<VariableId, HashSet<VariableId>>,
 }
 
 impl Known {
@@ -123,12 +129,14 @@ impl Known {
     pub(super) fn clear(&mut self) {
         self.now.clear();
         self.texts.clear();
+        self.sums.clear();
     }
 
     /// Of a number nothing is known here.
     fn forget(&mut self, number: u32) {
         self.now.remove(&number);
         self.texts.remove(&number);
+        self.sums.remove(&number);
     }
 
     pub(super) fn label(&mut self, key: u64) {
@@ -242,17 +250,24 @@ impl Known {
     fn write_as(&mut self, number: u32, text: &[u8], elsewhere: &[u8]) {
         self.reads(text);
         let present = self.present(text);
+        self.put(number, present, Written::Text(elsewhere.into(), self.job));
+    }
+
+    /// A number becomes something, which is so much here.
+    fn put(&mut self, number: u32, present: Option<Now>, written: Written) {
         if self.texts.len() > MOST_NOW || self.now.len() > MOST_NOW {
             self.clear();
         }
-        match present {
-            Some(present) => _ = self.now.insert(number, present),
-            None => _ = self.now.remove(&number),
+        self.forget(number);
+        if let Some(present) = present {
+            self.now.insert(number, present);
+        }
+        match &written {
+            Written::Text(text, _) => _ = self.texts.insert(number, Rc::clone(text)),
+            Written::Sum(terms) => _ = self.sums.insert(number, terms.clone()),
+            Written::Counted(..) => {}
         }
         let site = self.blocks.site();
-        let text: Rc<[u8]> = elsewhere.into();
-        self.texts.insert(number, Rc::clone(&text));
-        let written = Written::Text(text, self.job);
         self.numbers.write(number, written, Some(site));
         self.assigned.insert(number);
         if self.ahead.is_empty() {
@@ -469,19 +484,6 @@ impl Known {
         (times == 1.0 && is_one).then_some(Now { of, value })
     }
 
-    /// A position as it was just written, where it was.
-    pub(super) fn position_now(&mut self, position: VariableId) -> Amounts {
-        std::array::from_fn(|at| {
-            let element = self.element(position, at);
-            let now = self.now.get(&element).filter(|now| now.of.is_none());
-            let is_set = self.declared.contains(&element) || self.set.contains_key(&element);
-            if now.is_none() && !is_set {
-                self.numbers.lose(element);
-            }
-            now.map(|now| now.value)
-        })
-    }
-
     /// All jobs are read. The loops of the script that may not count as they say.
     pub(super) fn finish(&mut self) -> Vec<usize> {
         self.clear();
@@ -504,21 +506,6 @@ impl Known {
         assigned.collect()
     }
 
-    /// The numbers of a position: as it was, or any that the text writes into it.
-    pub(super) fn amounts(
-        &mut self,
-        position: VariableId,
-        now: &Amounts,
-    ) -> [Quantity; OF_POSITION] {
-        std::array::from_fn(|at| {
-            if let Some(value) = now[at] {
-                return Quantity::exactly(value);
-            }
-            let element = self.element(position, at);
-            self.value(element)
-        })
-    }
-
     fn value(&self, number: u32) -> Quantity {
         let evaluate = |written: &Written, of: &mut dyn FnMut(u32) -> Quantity| match written {
             Written::Text(text, job) => self.evaluated(text, *job, of),
@@ -530,6 +517,7 @@ impl Known {
                     Some(Quantity::exactly(1.0)),
                 )
             }
+            Written::Sum(terms) => summed(terms, of),
         };
         self.numbers.value(number, &evaluate)
     }

@@ -6,6 +6,7 @@
 
 use super::instruction::{Effect, Operand, is_actual, is_move, numbered};
 use super::job::Coordinates;
+use super::jumps::is_condition;
 use super::lines::{Line, Lines, words};
 use super::numbers::{self, Amounts, OF_POSITION};
 use super::reader::Reader;
@@ -179,6 +180,42 @@ impl Reader<'_> {
                     self.numbers.declare(variable, &values);
                 }
             }
+        }
+    }
+
+    /// The numbers of a position that an instruction writes as a whole: `SET P001 P002` copies them,
+    /// `ADD P001 P002` and `SUB` add them up.
+    pub(super) fn position_becomes(
+        &mut self,
+        line: Line,
+        (first, effect): (&[u8], Effect),
+        to: Written,
+    ) {
+        let place = self.place(line.start);
+        let mut given = words(line.text).skip(2);
+        let from = given.next().and_then(Operand::of);
+        // what else is said changes them
+        let is_plain = given
+            .take_while(|word| !is_condition(word))
+            .next()
+            .is_none();
+        let from = from
+            .filter(|_| is_plain)
+            .and_then(|of| self.written_by(of, place));
+        match (first, to, from) {
+            (b"SET", Written::One(to), Some(Written::One(from))) => {
+                self.numbers.add_up(to, &[(1.0, from)]);
+            }
+            (b"ADD", Written::One(to), Some(Written::One(by))) => {
+                self.numbers.add_up(to, &[(1.0, to), (1.0, by)]);
+            }
+            (b"SUB", Written::One(to), Some(Written::One(by))) => {
+                self.numbers.add_up(to, &[(1.0, to), (-1.0, by)]);
+            }
+            (_, Written::One(to), _) => {
+                self.numbers.replace(Some(to), effect == Effect::System);
+            }
+            (_, Written::AnyOf(_), _) => self.numbers.replace(None, effect == Effect::System),
         }
     }
 

@@ -52,6 +52,7 @@ pub(super) fn script<'a>(
         macros: Vec::new(),
         indexed: Indexed::default(),
         shifts: false,
+        shifts_axes: false,
         tracks_seams: false,
         here: Here::default(),
         external_names,
@@ -144,8 +145,9 @@ pub(super) struct Reader<'a> {
     pub(super) macros: Vec<(usize, RoutineId)>,
     /// Moves to P variables by a number that is not written out.
     pub(super) indexed: Indexed,
-    /// Whether any job switches a shift or a seam tracker on.
+    /// Whether any job switches a shift, one of external axes, or a seam tracker on.
     pub shifts: bool,
+    pub shifts_axes: bool,
     pub tracks_seams: bool,
     pub here: Here,
     /// External axes that the profile describes.
@@ -441,11 +443,7 @@ impl<'a> Reader<'a> {
         let third = words(line.text).nth(2).unwrap_or_default();
         self.note_known(effect, third, written);
         if first != b"SETE" {
-            let one = match written {
-                Written::One(variable) => Some(variable),
-                Written::AnyOf(_) => None,
-            };
-            self.numbers.replace(one, effect == Effect::System);
+            self.position_becomes(line, (first, effect), written);
         }
         let value = match effect {
             // with another tool it is another place
@@ -574,7 +572,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether a job writes a variable with the axes of a base or station.
-    fn is_written_external(&self, (letters, number): super::job::External) -> bool {
+    pub(super) fn is_written_external(&self, (letters, number): super::job::External) -> bool {
         let any = (letters, None);
         let one = (letters, Some(number));
         self.written_external.contains(&any) || self.written_external.contains(&one)
@@ -582,7 +580,7 @@ impl<'a> Reader<'a> {
 
     /// How much a value that counts in pulses is of one millimetre or degree; not a number where
     /// nobody knows.
-    fn pulses_of(&self, axis: u8, counts: bool) -> f64 {
+    pub(super) fn pulses_of(&self, axis: u8, counts: bool) -> f64 {
         let pulses = self.external_names.pulses.get(usize::from(axis));
         match pulses.copied().flatten() {
             _ if !counts => 1.0,

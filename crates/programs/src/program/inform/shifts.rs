@@ -6,17 +6,17 @@
 //! the base is meant in any case.
 
 use super::instruction::{Operand, numbered};
-use super::job::{Coordinates, Origin};
+use super::job::{Coordinates, Origin, external};
 use super::jumps::is_condition;
 use super::lines::{Line, words};
 use super::numbers::Amounts;
 use super::reader::Reader;
 use super::remarks::Cause;
 use crate::geometry::units::MM;
-use crate::program::Displacement;
 use crate::program::displacing::Displacing;
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Held, How, NOT_DISPLACED, VariableId, Written};
+use crate::program::{Displacement, ExternalUse};
 
 /// Numbers in variables count in thousandths of a millimetre.
 pub(super) const PER_MM: f64 = 1e3;
@@ -29,6 +29,12 @@ pub(super) struct Shifted {
     now: Amounts,
     /// The frame that it names.
     frame: Option<Origin>,
+}
+
+/// Whether a word is a variable with the axes of a base or a station.
+fn is_axes(word: &[u8]) -> bool {
+    let word = word.strip_prefix(b"L").unwrap_or(word);
+    word.starts_with(b"BP") || word.starts_with(b"EX")
 }
 
 impl Reader<'_> {
@@ -44,6 +50,43 @@ impl Reader<'_> {
         let value = Expr::Value(self.builder.script.value(value));
         let variable = self.variables.shift;
         self.write(line, Written::One(variable), How::Whole(value));
+        let axes = self.axes_shifted(line).filter(|_| is_on);
+        let axes = axes.filter(|by| *by != [0.0; 6]);
+        self.shifts_axes |= axes.is_some();
+        let axes = axes.map(|by| Held::ExternalOffset(Box::new(by)));
+        let value = axes.map_or(Expr::Absent, |axes| self.builder.script.held(axes));
+        let variable = self.variables.axes;
+        self.write(line, Written::One(variable), How::Whole(value));
+    }
+
+    /// By what a shift shifts the axes of the base and of a station, `SFTON P000 BP000 EX000 BF`, in the
+    /// order of the language; `None` where that is not known.
+    fn axes_shifted(&self, line: Line) -> Option<[f64; 6]> {
+        let known = &self.positions.jobs[self.here.job].external;
+        let named = words(line.text).skip(2);
+        let mut by = [0.0; 6];
+        for name in named.take_while(|word| !is_condition(word)) {
+            if !is_axes(name) {
+                continue;
+            }
+            let named = external(name).filter(|named| !self.is_written_external(*named))?;
+            let moved = known.get(&named)?;
+            let counts = moved.coordinates == Some(Coordinates::Pulses);
+            let of_station = name.starts_with(b"E");
+            for (n, value) in moved.values.iter().enumerate() {
+                let letters = if of_station { "EC" } else { "BC" };
+                match self.external_names.meaning(&format!("{letters}{}", n + 1)) {
+                    ExternalUse::Listed(axis) => {
+                        let value = value / self.pulses_of(axis, counts);
+                        let at = n + if of_station { 3 } else { 0 };
+                        *by.get_mut(at)? = Some(value).filter(|value| value.is_finite())?;
+                    }
+                    ExternalUse::Unknown if *value != 0.0 => return None,
+                    _ => {}
+                }
+            }
+        }
+        Some(by)
     }
 
     /// The arc corrects moves from COMARCON to COMARCOF.
@@ -63,7 +106,11 @@ impl Reader<'_> {
     /// Notes what the next write switches on, until all jobs are read.
     fn note_shift(&mut self, line: Line) {
         let mut words = words(line.text).take_while(|word| !is_condition(word));
-        let (first, second, third) = (words.next(), words.next(), words.next());
+        let (first, second) = (words.next(), words.next());
+        let third = words.find(|word| !is_axes(word));
+        if self.axes_shifted(line).is_none() {
+            return;
+        }
         let operand = second.and_then(Operand::of);
         let frame = match third {
             None => None,
@@ -144,10 +191,15 @@ impl Reader<'_> {
         now: &Amounts,
         sign: f64,
     ) -> Option<Displacement> {
-        let targets = self.targets_of(Expr::Variable(variable));
-        let mut copies = self.copies.values();
-        let is_copied = copies.any(|from| from.contains(&Expr::Variable(variable)));
-        if is_copied || targets.iter().any(|target| self.named[*target]) {
+        let sources = self.numbers.sources(variable);
+        let is_rewritten = sources.iter().any(|source| {
+            let others = self.copies.iter().filter(|(to, _)| !sources.contains(to));
+            let mut copies = others.map(|(_, from)| from);
+            let mut poses = self.poses_of(*source).into_iter();
+            copies.any(|from| from.contains(&Expr::Variable(*source)))
+                || poses.any(|target| self.named[target])
+        });
+        if is_rewritten {
             return None;
         }
         let [x, y, z, angles @ ..] = self.numbers.amounts(variable, now);

@@ -19,6 +19,8 @@ const NO_TOOL: &str = "none";
 pub(super) struct Variables {
     /// Shifted or not.
     pub shift: VariableId,
+    /// What a shift adds to the axes of the base and of a station.
+    pub axes: VariableId,
     /// Corrected by the arc (COM-ARC) or not.
     pub seam: VariableId,
     /// `P[…]`
@@ -75,6 +77,7 @@ impl Variables {
     ) -> Self {
         let mut variables = Self {
             shift: constant(builder, Held::Shift(NOT_DISPLACED)),
+            axes: (builder.script).variable(Variable::new("", Place::NOWHERE, Expr::Absent)),
             seam: (builder.script).variable(Variable::new("", Place::NOWHERE, Expr::Absent)),
             positions: builder.script.table("P"),
             frames: builder.script.table("UF#"),

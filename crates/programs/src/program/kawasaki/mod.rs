@@ -60,7 +60,7 @@ static ABOUT: About = About {
     rewrites: &[
         "transformations of .TRANS that JMOVE, LMOVE, HMOVE, C1MOVE, C2MOVE, LAPPRO and JAPPRO go \
          to",
-        "TRANS(…) written out in a move",
+        "TRANS(…) written out in a move; numbers that it leaves out at its end are put in, and reported",
         "joints (.JOINTS, #[…])",
     ],
     leaves: &[
@@ -70,7 +70,7 @@ static ABOUT: About = About {
         "comments, line ends, encoding",
     ],
     refuses: &[
-        "TRANS(…) of fewer than six numbers as a target, values with another axis",
+        "TRANS(…) that leaves a number out between others as a target, values with another axis",
         "tools and bases that only the running program knows",
         "poses behind LEFTY, RIGHTY, ABOVE, BELOW, UWRIST, DWRIST until joints are gone to",
         "searches (XMOVE)",
@@ -108,6 +108,15 @@ impl Language for Kawasaki {
 
     fn pose_roles(&self, _: Layout) -> &'static [Role] {
         &notation::WITH_ANGLES[..6]
+    }
+
+    /// `TRANS(x,y,z)`
+    fn around_missing(&self, _: Layout, _: usize) -> (String, &'static str) {
+        (",".into(), "")
+    }
+
+    fn has_missing_in_order(&self) -> bool {
+        true
     }
 
     fn pose_of(&self, _: Layout, numbers: &[f64]) -> Pose {

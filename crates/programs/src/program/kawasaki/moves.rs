@@ -1,11 +1,12 @@
 //! Moves: what goes where with what.
 
 use super::reader::Reader;
-use super::remarks::{OTHER_MOVE, RELATIVE, SEARCH};
+use super::remarks::{OTHER_MOVE, RELATIVE, SEARCH, TURNED};
 use super::sections::Statement;
 use super::targets::Position;
+use crate::geometry::units::DEG;
 use crate::program::contexts::Varied;
-use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Variable, short};
+use crate::program::script::{Expr, Held, Instruction, Modal, Remark, Span, Turn, Variable, short};
 use crate::program::transformations::{Steps, exactly};
 use crate::program::words::Words;
 use crate::program::{Motion, Source};
@@ -27,7 +28,9 @@ pub(super) enum Verb {
     Search,
     /// Others: of conveyors, of two robots, weaving, arc welding, steps of other kinds.
     Other,
-    /// `DRIVE`, `ALIGN`, `HOME`
+    /// `DRIVE joint,degrees`: one joint turns.
+    Drive,
+    /// `ALIGN`, `HOME`
     Elsewhere,
     /// A step of a taught program: `JOINT SPEED9 ACCU1 TOOL1 … #[…]`.
     Step(Motion),
@@ -56,7 +59,8 @@ impl Verb {
             "TDraw" => Self::Draw(true),
             "Xmove" => Self::Search,
             "" if is_other(words) => Self::Other,
-            "DRIve" | "ALign" | "HOme" => Self::Elsewhere,
+            "DRIve" => Self::Drive,
+            "ALign" | "HOme" => Self::Elsewhere,
             "JOINT" => step(Motion::Joint)?,
             "LINEAR" | "LIN2" => step(Motion::Linear)?,
             "CIR1" => step(Motion::ArcVia)?,
@@ -148,15 +152,13 @@ impl<'a> Reader<'a> {
             }
             Verb::Draw(in_tool) => {
                 let last = self.stands();
-                let by = self.quantities(&list);
-                let mut turned = by.all[3..].iter();
-                let is_turned = turned.any(|angle| angle.exact() != Some(0.0));
+                // behind the angles stands how fast
+                let by = self.quantities(&list[..list.len().min(6)]);
                 let found = if in_tool {
                     last.in_tool(by.map(Steps::one))
-                } else if is_turned {
-                    last.in_tool(Varied::one(Steps::endless()))
                 } else {
-                    last.along(by.map(|[x, y, z, ..]| [x, y, z]))
+                    let angles = by.clone().map(|[.., a, b, c]| [a, b, c]);
+                    last.along(by.map(|[x, y, z, ..]| [x, y, z])).turned(angles)
                 };
                 self.relative(part, &found, Motion::Linear);
             }
@@ -174,6 +176,7 @@ impl<'a> Reader<'a> {
                 self.go(part, None, &found, Motion::Linear, false, Some(modal));
                 self.here.last = None;
             }
+            Verb::Drive => self.drive(part, first, second),
             Verb::Elsewhere => {
                 let unknown = Position::plain(self.unknown(RELATIVE));
                 self.relative(part, &unknown, Motion::Joint);
@@ -194,6 +197,34 @@ impl<'a> Reader<'a> {
                 self.go(part, Some(target), &found, motion, false, Some(modal));
             }
         }
+    }
+
+    /// One joint turns from where the robot stands, by degrees.
+    ///
+    /// # Source
+    /// Kawasaki AS Language Reference Manual (90209-1022DED), DRIVE.
+    fn drive(&mut self, part: Words<'a, '_>, joint: Words<'a, '_>, by: Words<'a, '_>) {
+        let [joint, by] = [joint, by].map(|of| self.quantity(of).exact());
+        let of_six = (1..=6)
+            .zip(0..)
+            .find(|(number, _)| joint == Some(f64::from(*number)));
+        let turned = of_six.zip(by).map(|((_, at), by): ((i32, usize), f64)| {
+            let mut turned = [Turn::Stays; 6];
+            turned[at] = Turn::By(by * DEG);
+            Box::new(turned)
+        });
+        let remark = turned.as_ref().map_or(RELATIVE, |_| TURNED);
+        let unknown = Position::plain(self.unknown(remark));
+        let modal = self.modal_of(Motion::Joint, &unknown);
+        let whole = part.span();
+        let instruction = Instruction {
+            end: short(whole.end),
+            target: unknown.base,
+            turned,
+            ..Instruction::at(self.place(whole.start))
+        };
+        self.builder.go(instruction, modal);
+        self.here.last = None;
     }
 
     /// A move from where the robot stands.

@@ -276,6 +276,13 @@ impl<'a> Reader<'a> {
         Some(((plate.frame, plate.pose, names.len()), object, words))
     }
 
+    /// The plate on which `HERE plate+obj` teaches an object.
+    pub(super) fn taught_on(&self, sum: Words<'a, '_>) -> Option<VariableId> {
+        let ((frame, _, names), object, _) = self.on_plate(sum)?;
+        let is_whole = sum.terms().len() == names + 1;
+        (is_whole && object.stem().is_some()).then_some(frame)
+    }
+
     /// The base is another: so are the plates on it.
     pub(super) fn move_plates(&mut self, base: Expr, words: Words<'a, '_>) {
         let mut plates: Vec<Plate> = self.plates.values().cloned().collect();

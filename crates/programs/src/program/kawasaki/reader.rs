@@ -405,10 +405,11 @@ impl<'a> Reader<'a> {
             "POint" => self.point(rest),
             "HEre" => {
                 if let Some((name, is_sum)) = Name::defined(rest) {
-                    let here = if is_sum {
-                        self.unknown(COMPUTED)
-                    } else {
-                        self.robot(name.is_joints())
+                    let plate = self.taught_on(rest);
+                    let here = match plate {
+                        Some(plate) => self.robot_in(plate),
+                        None if is_sum => self.unknown(COMPUTED),
+                        None => self.robot(name.is_joints()),
                     };
                     self.write_name(&name, How::Whole(here));
                 }

@@ -20,8 +20,8 @@ pub(super) const COMPUTED: Remark = kit::computed(
 /// A target without all numbers.
 pub(super) const PARTIAL: Remark = Remark::error(
     "partial-target",
-    "the target does not have all six numbers",
-    "write all six numbers of TRANS",
+    "a number of the target is left out between others, or of joints",
+    "write all six numbers",
 );
 
 /// `TRANS(1e999,…)`
@@ -52,6 +52,13 @@ pub(super) const RELATIVE: Remark = Remark::warning(
     "the move starts where the robot stands, and the text does not tell where: it \
                  stays as it is",
     "move to a name of .TRANS or .JOINTS where it must be exact",
+);
+
+/// A joint that turns from where it is.
+pub(super) const TURNED: Remark = Remark::note(
+    "relative-joint-move",
+    "this move turns a joint from where the robot is; it is left as it is",
+    "",
 );
 
 /// A move that a signal ends.

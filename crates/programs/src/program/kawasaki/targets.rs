@@ -119,6 +119,12 @@ impl Position {
         self
     }
 
+    /// With angles added, degrees, about axes through the tool's origin that the text does not tell.
+    pub(super) fn turned(mut self, angles: Varied<[Quantity; 3]>) -> Self {
+        self.by.with(angles, |by, angles| by.turned_by_any(&angles));
+        self
+    }
+
     /// With a way in the base frame added, mm.
     pub(super) fn along(mut self, way: Varied<[Quantity; 3]>) -> Self {
         let plate = self.on.map_or(Pose::identity(), |(_, plate)| plate);
@@ -138,6 +144,23 @@ pub(super) fn shifted<'a, 'w>(term: Words<'a, 'w>) -> Option<(Words<'a, 'w>, Wor
     // that of a shift inside stands before it
     let by = (0..inside.len()).rfind(|at| inside.is_word(*at, b"BY"))?;
     Some((inside.part(0..by), inside.behind(by + 1)))
+}
+
+/// The numbers of `TRANS(x,y,z)`: those that are left out at its end are 0.
+///
+/// # Source
+/// Kawasaki AS Language Reference Manual (90209-1022DED), TRANS.
+fn six_or_fewer(list: &[Words]) -> Option<[Number; 6]> {
+    let end = list.last().filter(|_| list.len() < 6)?.span().end;
+    let mut numbers = [Number {
+        start: short(end),
+        length: 0,
+        value: 0.0,
+    }; 6];
+    for (number, part) in numbers.iter_mut().zip(list) {
+        *number = part.number()?;
+    }
+    Some(numbers)
 }
 
 /// An angle of a transformation that is written out which turns a tool or base many times.
@@ -160,12 +183,16 @@ impl<'a> Reader<'a> {
 
     /// Where the robot itself is.
     pub(super) fn robot(&mut self, is_joints: bool) -> Expr {
-        let [tool, frame] = [self.tool, self.base].map(Expr::Variable);
-        self.builder.script.held(if is_joints {
-            Held::Actual
-        } else {
-            Held::ActualWith { tool, frame }
-        })
+        if is_joints {
+            return self.builder.script.held(Held::Actual);
+        }
+        self.robot_in(self.base)
+    }
+
+    /// Likewise in a base, or on a plate.
+    pub(super) fn robot_in(&mut self, frame: VariableId) -> Expr {
+        let [tool, frame] = [self.tool, frame].map(Expr::Variable);
+        self.builder.script.held(Held::ActualWith { tool, frame })
     }
 
     // ---- what is declared
@@ -442,7 +469,10 @@ impl<'a> Reader<'a> {
     /// A target that is written out, in the brackets that open at a word.
     fn literal(&mut self, whole: Words<'a, '_>, open: usize, shape: Shape) -> Expr {
         let list = whole.rest_list(open).unwrap_or_default();
-        if let Some(numbers) = six(&list) {
+        let partial = (shape == Shape::Pose)
+            .then(|| six_or_fewer(&list))
+            .flatten();
+        if let Some(numbers) = six(&list).or(partial) {
             let Range { start, end } = whole.span();
             let place = self.place(start);
             return Expr::Target(self.add_target(None, place, short(end), shape, numbers));

@@ -193,6 +193,51 @@ fn what_is_added_to_a_position_displaces_it() {
 }
 
 #[test]
+fn numbers_that_a_transformation_leaves_out_are_put_in() {
+    let program =
+        read("TOOL NULL\nBASE NULL\nJMOVE #home\nLMOVE TRANS(100,900.5)\nLMOVE TRANS(1,2,3)");
+    assert_eq!(ids(&program), [""; 0]);
+    let targets: Vec<_> = program
+        .targets
+        .iter()
+        .filter(|t| t.name.is_none())
+        .collect();
+    let values = |at: usize| program.numbers_of(targets[at]).iter().map(|of| of.value);
+    assert!(values(0).eq([100.0, 900.5, 0.0, 0.0, 0.0, 0.0]));
+    assert!(values(1).eq([1.0, 2.0, 3.0, 0.0, 0.0, 0.0]));
+    let lengths = program.numbers_of(targets[1]).iter().map(|of| of.length);
+    assert!(lengths.eq([1, 1, 1, 0, 0, 0]));
+    assert_eq!(
+        Kawasaki.around_missing(targets[1].layout, 3),
+        (",".into(), "")
+    );
+    assert!(Kawasaki.has_missing_in_order());
+}
+
+#[test]
+fn one_joint_turns_from_where_the_robot_is() {
+    use crate::program::script::Turn;
+    let program = read("TOOL NULL\nBASE NULL\nJMOVE #home\nDRIVE 3,-5.5,20\nLMOVE p1");
+    let turned = program.turned(&program.moves[1]).expect("a turn");
+    assert_eq!(turned[2], Turn::By((-5.5_f64).to_radians()));
+    assert!((0..6).all(|at| at == 2 || turned[at] == Turn::Stays));
+}
+
+#[test]
+fn a_tool_that_draw_turns_turns_by_no_more_than_its_angles() {
+    use crate::program::Stride;
+    let program = read("TOOL NULL\nBASE NULL\nJMOVE #home\nLMOVE p1\nDRAW 0,5,0,0,10,-20,100");
+    let Displacement::Within(strides) = &program.moves[2].displacement else {
+        panic!("{:?}", program.moves[2].displacement);
+    };
+    let turned = strides.iter().find_map(|stride| match stride {
+        Stride::Turned(angle) => *angle,
+        _ => None,
+    });
+    assert!((turned.expect("an angle") - 30_f64.to_radians()).abs() < 1e-12);
+}
+
+#[test]
 fn tools_are_followed_and_programs_called() {
     let text = format!(
         ".PROGRAM main()\nTOOL grip\nBASE TRANS(10,0,0)\nCALL go(p1,3)\nIF x>2 THEN\nJMOVE \
@@ -232,7 +277,10 @@ fn tools_are_followed_and_programs_called() {
 #[test]
 fn what_is_not_sure_is_refused_or_reported() {
     for (code, expected) in [
-        ("LMOVE TRANS(1,2,3)", "partial-target"),
+        ("LMOVE TRANS(1,2,3,,5)", "partial-target"),
+        ("DRIVE 3,5", "relative-joint-move"),
+        ("DRIVE 7,5", "relative-move"),
+        ("DRIVE 3,x", "relative-move"),
         ("LMOVE TRANS(1,2,3,4,-1e999,6)", "partial-target"),
         ("LMOVE TRANS(1,2,3,4,5,x)", "computed-target"),
         ("LMOVE TRANS(1,2,3,4,5,6,7)", "target-not-six-axes"),

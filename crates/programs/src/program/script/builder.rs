@@ -12,7 +12,7 @@ use foldhash::HashMap;
 /// What does not fit together (an end without a beginning, a block left open) is passed over:
 /// readers say what is wrong with the text, and the flow then is that of the text without the lone
 /// word.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Builder {
     /// What is put together.
     pub script: Script,
@@ -24,7 +24,7 @@ pub struct Builder {
 }
 
 /// A block that is open.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Block {
     Choice {
         /// Where the next branch begins.
@@ -94,6 +94,22 @@ impl Builder {
         instruction.modal = self.script.modal(modal);
         self.script.instructions.push(instruction);
         self.script.statements.push(Statement::Move(at));
+    }
+
+    /// The robot may stop on the way of the last move, behind which the program goes on: where it
+    /// stands then is known to nobody.
+    pub fn stop(&mut self, place: Place) {
+        let script = &self.script;
+        let Some(last) = script.instructions.last() else {
+            return;
+        };
+        let Modal { tool, frame, .. } = script.modals[last.modal as usize];
+        let stopped = Modal {
+            tool,
+            frame,
+            ..Modal::default()
+        };
+        self.go(Instruction::at(place), stopped);
     }
 
     /// A write.

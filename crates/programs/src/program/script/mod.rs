@@ -74,7 +74,7 @@ pub const UNBOUNDED: DisplacementId = 3;
 pub const TURNED: DisplacementId = 4;
 
 /// The statements of all files.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Script {
     /// Targets with numbers in the files, by file and place.
     pub targets: Vec<Target>,

@@ -298,6 +298,9 @@ pub enum How {
     /// A part of a position grows by a number of the text, or its orientation changes: that
     /// displaces it.
     PartBy(RemarkId, DisplacementId),
+    /// An external axis of a position becomes another one: for targets that is refused with the remark,
+    /// where there is one.
+    Axis(Option<RemarkId>),
     /// A part of a position becomes the same part of another position, displaced along it.
     PartOf {
         /// Why it is not what it was.

@@ -330,21 +330,6 @@ fn counters_displace_through_numbers_of_registers_as_far_as_loops_count() {
     );
 }
 
-/// A program whose point stands on a rail that the profile lists.
-fn on_a_rail(lines: &str) -> Program {
-    let rail = usual("1").replace("-.287 deg", "-.287 deg,\n\tE1=  -345.000  mm");
-    let settings = Settings {
-        external: ExternalNames {
-            listed: vec!["E1".into()],
-            linear: vec![true],
-            ..ExternalNames::default()
-        },
-        ..Settings::default()
-    };
-    let files = [("a.ls", &*listing(lines, &rail))];
-    read_with(&files, &settings).expect("a program")
-}
-
 /// Whether the last move shifts the rail by what only the running program knows.
 fn shifts_the_rail(lines: &str) -> bool {
     let program = on_a_rail(lines);

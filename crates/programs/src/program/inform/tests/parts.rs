@@ -29,6 +29,15 @@ fn a_position_of_the_files_displaces_a_copy_by_its_numbers() {
     assert_eq!(displaced("SUB LP001 P002"), up(-200.0));
     for (text, by) in [
         ("SETE P002 (3) 100000\nADD LP001 P002", 100.0),
+        ("SET P003 P002\nADD LP001 P003", 200.0),
+        (
+            "SET P003 P002\nSUB P003 P002\nSUB P003 P002\nADD LP001 P003",
+            -200.0,
+        ),
+        (
+            "SETE P002 (3) 5000\nSET P003 P002\nSETE P002 (3) 0\nADD P003 P003\nADD LP001 P003",
+            10.0,
+        ),
         ("SET D000 -5000\nSETE P002 (3) D000\nADD LP001 P002", -5.0),
         (
             "SET D000 7\nSET D001 EXPRESS D000 * ( 2 + 1 )\nMUL D001 1000\nDEC D001\nSUB D001 999\n\
@@ -167,6 +176,16 @@ fn a_shift_of_the_text_displaces_moves_until_it_is_off() {
         }
         assert_eq!((found, errors), (wanted, vec![]), "{instructions}");
     }
+    // what is copied and added up
+    for (text, by) in [
+        ("SET P003 P002\nSFTON P003 UF#(12)", 200.0),
+        ("SET P003 P002\nADD P003 P002\nSFTON P003 UF#(12)", 400.0),
+        ("SET P003 P002\nSUB P003 P006\nSFTON P003 UF#(12)", 170.0),
+    ] {
+        let head = format!("{USER}P00006=0,0,30,0,0,0\n");
+        let (found, errors) = shifted(&head, &format!("{text}\n{two}"));
+        assert_eq!((found, errors), (vec![up(by)], vec![]), "{text}");
+    }
     // a job of its own switches it on, with what it is given
     let base = "///TOOL 3\n///POSTYPE BASE\n///RECTAN\n///RCONF 1,0,0,0,0,0,0,0\n";
     let main = job(
@@ -187,6 +206,40 @@ fn a_shift_of_the_text_displaces_moves_until_it_is_off() {
 }
 
 #[test]
+fn a_shift_of_external_axes_moves_these() {
+    let settings = |listed: &[&str]| Settings {
+        external: crate::program::ExternalNames {
+            listed: listed.iter().map(|&name| name.into()).collect(),
+            linear: listed.iter().map(|name| name.starts_with('B')).collect(),
+            pulses: vec![None; listed.len()],
+            ..crate::program::ExternalNames::default()
+        },
+        ..Settings::default()
+    };
+    let base = "///TOOL 3\n///POSTYPE BASE\n///RECTAN\n///RCONF 1,0,0,0,0,0,0,0\n";
+    let positions = format!(
+        "{base}{}P00002=0,0,200,0,0,0\nBP00001=500.000\nEX00001=0.000\nBC00000=100.000",
+        points(1)
+    );
+    let text = "MOVL C00000 BC00000 V=5\nSFTON P002 BP001 EX001 BF\nMOVL C00000 BC00000 \
+        V=5\nSFTOF\nMOVL C00000 BC00000 V=5";
+    let read =
+        |listed: &[&str]| read_files(&[&job(&positions, text)], &settings(listed)).expect("a job");
+    let program = read(&["BC1"]);
+    let shifts = program.moves.iter().map(|of| of.displacement.clone());
+    let wanted = [Displacement::None, up(200.0), Displacement::None];
+    assert!(shifts.eq(wanted), "{:?}", program.findings);
+    let offsets = program.moves.iter().map(|of| {
+        let at = (of.external_state as usize).checked_sub(1);
+        at.map_or(0.0, |at| program.external_states[at].offset[0])
+    });
+    assert!(offsets.eq([0.0, 500.0, 0.0]));
+    // of an axis that nobody knows it is refused
+    let program = read(&[]);
+    assert!(ids(&program).contains(&"displacement-active"));
+}
+
+#[test]
 fn a_shift_that_is_not_followed_refuses_moves() {
     let go = "MOVL C00000 V=5";
     for shift in [
@@ -200,6 +253,11 @@ fn a_shift_that_is_not_followed_refuses_moves() {
         "SFTON3D P002 UF#(12)",
         "GETS PX002 $PX001\nSFTON P002 UF#(12)",
         "SETE P002 (3) D000\nSFTON P002 UF#(12)",
+        "SET P003 P004\nSFTON P003 UF#(12)",
+        "SET P003 P002\nMOVL P002 V=5\nSFTON P003 UF#(12)",
+        "SET P003 P002\nADD P003 P005\nSFTON P003 UF#(12)",
+        "SFTON P002 BP001 UF#(12)",
+        "SFTON P002 EX[B000] UF#(12)",
         "MOVL P002 V=5\nSFTON P002 UF#(12)",
     ] {
         let (_, errors) = shifted(USER, &format!("{shift}\n{go}"));
@@ -221,9 +279,8 @@ fn what_only_the_robot_knows_displaces_a_copy_as_a_sensor_does() {
 #[test]
 fn what_the_text_tells_and_is_not_followed_has_no_bound() {
     for text in [
+        // from run to run
         "ADD P002 P002\nADD LP001 P002",
-        "SET P003 P002\nADD LP001 P003",
-        "SUB P003 P002\nADD LP001 P003",
         "ADD LP001 P004",
         "ADD LP001 P004 IF IN#(1)=ON",
         "ADD LP001 LP001",
@@ -235,6 +292,11 @@ fn what_the_text_tells_and_is_not_followed_has_no_bound() {
     ] {
         assert_eq!(displaced(text), Displacement::Unbounded, "{text}");
     }
+    let Displacement::AtLeast(strides) = displaced("SUB P003 P002\nADD LP001 P003") else {
+        panic!("what P003 is before is not known");
+    };
+    let adds_up = |stride: &Stride| matches!(stride, Stride::By { most: None, .. });
+    assert!(strides.iter().any(adds_up));
     // numbers that are no more than numbers
     assert_eq!(
         displaced("SET D005 200000\nSETE LP001 (3) D005"),

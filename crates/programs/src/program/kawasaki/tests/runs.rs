@@ -432,6 +432,8 @@ fn what_is_taught_on_a_plate_is_the_object() {
     );
     // the last name is written, and nothing else
     let program = read_two("HERE p1+p[1]\nLMOVE p1+p[1]\nLMOVE p1+p[2]", "other()");
+    let is_as_read = program.findings.iter().any(|f| f.id == "run-time-position");
+    assert!(is_as_read, "{:?}", program.findings);
     assert_eq!(
         on_frames(&program)
             .last()
