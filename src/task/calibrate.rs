@@ -1,7 +1,8 @@
 //! `calibrate`: measurements to a profile.
 
+use super::clock::{self, Answer, Doubted, any_timed};
 use super::failure::Failure;
-use super::measurements::{Rows, any_timed, identify_failure, late_clock};
+use super::measurements::{Rows, identify_failure};
 use super::parts::{File, Observability, Pose, Quality, Sigma, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
@@ -13,6 +14,7 @@ use crate::identify::calibration::{
     Calibration as Found, Options as Identification, STRONG_CORRELATION,
     calibrate_telling as identify,
 };
+use crate::identify::measurements::Measurements;
 use crate::identify::off::Off;
 use crate::identify::parameters::Selection;
 use crate::identify::plates::calibrate_plates;
@@ -214,11 +216,6 @@ pub fn calibrate(
         mut findings,
         tables,
     } = measurements;
-    let asked = options.selection.identify.iter();
-    let own = profile.profile.effects.iter().map(|effect| &effect.kind);
-    if any_timed(asked.filter_map(|pick| pick.kind.as_ref()).chain(own)) {
-        findings.extend(late_clock(&all, &name));
-    }
     let failed = |error| identify_failure(&name, &error);
     let whole = |found: Found, findings: Vec<Finding>| {
         let tables = tables.clone();
@@ -242,6 +239,7 @@ pub fn calibrate(
     }
     if plates.rows.is_empty() {
         let found = identify(&profile.profile, &tool, options, hear).map_err(failed)?;
+        findings.extend(late_clock(&profile.profile, &tool, options, &found, &name));
         return Ok(whole(found, findings));
     }
     let of_tool = Identification {
@@ -249,10 +247,40 @@ pub fn calibrate(
         ..options.clone()
     };
     let found = identify(&profile.profile, &tool, &of_tool, hear).map_err(failed)?;
+    findings.extend(late_clock(&profile.profile, &tool, &of_tool, &found, &name));
     let on_plates = identify_plates(&found.profile())?;
     let mut both = whole(found, findings);
     both.plates = Some(Box::new(whole(on_plates, Vec::new())));
     Ok(both)
+}
+
+/// That a clock begins late, where an effect counts with it: one that is identified, unless the rows
+/// say that the clock is right; one that the profile has, if they say that it is not.
+fn late_clock(
+    profile: &Profile,
+    rows: &Measurements,
+    options: &Identification,
+    found: &Found,
+    name: &str,
+) -> Option<Finding> {
+    let asked = options.selection.identify.iter();
+    let is_asked = any_timed(asked.filter_map(|pick| pick.kind.as_ref()));
+    if !is_asked && !any_timed(profile.effects.iter().map(|effect| &effect.kind)) {
+        return None;
+    }
+    let doubted = Doubted::of(rows)?;
+    let other = identify(profile, &doubted.from_first, options, &mut || ());
+    let answer = other.map_or(Answer::Open, |other| {
+        let [by_it, from_first] =
+            [found, &other].map(|of| misses(&of.problem, &of.solution.estimate));
+        clock::judged(&found.fit, &found.problem, &by_it, &from_first)
+    });
+    let is_doubtful = match answer {
+        Answer::Wrong { .. } => true,
+        Answer::Open => is_asked,
+        Answer::Right => false,
+    };
+    is_doubtful.then(|| doubted.finding(name, &answer))
 }
 
 /// Effects of the arm that are asked for of points on plates alone.

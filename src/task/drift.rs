@@ -65,6 +65,8 @@ pub struct Drift {
     /// The last run, where its error is apart from the others and no change is sure yet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_apart: Option<LastApart>,
+    /// The number of the run from which on rows are diagnosed.
+    pub diagnosed_from: usize,
 }
 
 impl Drift {
@@ -78,8 +80,11 @@ impl Drift {
             after_mm: c.after,
         };
         let last = before_last(&errors).zip(errors.last());
+        let changes: Vec<Change> = changes(&errors).iter().map(change).collect();
+        let since = changes.last().map_or(1, |change| change.run);
         Self {
-            changes: changes(&errors).iter().map(change).collect(),
+            diagnosed_from: last.map_or(since, |_| runs.len()),
+            changes,
             last_apart: last.map(|(before_mm, rms_mm)| LastApart {
                 before_mm,
                 rms_mm: *rms_mm,
@@ -114,19 +119,28 @@ impl Drift {
                 last.rms_mm, last.before_mm
             )
         });
+        let rows = if self.diagnosed_from == count {
+            "The rows of the last run are diagnosed.".to_owned()
+        } else {
+            format!(
+                "They are too few alone: the rows from run {} on are diagnosed.",
+                self.diagnosed_from
+            )
+        };
         match (self.changes.last(), apart) {
             (Some(c), apart) => format!(
                 "The error has changed with run {} of {count}, {}: {:.3} mm rms before, {:.3} mm \
-                 since. {}The rows since are diagnosed.",
+                 since. {}",
                 c.run,
                 c.since,
                 c.before_mm,
                 c.after_mm,
-                apart.map_or_else(String::new, |said| said + " ")
+                apart.map_or_else(
+                    || "The rows since are diagnosed.".to_owned(),
+                    |said| format!("{said} {rows}")
+                )
             ),
-            (None, Some(apart)) => {
-                format!("{apart} The rows of all {count} runs are diagnosed together.")
-            }
+            (None, Some(apart)) => format!("{apart} {rows}"),
             (None, None) if self.ratio() > GROSS => format!(
                 "The errors of the {count} runs differ by up to {:.0} times, and no change from \
                  one run on is sure. Their rows are diagnosed together: look at the runs one by \
@@ -172,14 +186,14 @@ fn typical_m(found: &Validation) -> f64 {
     (sum / squares.len().max(1) as f64).sqrt()
 }
 
-/// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those since the
-/// last change of the error, of all where there is none.
+/// As [`diagnose`], of rows whose files are runs of one robot, the oldest first: those of a last run
+/// that is apart, else since the last change of the error, of all where there is none.
 ///
 /// # Errors
 /// Fewer runs than a change can be seen in; as [`diagnose`].
 pub fn diagnose_runs(
     file: &ProfileFile,
-    mut measurements: Rows,
+    measurements: Rows,
     options: &Options,
     hear: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, Failure> {
@@ -211,12 +225,22 @@ pub fn diagnose_runs(
             rms_mm: mm_from_m(typical_m(&found)),
         });
     }
-    let drift = Drift::of(runs);
-    if let Some(change) = drift.changes.last() {
-        let from = files[change.run - 1].start;
-        measurements.all = measurements.all.filtered(|row, _| row >= from);
+    let mut drift = Drift::of(runs);
+    let since = |run: usize| {
+        let from = files[run - 1].start;
+        Rows {
+            all: measurements.all.filtered(|row, _| row >= from),
+            ..measurements.clone()
+        }
+    };
+    let mut found = diagnose(file, since(drift.diagnosed_from), options, hear);
+    // one run may have too few rows
+    let before = drift.changes.last().map_or(1, |change| change.run);
+    if found.is_err() && before < drift.diagnosed_from {
+        drift.diagnosed_from = before;
+        found = diagnose(file, since(before), options, hear);
     }
-    let mut found = diagnose(file, measurements, options, hear).map_err(|mut failure| {
+    let mut found = found.map_err(|mut failure| {
         if !drift.changes.is_empty() {
             failure.message = format!("{} {}", drift.sentence(), failure.message);
         }
@@ -229,6 +253,27 @@ pub fn diagnose_runs(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_last_run_that_is_apart_is_diagnosed_alone() {
+        let run = |rms_mm: &f64| Run {
+            file: "n.csv".into(),
+            rows: 60,
+            rms_mm: *rms_mm,
+        };
+        let of = |errors: &[f64]| Drift::of(errors.iter().map(run).collect());
+        assert_eq!(of(&[0.05, 0.052, 0.048, 0.051, 0.05]).diagnosed_from, 1);
+        let last = of(&[0.05, 0.052, 0.048, 0.051, 0.31]);
+        assert_eq!((last.diagnosed_from, last.changes.len()), (5, 0));
+        let said = last.sentence();
+        assert!(
+            said.ends_with("The rows of the last run are diagnosed."),
+            "{said}"
+        );
+        let first = of(&[0.05, 0.31, 0.3, 0.32, 0.31]);
+        assert_eq!(first.diagnosed_from, 2);
+        assert!(first.sentence().contains("changed with run 2 of 5"));
+    }
 
     #[test]
     fn runs_that_differ_grossly_are_said_to() {

@@ -2,11 +2,10 @@
 
 use super::failure::Failure;
 use super::parts;
-use crate::finding::{Finding, Severity};
+use crate::finding::Finding;
 use crate::identify::IdentifyError;
-use crate::identify::measurements::{Late, MeasurementError, Measurements};
+use crate::identify::measurements::{MeasurementError, Measurements};
 use crate::identify::table::{Euler, Grid, Mapping, Table, Units};
-use crate::model::effects::{Kind, Need};
 use crate::model::profile::{Profile, Tables, Theirs};
 use crate::program::Source;
 use crate::program::sha256;
@@ -191,25 +190,6 @@ impl Rows {
             tables: said.kept(&mapping, profile),
         })
     }
-}
-
-/// Times that begin so late that warm-up is over before the first row, or that count from elsewhere.
-pub(super) fn late_clock(all: &Measurements, name: &str) -> Option<Finding> {
-    let times = all.rows.iter().filter_map(|row| row.conditions.time_s);
-    let late = Late::of(times)?;
-    let message = format!(
-        "{late}: warm-up counts from switching the cold robot on, and is over before the first row, \
-         or that clock counts from elsewhere"
-    );
-    let hint = "let time_s count from when the cold robot was switched on; where it stood cold \
-                until the first row, from the first row";
-    let finding = Finding::of_file("time-late", Severity::Warning, name, message);
-    Some(finding.hint(hint))
-}
-
-/// Whether one of these effects counts with time.
-pub(super) fn any_timed<'a>(mut kinds: impl Iterator<Item = &'a Kind>) -> bool {
-    kinds.any(|kind| kind.definition().needs.contains(&Need::Time))
 }
 
 /// A failed identification with its way out.

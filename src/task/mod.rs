@@ -24,6 +24,7 @@ pub mod calibrate;
 pub mod catalogue;
 pub mod check;
 mod circumstances;
+mod clock;
 pub mod compensate;
 mod copies;
 pub mod diagnose;

@@ -1,8 +1,9 @@
 //! `validate`: what a profile is worth on measurements it has not seen.
 
 use super::Document;
+use super::clock::{self, Answer, Doubted, any_timed};
 use super::failure::Failure;
-use super::measurements::{Rows, any_timed, identify_failure, late_clock};
+use super::measurements::{Rows, identify_failure};
 use super::parts::{File, Pairs, Quality, SpreadDeg, SpreadMm, WorstRow, findings};
 use super::profile_file::ProfileFile;
 use crate::diagnose::as_calibrated::{self as standing, Unsaid, as_calibrated};
@@ -13,8 +14,9 @@ use crate::identify::measurements::{Measurement, Measurements, Purpose};
 use crate::identify::off::Off;
 use crate::identify::plates::validate_plates;
 use crate::identify::validation::{
-    self, Folds as Leaving, Refit, Validation as Found, validate_telling,
+    self, Folds as Leaving, Refit, Validation as Found, validate as validate_rows, validate_telling,
 };
+use crate::model::profile::Profile;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -255,7 +257,7 @@ pub struct Validation {
     pub found: Found,
     /// The profile judged.
     #[serde(skip)]
-    pub profile: crate::model::profile::Profile,
+    pub profile: Profile,
     /// How the files of measurements are named.
     #[serde(skip)]
     pub name: String,
@@ -283,9 +285,8 @@ pub fn validate(
         findings: mut read,
         ..
     } = measurements;
-    if any_timed(file.profile.effects.iter().map(|effect| &effect.kind)) {
-        read.extend(late_clock(&all, &name));
-    }
+    let is_timed = any_timed(file.profile.effects.iter().map(|effect| &effect.kind));
+    let mut doubted = Doubted::of(&all).filter(|_| is_timed);
     let is_for = |row: &Measurement| row.purpose == Some(Purpose::Validate);
     let some = all.rows.iter().any(is_for) && !options.all_sets;
     let refit = match options.refit_frames {
@@ -295,6 +296,9 @@ pub fn validate(
     };
     if some && refit != Refit::Others {
         all = all.filtered(|_, row| is_for(row));
+        if let Some(doubted) = &mut doubted {
+            doubted.from_first = doubted.from_first.filtered(|_, row| is_for(row));
+        }
     }
     let (tool, plates) = all.split();
     let judged = (!plates.rows.is_empty())
@@ -320,6 +324,9 @@ pub fn validate(
     let tool = Cow::Owned(tool);
     let found = validate_telling(&file.profile, tool, refit, options.folds, hear)
         .map_err(|error| too_few(&name, &error))?;
+    if let Some(doubted) = doubted {
+        read.extend(late_clock(&file.profile, &doubted, &found, &name));
+    }
     let standing = if options.as_calibrated {
         Some(standing_of(file, &found)?)
     } else {
@@ -336,6 +343,16 @@ pub fn validate(
     both.as_calibrated = standing;
     both.plates = on_plates.map(|found| Box::new(judge(found, Vec::new())));
     Ok(both)
+}
+
+/// That a clock begins late, where the rows say that it does not count from switching the robot on:
+/// with a clock that counts from the first row the profile misses less.
+fn late_clock(profile: &Profile, doubted: &Doubted, found: &Found, name: &str) -> Option<Finding> {
+    let (tool, _) = doubted.from_first.clone().split();
+    let other = validate_rows(profile, &tool, found.refit, None).ok()?;
+    let missed = (&found.real.misses, &other.real.misses);
+    let answer = clock::judged(&found.measurements, &found.problem, missed.0, missed.1);
+    matches!(answer, Answer::Wrong { .. }).then(|| doubted.finding(name, &answer))
 }
 
 /// Points on plates by the profile's positioners.

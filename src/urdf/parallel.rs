@@ -136,11 +136,17 @@ impl Digits {
                 ));
             }
         }
-        if most_rad.max(most_m) > 0.0 {
+        let turned = (most_rad > 0.0).then(|| {
+            format!("within {most_rad:.1e} rad of a multiple of 45 deg to the one before")
+        });
+        let shifted =
+            (most_m > 0.0).then(|| format!("that pass the one before by at most {most_m:.1e} m"));
+        let which: Vec<String> = turned.into_iter().chain(shifted).collect();
+        if !which.is_empty() {
             arm.notes.push(format!(
-                "axes within {most_rad:.1e} rad of a multiple of 45 deg to the one before, and those \
-                 that pass it by at most {most_m:.1e} m, are taken as exact: the file's decimals \
-                 leave that open; --exact-angles takes them as written"
+                "axes {} are taken as exact: the file's decimals leave that open; --exact-angles \
+                 takes them as written",
+                which.join(", and those ")
             ));
         }
     }
@@ -299,6 +305,35 @@ mod tests {
         }
         let (_, notes) = made(&arm(16, 0.0), false).expect("a profile");
         assert!(!parallel(&notes), "{notes:?}");
+    }
+
+    #[test]
+    fn what_was_not_rounded_is_not_said() {
+        // the second axis is square to the first and passes it by what four decimals leave
+        let square = "1.5707963267948966 0 0";
+        let places = [
+            ("0 0 0.3", "0 0 0"),
+            ("0.0644 -0.0765 0.1", "1.5707963267948966 0 0.7"),
+            ("0.3 0 0", "0 0 0"),
+            ("0.1 0 0.05", square),
+            ("0 0 0.2", square),
+            ("0 0 0", square),
+        ];
+        let joints = places.iter().enumerate().map(|(k, (place, turn))| {
+            format!(
+                "<link name='l{0}'/><joint name='j{0}' type='revolute'><parent link='l{k}'/>\
+                 <child link='l{0}'/><origin xyz='{place}' rpy='{turn}'/><axis xyz='0 0 1'/>\
+                 <limit lower='-2' upper='2' effort='1' velocity='1'/></joint>",
+                k + 1
+            )
+        });
+        let joints: String = joints.collect();
+        let text = format!("<robot name='r'><link name='l0'/>{joints}</robot>");
+        let arm = UrdfArm::read(&text, &Choice::default()).expect("an arm");
+        let notes = &arm.notes;
+        let is_said = |words: &str| notes.iter().any(|note| note.contains(words));
+        assert!(is_said("that pass the one before by at most"), "{notes:?}");
+        assert!(!is_said("0.0e0"), "{notes:?}");
     }
 
     #[test]

@@ -12,9 +12,10 @@ pub use rows::{
     TellingPose, Unexplained, Unregistered, Untested,
 };
 
+use super::clock::{self, Answer, Doubted, any_timed};
 use super::drift::Drift;
 use super::failure::Failure;
-use super::measurements::{Rows, identify_failure, late_clock};
+use super::measurements::{Rows, identify_failure};
 use super::parts::{SpreadMm, WorstRow, findings, finite};
 use super::profile_file::ProfileFile;
 use super::{Document, PROGRAM};
@@ -26,9 +27,12 @@ use crate::diagnose::{
 };
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::identify::measurements::Measurements;
 use crate::identify::parameters::Subject;
 use crate::identify::pick::Pick;
-use crate::model::effects::SiteKey;
+use crate::identify::validation::{Refit, validate};
+use crate::model::effects::{Need, SiteKey};
+use crate::model::profile::Profile;
 use plates::{left_out, of_arm};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -195,6 +199,27 @@ fn refuse_both(accept: &[Pick], reject: &[Pick]) -> Result<(), Failure> {
     }
 }
 
+/// That a clock begins late, where that matters: the profile counts with it and the rows say that it
+/// does not count from switching the robot on, or something changes from row to row, which may be
+/// warm-up.
+fn late_clock(profile: &Profile, rows: &Measurements, d: &Found, name: &str) -> Option<Finding> {
+    let doubted = Doubted::of(rows)?;
+    let missed = |rows: &Measurements| validate(profile, rows, Refit::Judged, None).ok();
+    let is_timed = any_timed(profile.effects.iter().map(|effect| &effect.kind));
+    let both = is_timed.then(|| missed(rows).zip(missed(&doubted.from_first)));
+    let answer = both.flatten().map_or(Answer::Open, |(by_it, from_first)| {
+        let missed = (&by_it.real.misses, &from_first.real.misses);
+        clock::judged(&by_it.measurements, &by_it.problem, missed.0, missed.1)
+    });
+    let is_in_order = |f: &engine::Found| f.effect.definition().needs.contains(&Need::NoTime);
+    let is_doubtful = match answer {
+        Answer::Wrong { .. } => true,
+        Answer::Open => d.found.iter().any(is_in_order),
+        Answer::Right => false,
+    };
+    is_doubtful.then(|| doubted.finding(name, &answer))
+}
+
 /// Searches for the effects that a profile lacks; `hear` is called with what is being done.
 ///
 /// # Errors
@@ -214,7 +239,6 @@ pub fn diagnose(
         ..
     } = measurements;
     refuse_both(&options.accept, &options.reject)?;
-    read.extend(late_clock(&all, &name));
     let (tool, plates) = of_the_arm(all, &name)?;
     let of_arm = Options {
         is_new: is_new(file, &sha256),
@@ -225,6 +249,7 @@ pub fn diagnose(
     for pick in &of_arm.accept {
         check_accepted(&d, pick)?;
     }
+    read.extend(late_clock(&file.profile, &tool, &d, &name));
     let positioners = if plates.rows.is_empty() {
         Vec::new()
     } else {

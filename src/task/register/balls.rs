@@ -66,6 +66,7 @@ pub(super) fn round(
         noise_mm: noise.map(mm_from_m),
     };
     let (variance_m2, shape) = centre_noise(pair, &fit);
+    let of_touch = (0..3).map(|k| fit.centre_covariance[k][k]).sum::<f64>() / 3.0;
     let touched = Touched {
         id: id.clone(),
         from_m: pair.from.point_m,
@@ -73,6 +74,7 @@ pub(super) fn round(
         variance_m2,
         weight: pair.from.weight.or(pair.to[0].weight),
         shape,
+        of_touch,
     };
     Ok((touched, feature))
 }

@@ -6,7 +6,9 @@ use super::{Motion, Options, Registration, Residual};
 use crate::geometry::units::DEG;
 use crate::geometry::{Pose, Vector, add, dot, scale};
 use crate::register::features::compensated;
-use crate::register::frames::{Datums, FrameError, propagate, three_points, three_two_one};
+use crate::register::frames::{
+    Datums, FrameError, propagate, redundancy, three_points, three_two_one,
+};
 use crate::task::Failure;
 
 /// How touches make a frame.
@@ -57,14 +59,15 @@ pub(super) fn construct(
         .transpose()
         .map_err(fail)?;
     // six touches leave nothing
-    let residuals = touched.residuals(&pose);
-    let freedom = residuals.len().saturating_sub(BY_ORDER.len());
-    let is_checked = freedom > 0;
+    let residuals = touched.residuals(&touched.points, &pose);
+    let is_checked = residuals.len() > BY_ORDER.len();
     let mut findings = Vec::new();
     if let Some(sigmas) = sigmas.filter(|_| is_checked) {
+        let again = |points: &[Vector]| Ok(touched.residuals(points, &touched.frame(points)?));
+        let expected = redundancy(&touched.points, &sigmas, again).map_err(fail)?;
         let squares = residuals.iter().zip(sigmas).map(|(r, s)| (r / s).powi(2));
-        let times = (squares.sum::<f64>() / freedom as f64).sqrt();
-        findings.extend(other_sigma(times, freedom, &table.name));
+        let times = (squares.sum::<f64>() / expected.mean).sqrt();
+        findings.extend(other_sigma(times, expected.freedom, &table.name));
     }
     let squares: f64 = residuals.iter().map(|r| r * r).sum();
     let reported = is_checked.then(|| touched.reported(&pose, &residuals));
@@ -193,9 +196,9 @@ impl<'a> Touched<'a> {
     }
 
     /// What each touch is off along its datum's direction; none of three points.
-    fn residuals(&self, pose: &Pose) -> Vec<f64> {
+    fn residuals(&self, points: &[Vector], pose: &Pose) -> Vec<f64> {
         let to_part = pose.inverse();
-        let touches = self.points.iter().zip(&self.datums);
+        let touches = points.iter().zip(&self.datums);
         let along = |(point, datum): (&Vector, &usize)| {
             dot(to_part.transform(*point), OUTWARD[*datum].1) - self.radius_m
         };

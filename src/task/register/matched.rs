@@ -9,9 +9,8 @@ use crate::geometry::units::mm_from_m;
 use crate::geometry::{Vector, add, scale};
 use crate::register::RegisterError;
 use crate::register::features::compensated;
-use crate::register::kabsch::{Fit, kabsch, noise_m};
+use crate::register::kabsch::{Fit, Redundancy, kabsch, largest_variance, noise_m};
 use crate::register::robust::{self, robust};
-use crate::register::uncertainty::PoseCovariance;
 use crate::task::Failure;
 use crate::task::copies::{self, copies, without};
 
@@ -46,6 +45,8 @@ pub(super) struct Touched {
     /// Its covariance as a part of the mean of the three variances, along the axes of TO, where
     /// that is not alike in all directions.
     pub shape: Option<[[f64; 3]; 3]>,
+    /// That mean over the variance of a touch: of a fitted centre, how well its touches fix it.
+    pub of_touch: f64,
 }
 
 pub(super) fn warning(id: &'static str, file: &str, message: impl Into<String>) -> Finding {
@@ -150,7 +151,13 @@ fn by_points(
     let used = used.as_deref();
     let residuals = fit.residuals_m(&from, &to);
     let exact = touched.len() <= 3 && given.is_none();
-    let sigma = given.unwrap_or_else(|| noise_m(&residuals, used));
+    let shapes = shapes(touched, weights.is_some(), given.is_some());
+    let redundancy = match &shapes {
+        Some(shapes) => fit.redundancy_of_shapes(&from, used, shapes),
+        None => isotropic(fit.count),
+    };
+    let noise = || noise_m(&residuals, used) * (isotropic(fit.count).mean / redundancy.mean).sqrt();
+    let sigma = given.unwrap_or_else(noise);
     for bad in &rejected {
         let message = format!(
             "{} is left out: {:.3} mm from where the others put it, {:.1} standard deviations \
@@ -168,12 +175,14 @@ fn by_points(
         to: &to,
         name,
     };
-    let times = given.map(|given| noise_m(&residuals, used) / given);
-    let contradicted = times.and_then(|times| other_sigma(times, 3 * fit.count - 6, name));
+    let times = given.map(|given| noise() / given);
+    let contradicted = times.and_then(|times| other_sigma(times, redundancy.freedom, name));
     let mut bad = None;
     if !options.robust {
         let quiet = contradicted.is_some();
-        bad = suspect(touched, &sets, weights, given, spread_m, quiet, findings);
+        let judging = shapes.as_ref().map(|shapes| surest(shapes, weights));
+        let judging = judging.as_deref().or(weights);
+        bad = suspect(touched, &sets, judging, given, spread_m, quiet, findings);
     }
     sets.refuse_unlike(&fit, used, spread_m, bad)?;
     findings.extend(contradicted);
@@ -212,7 +221,10 @@ fn by_points(
             "kabsch"
         },
         to_from_from: fit.to_from_from,
-        covariance: Some(covariance(&fit, touched, &from, used, sigma)),
+        covariance: Some(match &shapes {
+            Some(shapes) => fit.covariance_of_shapes(&from, used, sigma, shapes),
+            None => fit.covariance(&from, used, sigma),
+        }),
         // reported for a point of weight one, which is no length where the weights are 1/σ²
         sigma_m: (!absolute).then_some(sigma),
         sigma_given: given.is_some(),
@@ -222,20 +234,44 @@ fn by_points(
     Ok((motion, Some(scale)))
 }
 
-/// The covariance of the motion, of a `sigma` at weight one.
-fn covariance(
-    fit: &Fit,
-    touched: &[Touched],
-    from: &[Vector],
-    weights: Option<&[f64]>,
-    sigma_m: f64,
-) -> PoseCovariance {
+/// The covariance of each point at weight one, of noise of standard deviation one; `None` where all
+/// are alike in all directions.
+///
+/// Weights say how sure points are next to one another. Without them a stated deviation is that of a
+/// touch, by which a fitted centre is more or less sure; where none is stated it is the mean of all.
+fn shapes(touched: &[Touched], weighted: bool, stated: bool) -> Option<Vec<[[f64; 3]; 3]>> {
     if touched.iter().all(|t| t.shape.is_none()) {
-        return fit.covariance(from, weights, sigma_m);
+        return None;
     }
     let alike = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let shapes: Vec<_> = (touched.iter().map(|t| t.shape.unwrap_or(alike))).collect();
-    fit.covariance_of_shapes(from, weights, sigma_m, &shapes)
+    let mean = touched.iter().map(|t| t.of_touch).sum::<f64>() / touched.len() as f64;
+    let shape = |t: &Touched| {
+        let size = match (weighted, stated) {
+            (true, _) => 1.0,
+            (false, true) => t.of_touch,
+            (false, false) => t.of_touch / mean,
+        };
+        t.shape
+            .unwrap_or(alike)
+            .map(|row| row.map(|one| size * one))
+    };
+    Some(touched.iter().map(shape).collect())
+}
+
+/// What the residuals of so many points come to that are alike in all directions.
+fn isotropic(points: usize) -> Redundancy {
+    let freedom = (3 * points) as f64 - 6.0;
+    Redundancy {
+        mean: freedom.max(1.0),
+        freedom: freedom.max(1.0),
+    }
+}
+
+/// Weights by which no point is farther off than its noise lets it be in its worst direction.
+fn surest(shapes: &[[[f64; 3]; 3]], weights: Option<&[f64]>) -> Vec<f64> {
+    let each = shapes.iter().enumerate();
+    each.map(|(i, shape)| weights.map_or(1.0, |w| w[i]) / largest_variance(shape))
+        .collect()
 }
 
 fn other_scale(scale: &Scale, points: usize, name: &str) -> Option<Finding> {
@@ -256,9 +292,9 @@ fn total_weight(weights: Option<&[f64]>, count: usize) -> f64 {
 }
 
 /// A stated deviation that the residuals contradict, by χ² of as many degrees of freedom.
-pub(super) fn other_sigma(times: f64, freedom: usize, name: &str) -> Option<Finding> {
+pub(super) fn other_sigma(times: f64, freedom: f64, name: &str) -> Option<Finding> {
     // Wilson and Hilferty: the cube root of χ²/ν is nearly normal
-    let spread = 2.0 / (9.0 * freedom.max(1) as f64);
+    let spread = 2.0 / (9.0 * freedom);
     let chance = |sign: f64| {
         let root = 1.0 - spread + sign * SIGMA_CHANCE * spread.sqrt();
         root.max(0.0).powf(1.5)
@@ -496,6 +532,7 @@ fn point(pair: &Pair, radius: f64, to_name: &str) -> Result<Touched, Failure> {
         variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
         shape: None,
+        of_touch: 1.0,
     })
 }
 

@@ -62,7 +62,7 @@ impl Touches<'_> {
         if let Some(given) = given {
             let freedom = (3 * self.points.len() + self.on_planes.len()).saturating_sub(6);
             let times = (whole / freedom.max(1) as f64).sqrt() / given;
-            findings.extend(other_sigma(times, freedom, name));
+            findings.extend(other_sigma(times, freedom.max(1) as f64, name));
         }
         let count = squares.len() as f64;
         Ok(Motion {
@@ -183,6 +183,7 @@ pub(super) fn touches_of(pair: &Pair) -> impl Iterator<Item = Touched> {
         variance_m2: variance_of([from.sigma_m, to.sigma_m]),
         weight: to.weight.or(from.weight),
         shape: None,
+        of_touch: 1.0,
     })
 }
 

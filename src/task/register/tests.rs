@@ -485,6 +485,111 @@ fn centres_of_spheres_touched_from_above_are_as_sure_as_stated() {
     }
 }
 
+/// A normal number, about.
+fn normal(random: &mut rand::rngs::StdRng) -> f64 {
+    (0..12).map(|_| random.random_range(-0.5..0.5)).sum()
+}
+
+#[test]
+fn centres_of_spheres_touched_on_a_cap_are_as_sure_as_said() {
+    // ten touches within 15 deg of the top: their centres are known to 0.06 mm in height and to
+    // 0.001 mm across it
+    const BALLS: [[f64; 3]; 5] = [
+        [0.0, 0.0, 0.0],
+        [400.0, 0.0, 30.0],
+        [0.0, 300.0, 60.0],
+        [380.0, 310.0, 0.0],
+        [200.0, 150.0, 90.0],
+    ];
+    const SIGMA_MM: f64 = 0.002;
+    let mut random = rand::rngs::StdRng::seed_from_u64(6);
+    let mut from = "id,feature,radius_mm,x_mm,y_mm,z_mm\n".to_owned();
+    for (k, [x, y, z]) in BALLS.iter().enumerate() {
+        from += &format!("{k},sphere,15,{x},{y},{z}\n");
+    }
+    for stated in [Some(1e-3 * SIGMA_MM), None] {
+        let (mut off, mut said, mut doubted) = ([0.0; 3], [0.0; 3], 0);
+        for _ in 0..200 {
+            let mut to = "id,x_mm,y_mm,z_mm\n".to_owned();
+            for (k, centre) in BALLS.iter().enumerate() {
+                for touch in 0..10 {
+                    let polar = (5.0 + 10.0 * f64::from(touch % 2)).to_radians();
+                    let (sin, cos) = if touch == 9 { 0.0 } else { polar }.sin_cos();
+                    let around = f64::from(touch) * 0.7;
+                    let along = [sin * around.cos(), sin * around.sin(), cos];
+                    let at: [f64; 3] = std::array::from_fn(|i| {
+                        centre[i] + 15.0 * along[i] + SIGMA_MM * normal(&mut random)
+                    });
+                    to += &format!("{k},{},{},{}\n", at[0], at[1], at[2]);
+                }
+            }
+            let options = Options {
+                sigma_m: stated,
+                ..Options::default()
+            };
+            let found = rows(&from, &to, &options).expect("spheres");
+            doubted += usize::from(
+                finding(&found, "sigma-small").is_some()
+                    || finding(&found, "suspect-touch").is_some(),
+            );
+            let (frame, covariance) = &found.frame;
+            let there = frame.transform([0.19, 0.15, 0.02]);
+            let sigma = covariance.as_ref().expect("known").sigma_at_m(there);
+            for i in 0..3 {
+                off[i] += (there[i] - [0.19, 0.15, 0.02][i]).powi(2);
+                said[i] += sigma[i].powi(2);
+            }
+        }
+        let ratios: [f64; 3] = std::array::from_fn(|i| off[i] / said[i]);
+        println!("{stated:?}: {ratios:?}, {doubted} of 200 doubted");
+        for ratio in ratios {
+            assert!((0.65..1.5).contains(&ratio), "{stated:?}: {ratios:?}");
+        }
+        assert!(stated.is_none() || doubted < 8, "{doubted}");
+    }
+}
+
+#[test]
+fn short_edges_of_three_two_one_contradict_no_stated_deviation() {
+    // a primary datum 12 mm wide, which tilts by a tenth of a degree, and a secondary one that is
+    // touched over 80 mm of height, along 300 mm and along 60
+    const SIGMA_MM: f64 = 0.02;
+    let mut random = rand::rngs::StdRng::seed_from_u64(7);
+    for long in [300.0, 60.0] {
+        let mut touches = Vec::new();
+        for x in [10.0, 150.0, 290.0] {
+            touches.extend([(1, [x, 2.0, 0.0]), (1, [x, 14.0, 0.0])]);
+        }
+        for (part, z) in [(0.0, -5.0), (0.4, -80.0), (0.6, -15.0), (1.0, -70.0)] {
+            touches.push((2, [20.0 + part * long, 0.0, z]));
+        }
+        touches.extend([(3, [0.0, 6.0, -20.0]), (3, [0.0, 10.0, -30.0])]);
+        let mut said = |noise_mm: f64| {
+            (0..200)
+                .filter(|_| {
+                    let mut text = "datum,x_mm,y_mm,z_mm\n".to_owned();
+                    for (datum, place) in &touches {
+                        let [x, y, z] = place.map(|p| p + noise_mm * normal(&mut random));
+                        text += &format!("{datum},{x},{y},{z}\n");
+                    }
+                    let options = Options {
+                        sigma_m: Some(1e-3 * SIGMA_MM),
+                        ..Options::default()
+                    };
+                    let found = frame(&text, &options).expect("a frame");
+                    finding(&found, "sigma-small").is_some()
+                })
+                .count()
+        };
+        let right = said(SIGMA_MM);
+        assert!(right < 4, "{long}: {right} of 200");
+        // of other noise it is said; along 60 mm some frames are refused then
+        if long > 100.0 {
+            assert!(said(6.0 * SIGMA_MM) > 100);
+        }
+    }
+}
+
 /// A table with a column of the deviation of every row.
 fn sigmas(text: &str, sigma_mm: f64) -> String {
     let rows = text.lines().enumerate().map(|(k, line)| match k {

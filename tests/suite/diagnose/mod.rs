@@ -7,6 +7,7 @@ mod doubted;
 mod page;
 mod physics;
 mod real;
+mod reference;
 mod repeats;
 mod session;
 mod sessions;

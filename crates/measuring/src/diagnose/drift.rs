@@ -6,7 +6,8 @@
 //! independent of the others. So that a large change is seen after few runs the spread begins as if
 //! two differences of the usual spread were known, which many runs outweigh. Behind a change the
 //! mean is learnt anew; the spread within the runs before stays known; from a run that is too rare
-//! nothing is learnt. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a change.
+//! nothing is learnt. The first run has nothing before it: it is compared with those behind it, and
+//! where it is too rare to be one of them the second begins anew. `up = max(0, up + u − k)` and `down` likewise; one beyond `h` is a change.
 //! When it came is the most likely split of the runs: the one with the largest sum of squares between
 //! its halves.
 //!
@@ -34,6 +35,9 @@ const UNLIKELY: f64 = 4.0;
 const UNLIKELY_OF_FEW: f64 = 3.0;
 /// Degrees of freedom below which the spread is hardly known.
 const FEW: f64 = 8.0;
+/// The first run is apart from those behind it that is as rare as this: of 2000 times 30 runs alike
+/// none is.
+const FIRST_APART: f64 = 4.0;
 /// Runs that a change can be seen in at all.
 pub const LEAST_RUNS: usize = 4;
 
@@ -71,6 +75,17 @@ fn charted(errors: &[f64], h: f64) -> (Vec<Change>, Option<f64>) {
     let mut found: Vec<Change> = Vec::new();
     let (mut start, mut known) = (0, Spread::usual());
     let mut chart = Chart::of(&logs[start..], known, h);
+    let alarm = chart.alarm.unwrap_or(logs.len());
+    if let Some(noticed) = first_apart(&logs[..alarm], known) {
+        start = 1;
+        found.push(Change {
+            since: 1,
+            noticed,
+            before: logs[0].exp(),
+            after: 0.0,
+        });
+        chart = Chart::of(&logs[start..], known, h);
+    }
     while let Some(noticed) = chart.alarm.map(|n| start + n) {
         let since = start + split(&logs[start..=noticed]);
         let before = mean(&logs[start..since]).exp();
@@ -176,6 +191,18 @@ impl Chart {
     }
 }
 
+/// The run in which it is noticed that the first is not like those behind it.
+fn first_apart(x: &[f64], known: Spread) -> Option<usize> {
+    (LEAST_RUNS..=x.len()).map(|count| count - 1).find(|last| {
+        let behind = &x[1..=*last];
+        let Spread { squares, freedom } = known.and(behind);
+        let spread = (squares / freedom).sqrt().max(LEAST_SPREAD);
+        let n = behind.len() as f64;
+        let off = (n / (n + 1.0)).sqrt() * (x[0] - mean(behind)) / spread;
+        normal_score(off, freedom).abs() > FIRST_APART
+    })
+}
+
 /// The first run of the second part of the split with the largest sum of squares between its parts.
 fn split(x: &[f64]) -> usize {
     let n = x.len() as f64;
@@ -224,6 +251,30 @@ mod tests {
             assert_eq!(found.len(), 1, "{after:?}");
             assert_eq!(found[0].since, 4, "{after:?}");
         }
+    }
+
+    #[test]
+    fn a_change_after_the_first_run_is_seen() {
+        let mut random = Random::new(13);
+        for (times, within) in [(3.0, 5), (6.0, 5), (0.2, 5), (1.5, 9)] {
+            let (mut seen, count) = (0, 500);
+            for _ in 0..count {
+                let mut errors: Vec<f64> = (0..10).map(|_| error(&mut random, 60, 0.03)).collect();
+                for e in &mut errors[1..] {
+                    *e *= times;
+                }
+                let found = changes(&errors);
+                let first = found.first();
+                seen += usize::from(first.is_some_and(|c| c.since == 1 && c.noticed < within));
+            }
+            println!("{times} times after the first run: {seen} of {count}");
+            assert!(20 * seen > 17 * count, "{times}: {seen}");
+        }
+        // one that goes on to change is seen again
+        let found = changes(&[0.05, 0.3, 0.31, 0.29, 0.3, 0.31, 0.05, 0.051, 0.049]);
+        assert_eq!(found.iter().map(|c| c.since).collect::<Vec<_>>(), [1, 6]);
+        assert!((found[0].before - 0.05).abs() < 1e-12);
+        assert!((found[0].after - 0.302).abs() < 1e-3, "{found:?}");
     }
 
     #[test]

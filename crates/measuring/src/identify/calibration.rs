@@ -6,7 +6,7 @@ use super::degrees;
 use super::error::IdentifyError;
 use super::expectation::expected_error_m;
 use super::identifiability::{Observability, observability, singular_values};
-use super::input_checks::{Remark, finite, plausibility, screening};
+use super::input_checks::{Remark, finite, plausibility, screening, temperatures};
 use super::levelled::by_the_device;
 use super::line::Line;
 use super::measurements::{Measurements, Purpose};
@@ -279,6 +279,7 @@ pub(super) fn identify(
     }
     finite::check(profile, measurements)?;
     let mut remarks = screening::look(profile, &fit)?;
+    remarks.extend(temperatures::check(&fit)?);
     let found = start::find(profile, &fit);
     if let Some(found) = &found {
         remarks.extend(screening::check_start(profile, &fit, found)?);

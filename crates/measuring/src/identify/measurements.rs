@@ -234,49 +234,6 @@ impl Measurement {
     }
 }
 
-/// A clock that counts from longer before the first row than this part of the rows' time: of a
-/// warm-up with the shortest constant that is sought (a twentieth of it) 63 % is over by then, and
-/// what the rows show would be enlarged by 2.7.
-const LATE: f64 = 0.05;
-/// A clock may begin so many rows before the first.
-const ROWS_BEFORE: f64 = 2.0;
-
-/// Times that begin late.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Late {
-    /// `time_s` of the first row by the clock, seconds.
-    pub first_s: f64,
-    /// From there to the last, seconds.
-    pub length_s: f64,
-}
-
-impl Late {
-    /// Of times in seconds, where a clock that counts from switching the robot on had run for long
-    /// before the first of them, against how far they reach; or counts from anything else.
-    #[must_use]
-    pub fn of(times_s: impl Iterator<Item = f64>) -> Option<Self> {
-        let (mut first_s, mut last_s, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-        for time_s in times_s {
-            first_s = time_s.min(first_s);
-            last_s = time_s.max(last_s);
-            count += 1.0;
-        }
-        let length_s = last_s - first_s;
-        let part = LATE.max(ROWS_BEFORE / f64::max(count - 1.0, 1.0));
-        (length_s > 0.0 && first_s > part * length_s).then_some(Self { first_s, length_s })
-    }
-}
-
-impl std::fmt::Display for Late {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "time_s begins at {:.0} s, and the rows take {:.0} s",
-            self.first_s, self.length_s
-        )
-    }
-}
-
 impl Measurements {
     /// Whether the file has all these columns.
     #[must_use]

@@ -36,7 +36,7 @@
 
 pub mod identifiability;
 pub mod measurements;
-mod needs;
+pub(crate) mod needs;
 pub mod normal;
 pub mod observation;
 pub mod off;
@@ -55,6 +55,7 @@ pub mod start;
 pub mod base;
 pub mod calibration;
 mod candidates;
+pub mod clock;
 pub(crate) mod clusters;
 pub mod contact;
 mod contact_cells;

@@ -6,7 +6,7 @@ use super::parameters::{Selection, Subject};
 use super::pick::Pick;
 use super::problem::{Problem, Row};
 use crate::model::Conditions;
-use crate::model::effects::{Effect, List, Need};
+use crate::model::effects::{Effect, Kind, List, Need};
 use crate::profile::{Mounted, Profile, is_of_profile};
 
 /// A joint's torque must change by this part of the largest change to tell its compliance.
@@ -85,6 +85,48 @@ pub(super) fn refuse_others_axes(
     Ok(())
 }
 
+/// Temperatures must range over this to show an effect, °C.
+pub(crate) const WARMER_C: f64 = 0.5;
+
+/// How far temperatures range where that is too little to show an effect, °C.
+pub(crate) fn too_even_c(rows: &[Row]) -> Option<f64> {
+    let all = rows.iter().filter_map(|row| row.conditions.temperature_c);
+    let ends = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| {
+        [low.min(t), high.max(t)]
+    });
+    let by = (ends[1] - ends[0]).max(0.0);
+    (by < WARMER_C).then_some(by)
+}
+
+/// Refuses effects that begin at a row where none is named, or one that these rows do not show.
+fn refuse_other_rows(asked: &[Pick], rows: usize) -> Result<(), IdentifyError> {
+    for pick in asked {
+        let definition = pick.kind.map(Kind::definition);
+        let Some(definition) = definition.filter(|d| d.begins_at_a_row()) else {
+            continue;
+        };
+        let id = definition.id;
+        let message = match pick.places.first() {
+            None => format!("`{id}` cannot be identified: it begins at a row, and none is named"),
+            Some((first, last)) if *first < 2 || *last as usize > rows => {
+                format!(
+                    "`{}`: the row is from 2 to {rows}, the last",
+                    pick.to_word()
+                )
+            }
+            Some(_) => continue,
+        };
+        return Err(IdentifyError::Suspicious {
+            message,
+            hint: format!(
+                "`poseshift diagnose` finds the row; `{id}:{}` means from the row in the middle on",
+                (rows / 2).max(2)
+            ),
+        });
+    }
+    Ok(())
+}
+
 /// Refuses effects that lack what they need where they were asked for.
 pub(super) fn check_needs(
     problem: &Problem,
@@ -92,6 +134,7 @@ pub(super) fn check_needs(
     effects: &[Effect],
     selection: &Selection,
 ) -> Result<(), IdentifyError> {
+    refuse_other_rows(&selection.identify, measurements.rows.len())?;
     let masses =
         !problem.profile.bodies.is_empty() || problem.tools.iter().any(|t| t.load.is_some());
     for parameter in &problem.parameters {
@@ -133,6 +176,20 @@ pub(super) fn check_needs(
                     .iter()
                     .all(|r| !matches!(r.observed, Observed::Contact(_))),
             };
+            let too_even_c = (*need == Need::Temperature && met).then(|| too_even_c(&problem.rows));
+            if let Some(by) = too_even_c.flatten() {
+                return Err(IdentifyError::Suspicious {
+                    message: format!(
+                        "`{}` cannot be identified: temperature_c ranges over {by:.2} degrees, and \
+                         {WARMER_C} are needed",
+                        definition.id
+                    ),
+                    hint:
+                        "measure when the arm is colder and when it is warmer, or leave it out of \
+                           --identify"
+                            .into(),
+                });
+            }
             if !met {
                 return Err(IdentifyError::Missing {
                     id: definition.id,

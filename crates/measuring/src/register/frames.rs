@@ -10,6 +10,7 @@ pub use planes::{FeatureFit, Misfit, Part, TouchedPlane, points_and_planes};
 
 use super::RegisterError;
 use super::features::FeatureError;
+use super::kabsch::Redundancy;
 use super::uncertainty::PoseCovariance;
 use crate::geometry::units::mm_from_m;
 use crate::geometry::{Pose, Rotation, Vector, cross, dot, norm, scale, sub};
@@ -169,6 +170,50 @@ pub fn three_points([origin, on_x, in_xy]: [Vector; 3]) -> Result<Pose, FrameErr
     Ok(from_axes(x, cross(x, y), origin))
 }
 
+/// Step of derivatives, metres.
+const STEP_M: f64 = 1e-6;
+
+/// What the residuals of a construction come to, each over the deviation of its touch, by central
+/// differences: a frame that is no least-squares fit of all of them, as 3-2-1, or short edges make
+/// them larger than the noise.
+///
+/// With their covariance `C`, `tr C` in the mean, with `(tr C)²/tr C²` degrees of freedom.
+///
+/// # Errors
+/// As `residuals_m`, which gives the residual of each input.
+///
+/// # Source
+/// F. E. Satterthwaite, Biometrics Bulletin 2 (1946).
+pub fn redundancy<E>(
+    inputs_m: &[Vector],
+    sigmas_m: &[f64],
+    residuals_m: impl Fn(&[Vector]) -> Result<Vec<f64>, E>,
+) -> Result<Redundancy, E> {
+    let count = inputs_m.len();
+    let mut jacobian = DMatrix::zeros(count, 3 * count);
+    let mut moved = inputs_m.to_vec();
+    for i in 0..count {
+        for k in 0..3 {
+            let mut at = |sign: f64| {
+                moved[i][k] = inputs_m[i][k] + sign * STEP_M;
+                residuals_m(&moved)
+            };
+            let (after, before) = (at(1.0)?, at(-1.0)?);
+            moved[i][k] = inputs_m[i][k];
+            for r in 0..count {
+                let slope = (after[r] - before[r]) / (2.0 * STEP_M);
+                jacobian[(r, 3 * i + k)] = slope * sigmas_m[i] / sigmas_m[r];
+            }
+        }
+    }
+    let covariance = &jacobian * jacobian.transpose();
+    let mean = covariance.trace();
+    Ok(Redundancy {
+        mean,
+        freedom: mean * mean / covariance.norm_squared().max(f64::MIN_POSITIVE),
+    })
+}
+
 /// Carries the noise of touches through a construction by central differences.
 ///
 /// `inputs_m` are the touched points, `sigmas_m` the standard deviation of each one's coordinates;
@@ -182,7 +227,7 @@ pub fn propagate<E>(
     construct: impl Fn(&[Vector]) -> Result<Pose, E>,
 ) -> Result<PoseCovariance, E> {
     let centre = construct(inputs_m)?;
-    let step = 1e-6;
+    let step = STEP_M;
     let mut jacobian = DMatrix::zeros(6, 3 * inputs_m.len());
     let mut moved = inputs_m.to_vec();
     for i in 0..inputs_m.len() {

@@ -315,8 +315,8 @@ impl Fit {
         self.covariance_by(&inverse_of(&information), sigma_m)
     }
 
-    /// The same where the noise of a point is not alike in all directions: its covariance, along
-    /// the axes of TO, is `sigma_m²` by its weight by its matrix of `shapes`, whose trace is three.
+    /// The same where the noise of a point is not alike in all directions, or not by its weight: its
+    /// covariance, along the axes of TO, is `sigma_m²` by its weight by its matrix of `shapes`.
     ///
     /// With `N` the information at noise alike in all directions, and `M` the same sum of the
     /// shapes, `N⁻¹ M N⁻¹`.
@@ -334,6 +334,41 @@ impl Fit {
         let inverse = inverse_of(&self.information(from, weights, None));
         let middle = self.information(from, weights, Some(shapes));
         self.covariance_by(&(inverse * middle * inverse), sigma_m)
+    }
+
+    /// What the sum of weighted squared residuals of such noise is in the mean, of `sigma_m` one, and
+    /// the degrees of freedom with which it scatters.
+    ///
+    /// With the residuals' covariance `C`, `tr C` and `(tr C)²/tr C²`: noise along what the motion
+    /// follows is not in the residuals, and one direction is one number.
+    ///
+    /// # Panics
+    /// If these are not the points of the fit but others in a line.
+    ///
+    /// # Source
+    /// F. E. Satterthwaite, Biometrics Bulletin 2 (1946).
+    #[must_use]
+    pub fn redundancy_of_shapes(
+        &self,
+        from: &[Vector],
+        weights: Option<&[f64]>,
+        shapes: &[[[f64; 3]; 3]],
+    ) -> Redundancy {
+        let inverse = inverse_of(&self.information(from, weights, None));
+        let squares: Vec<[[f64; 3]; 3]> = shapes.iter().map(|shape| times(shape, shape)).collect();
+        let by_motion = inverse * self.information(from, weights, Some(shapes));
+        let by_squares = inverse * self.information(from, weights, Some(&squares));
+        let is_used = |i: usize| weights.is_none_or(|w| w[i] > 0.0);
+        let trace = |all: &[[[f64; 3]; 3]]| -> f64 {
+            let each = all.iter().enumerate().filter(|(i, _)| is_used(*i));
+            each.map(|(_, m)| m[0][0] + m[1][1] + m[2][2]).sum()
+        };
+        let mean = trace(shapes) - by_motion.trace();
+        let spread = trace(&squares) - 2.0 * by_squares.trace() + (by_motion * by_motion).trace();
+        Redundancy {
+            mean,
+            freedom: mean * mean / spread.max(f64::MIN_POSITIVE),
+        }
     }
 
     /// Σ w Jᵀ C J of the points about the weighted centre, where rotation and translation do not
@@ -368,6 +403,26 @@ impl Fit {
     pub fn scale_sigma(&self, sigma_m: f64) -> f64 {
         sigma_m / self.from_spread_m2.sqrt()
     }
+}
+
+/// What residuals of noise of standard deviation one come to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Redundancy {
+    /// The mean of their sum of squares.
+    pub mean: f64,
+    /// Its degrees of freedom.
+    pub freedom: f64,
+}
+
+/// The largest variance of a covariance in any direction.
+#[must_use]
+pub fn largest_variance(covariance: &[[f64; 3]; 3]) -> f64 {
+    let matrix = Matrix3::from_fn(|row, column| covariance[row][column]);
+    matrix.symmetric_eigenvalues().max()
+}
+
+fn times(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
 fn inverse_of(information: &Matrix6<f64>) -> Matrix6<f64> {

@@ -3,6 +3,7 @@
 
 use super::in_a_row::{InARow, beyond, in_a_row};
 use super::instead::{Instead, instead};
+use super::reference::{Open, open};
 use crate::diagnose::as_calibrated::left_by_calibration;
 use crate::diagnose::diagnosis::Options;
 use crate::diagnose::estimator::chances::{chi_squared_tail, f_tail, normal_tail};
@@ -75,6 +76,8 @@ pub(crate) struct Attempt {
     pub outdone: Vec<(usize, Unknown)>,
     /// What is no effect and may be in the place of one found.
     pub instead: Vec<Instead>,
+    /// The temperature of lengths, where the rows leave it open.
+    pub open: Option<Open>,
     /// Rows one after another that fit no model.
     pub in_a_row: Vec<InARow>,
     pub likeness: Likeness,
@@ -408,7 +411,9 @@ pub(crate) fn attempt(
     let moved = by_trust(trust, &session, profile, (&refit, &fit));
     let loudness = without_outliers(&session, (&refit, &fit), &used);
     let outdone = outdone((&session, &used), &library, &chosen, &refit);
-    let instead = instead(&session, &used, &chosen);
+    let mut instead = instead(&session, &used, &chosen);
+    let open = open(&session, &used, &chosen);
+    instead.extend(open.iter().flat_map(Open::instead));
     let in_a_row = in_a_row(&session, &refit, measurements);
     let strained = strain(trust, &refit);
     let changed = changed(session.start(), profile, (&refit, &fit));
@@ -428,6 +433,7 @@ pub(crate) fn attempt(
             unknown,
             outdone,
             instead,
+            open,
             in_a_row,
             likeness,
             strained,

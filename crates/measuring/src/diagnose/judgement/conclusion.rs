@@ -5,6 +5,7 @@ use super::accepted::not_taken;
 use super::attempt::Attempt;
 use super::in_a_row::beyond;
 use super::poses::{Telling, telling};
+use super::reference::Open;
 use super::whereabouts::spots;
 use super::{Judged, Standing, apart, is_seldom, judge, stand};
 use crate::diagnose::diagnosis::{
@@ -52,7 +53,7 @@ pub(crate) fn conclude(
     measurements: &Measurements,
     options: &Options,
     attempt: &Attempt,
-    remarks: Vec<Remark>,
+    mut remarks: Vec<Remark>,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, IdentifyError> {
     let session = &attempt.session;
@@ -104,6 +105,7 @@ pub(crate) fn conclude(
         }
     }
     let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
+    remarks.extend(attempt.open.as_ref().and_then(Open::remark));
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let together: Vec<_> = attempt
         .in_a_row
@@ -243,12 +245,17 @@ fn written(
             unsure.push(one.effect.clone());
         }
     }
-    let attempted = (attempt.refit.clone(), attempt.moved.clone());
-    let (own, moved) = if found.iter().all(|f| f.in_profile) {
-        attempted
+    let (own, moved) = if attempt.open.is_none() && found.iter().all(|f| f.in_profile) {
+        (attempt.refit.clone(), attempt.moved.clone())
     } else {
-        let kept = attempt.chosen.iter().zip(found.iter());
-        let kept = kept.filter(|(_, f)| f.in_profile).map(|(c, _)| c.clone());
+        let all = match &attempt.open {
+            Some(open) => open.between(&attempt.session, &attempt.used, &attempt.chosen),
+            None => attempt.chosen.clone(),
+        };
+        // the device's scale that makes up for the temperature that is written comes last
+        let kept = found.iter().map(|f| f.in_profile);
+        let kept = kept.chain(std::iter::repeat(true)).zip(all);
+        let kept = kept.filter(|(is_kept, _)| *is_kept).map(|(_, c)| c);
         attempt.refitted(profile, &kept.collect::<Vec<_>>())
     };
     // where nothing of the arm is missing nothing of it is moved

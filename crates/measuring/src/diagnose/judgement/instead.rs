@@ -137,7 +137,7 @@ fn legendre(degree: usize, x: f64) -> f64 {
 }
 
 /// Products of columns, with one another and with the effects.
-fn group_of(
+pub(super) fn group_of(
     world: &World,
     base: &Fit,
     given: &Given,

@@ -10,6 +10,7 @@ pub(crate) mod conclusion;
 pub(crate) mod in_a_row;
 pub(crate) mod instead;
 pub mod poses;
+pub(crate) mod reference;
 pub mod whereabouts;
 
 use self::attempt::{ALIKE, Attempt, Louder};

@@ -10,14 +10,15 @@ use self::worth::g_at_rows;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::refit::{Start, refit};
 use crate::diagnose::estimator::table::{Column, Layout, table};
-use crate::diagnose::search::candidates::{Candidate, Candidates, Tried, choice, columns_of};
+use crate::diagnose::search::candidates::{Candidate, Candidates, columns_of};
+use crate::diagnose::search::tried::{Tried, choice};
 use crate::diagnose::search::waves;
 use crate::diagnose::search::{Chosen, World};
 use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::base::{BasePolicy, is_same_place};
 use crate::identify::calibration::{Options as CalibrationOptions, calibrate, fit_frames};
-use crate::identify::input_checks::{Remark, finite, screening};
+use crate::identify::input_checks::{Remark, finite, screening, temperatures};
 use crate::identify::measurements::{Measurements, Purpose};
 use crate::identify::parameters::{Level, Selection, Subject};
 use crate::identify::pick::Pick;
@@ -194,6 +195,7 @@ pub fn session(
     }
     finite::check(profile, measurements)?;
     let mut remarks = screening::look(profile, &fit)?;
+    remarks.extend(temperatures::check(measurements)?);
     let guess = start::find(profile, &fit);
     if let Some(guess) = &guess {
         remarks.extend(screening::check_start(profile, &fit, guess)?);

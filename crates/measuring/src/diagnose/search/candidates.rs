@@ -1,15 +1,18 @@
 //! Every effect that the columns allow, at every joint, order and time constant it may have.
 
+use super::tried::{Tried, choice, variants};
 use super::waves;
 use crate::diagnose::estimator::fit::Normal;
 use crate::diagnose::estimator::gain::shows;
 use crate::diagnose::estimator::table::{Numbers, Stored, dot, table_into};
+use crate::identify::clock::Late;
 use crate::identify::external::places;
-use crate::identify::measurements::{DIRECTION_COLUMNS, Late, Measurements, Observed};
-use crate::identify::parameters::{Parameter, Subject, minimal};
+use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements, Observed};
+use crate::identify::needs::too_even_c;
+use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
-    BASE, Effect, Kind, List, MOST_PARAMETERS, Need, Sets, Site, SiteKey, shown_by_tool,
+    BASE, Effect, Kind, MOST_PARAMETERS, Need, Site, SiteKey, shown_by_tool,
 };
 use crate::model::{JOINTS, Slot};
 use crate::profile::{Mounted, Profile};
@@ -17,22 +20,9 @@ use rayon::prelude::*;
 
 /// Harmonics are sought up to this many periods a revolution.
 pub const MOST_ORDERS: u32 = 12;
-/// Temperatures must range over this to show an effect, °C.
-const WARMER_C: f64 = 0.5;
-/// Time constants tried, parts of the session's length.
-const TIME_CONSTANTS: [f64; 6] = [0.05, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// Odds of a moved zero against backlash where a joint comes from one side only, which do the same:
 /// zeros are in every calibration, and rows from one side are measured to keep backlash out.
 const ODDS_OF_A_ZERO: usize = 12;
-/// Torques of a knee tried, parts of the largest torque in the measurements.
-const KNEES: [f64; 7] = [0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7];
-
-/// Temperatures tried at which the arm may be as its profile says, where nothing tells: parts of the
-/// measurements' range from their mean.
-const REFERENCES: [f64; 12] = [
-    -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5,
-];
-
 /// One effect at one place, with the parameters that are sought; others are held.
 #[derive(Clone, Debug)]
 pub struct Candidate {
@@ -172,43 +162,6 @@ fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
     all
 }
 
-/// The parameters that are sought together, and a parameter with the value that a list chose for
-/// it.
-type Variant = (Vec<usize>, Option<(usize, f64)>);
-
-/// Which parameters are sought together, and the values of those that are chosen from a list.
-fn variants(kind: Kind, site: &Site, tried: &Tried) -> Vec<Variant> {
-    let definition = kind.definition();
-    let all = 0..definition.parameters.len();
-    match definition.search.sets {
-        Sets::All => vec![(all.collect(), None)],
-        Sets::Of(sets) => sets.iter().map(|set| (set.to_vec(), None)).collect(),
-        Sets::Minimal => {
-            let own = &tried.geometry[site.index];
-            let each = own.iter().map(|n| (vec![*n], None));
-            let together = (own.len() > 2).then(|| (own.clone(), None));
-            each.chain(together).collect()
-        }
-        Sets::At(number, list) => {
-            let here = Effect {
-                kind,
-                site: site.clone(),
-                parameters: [0.0; MOST_PARAMETERS],
-            };
-            let others = all.filter(|n| *n != number && here.has(definition.parameters[*n].key));
-            let others: Vec<usize> = others.collect();
-            let values = match list {
-                List::Temperatures => &tried.references,
-                List::Torques => &tried.knees[site.index],
-                List::Times => &tried.constants,
-                List::Rows => &tried.row_constants,
-            };
-            let with = |value: &f64| (others.clone(), Some((number, *value)));
-            values.iter().map(with).collect()
-        }
-    }
-}
-
 /// The smallest value of a parameter that is physical, SI.
 pub(crate) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Option<f64> {
     let search = &effect.definition().search;
@@ -219,101 +172,6 @@ pub(crate) fn least(problem: &Problem, effect: &Effect, parameter: usize) -> Opt
         return masses.reduce(f64::min).map(|mass| -mass);
     }
     search.never_negative.contains(&parameter).then_some(0.0)
-}
-
-/// The temperature at which a calibration found the lengths of the arm, °C.
-fn calibrated_at(profile: &Profile) -> Option<f64> {
-    let provenance = profile.provenance.as_ref()?;
-    provenance["temperature_c"].as_f64()
-}
-
-/// The parameter of an effect that is chosen from a list and counts like a fitted one: it shapes the
-/// effect. At which temperature the arm is as its profile says is known where that was calibrated.
-pub(crate) fn choice(problem: &Problem, effect: &Effect) -> Option<usize> {
-    let (number, list) = effect.definition().listed()?;
-    let is_known = list == List::Temperatures && calibrated_at(&problem.profile).is_some();
-    (!is_known).then_some(number)
-}
-
-/// Values that are chosen from lists.
-#[derive(Clone, Debug, Default)]
-pub struct Tried {
-    /// Torques of knees, N·m, of each joint.
-    pub knees: [Vec<f64>; JOINTS],
-    /// Time constants, seconds.
-    pub constants: Vec<f64>,
-    /// Constants of a drift from row to row, rows.
-    pub row_constants: Vec<f64>,
-    /// Reference temperatures, °C.
-    pub references: Vec<f64>,
-    /// Parameters of each link's geometry that a complete and minimal model has: the others do
-    /// what a neighbour's do.
-    pub geometry: [Vec<usize>; JOINTS],
-}
-
-impl Tried {
-    /// From the measurements' own ranges.
-    #[must_use]
-    pub fn of(problem: &Problem, estimate: &Estimate) -> Self {
-        let models = problem.models(estimate, &[]);
-        let mut most = [0.0_f64; JOINTS];
-        for row in problem.rows.iter() {
-            let torques = models[row.rig].torques(&row.q, &row.conditions);
-            for i in 0..JOINTS {
-                most[i] = most[i].max(torques[i].abs());
-            }
-        }
-        let knees = most.map(|t| {
-            if t > 1e-3 {
-                KNEES.map(|part| part * t).to_vec()
-            } else {
-                Vec::new()
-            }
-        });
-        let times: Vec<f64> = problem
-            .rows
-            .iter()
-            .filter_map(|r| r.conditions.time_s)
-            .collect();
-        let length = times.iter().fold(0.0, |most, t| f64::max(most, *t));
-        let constants = if length > 0.0 {
-            TIME_CONSTANTS.map(|p| p * length).to_vec()
-        } else {
-            Vec::new()
-        };
-        let temperatures: Vec<f64> = problem
-            .rows
-            .iter()
-            .filter_map(|r| r.conditions.temperature_c)
-            .collect();
-        let mean = temperatures.iter().sum::<f64>() / temperatures.len().max(1) as f64;
-        let mut references = vec![20.0, mean];
-        if let Some(calibrated) = calibrated_at(&problem.profile) {
-            references.push(calibrated);
-        } else {
-            let range = range(temperatures.iter().copied());
-            references.extend(REFERENCES.map(|part| mean + part * range));
-        }
-        // the first link's are the base's, the last one's turn and offset the tool's
-        let keys = Kind::LinkGeometry.definition().parameters;
-        let geometry = std::array::from_fn(|link| {
-            let own = |n: &usize| match link {
-                0 => false,
-                5 => ["alpha_deg", "a_mm"].contains(&keys[*n].key),
-                _ => minimal(&problem.profile, link, keys[*n].key),
-            };
-            (0..keys.len()).filter(own).collect()
-        });
-        Self {
-            knees,
-            constants,
-            row_constants: TIME_CONSTANTS
-                .map(|p| p * problem.rows.len() as f64)
-                .to_vec(),
-            references,
-            geometry,
-        }
-    }
 }
 
 /// Largest less smallest.
@@ -358,19 +216,16 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
             Need::Temperature if !measurements.has(&["temperature_c"]) => {
                 Some(need.describe().to_owned())
             }
-            Need::Temperature => {
-                let by = range(rows.iter().filter_map(|r| r.conditions.temperature_c));
-                (by < WARMER_C).then(|| {
-                    format!("temperatures that differ: temperature_c ranges over {by:.2} degrees")
-                })
-            }
+            Need::Temperature => too_even_c(rows).map(|by| {
+                format!("temperatures that differ: temperature_c ranges over {by:.2} degrees")
+            }),
             Need::Time if !measurements.has(&["time_s"]) => Some(need.describe().to_owned()),
             Need::Time => {
                 let times = || rows.iter().filter_map(|r| r.conditions.time_s);
                 let constant = (range(times()) <= 0.0)
                     .then(|| "times that differ: time_s is constant".to_owned());
                 constant.or_else(|| {
-                    let late = Late::of(times())?;
+                    let late = Late::of(&measurements.rows)?;
                     Some(format!("times from switching the cold robot on: {late}"))
                 })
             }
@@ -479,7 +334,7 @@ impl Candidates {
         let times = || problem.rows.iter().filter_map(|r| r.conditions.time_s);
         let length_s = range(times());
         // what a clock that begins late says is in the order of rows, too
-        let has_time = length_s > 0.0 && Late::of(times()).is_none();
+        let has_time = length_s > 0.0 && Late::of(&measurements.rows).is_none();
         let track = problem.profile.external.track.len();
         let mut stood = places(&problem.profile.external, measurements);
         stood.truncate(track);

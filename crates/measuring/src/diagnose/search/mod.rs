@@ -4,6 +4,7 @@ pub mod candidates;
 mod drifts;
 pub(crate) mod scan;
 pub mod stand_ins;
+pub mod tried;
 pub(crate) mod waves;
 
 use self::candidates::{Candidate, Candidates};
@@ -29,7 +30,7 @@ const BETTER: f64 = 0.3;
 /// Rows from which on effects hold are the same where they are this near.
 const SAME_ROW: u32 = 3;
 /// Odds of an effect that every arm has in some measure against one that only some have.
-const ODDS: f64 = 5.0;
+pub(crate) const ODDS: f64 = 5.0;
 
 /// Everything that the search looks at.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@
 //!
 //! [`csv`] looks at the text, [`screening`] at the rows before anything is believed (`readings` are
 //! what else a file may mean), `finite` at the model of the arm, `plausibility` at a fit,
-//! `validation` at a profile judged on rows, [`sweeps`] at sweeps of single joints.
+//! `validation` at a profile judged on rows, [`sweeps`] at sweeps of single joints, `temperatures` at
+//! their unit.
 
 pub mod csv;
 pub(crate) mod finite;
@@ -11,6 +12,7 @@ pub(crate) mod plausibility;
 mod readings;
 pub mod screening;
 pub mod sweeps;
+pub(crate) mod temperatures;
 pub(super) mod validation;
 
 use super::error::IdentifyError;
@@ -27,7 +29,7 @@ const NOT_OF_THIS_ROBOT: &str = "is it this robot, this tool, this order of rows
 const SIGMA_FACTOR: f64 = 3.0;
 
 /// The line of what is no line's.
-const WHOLE_FILE: usize = 0;
+pub(crate) const WHOLE_FILE: usize = 0;
 
 /// Something about the measurements that a person should look at.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use super::plausibility::{check_rows, times_sigma};
 use super::screening::{check_points, check_start, duplicates, look, refuse_far_off};
-use super::{Remark, WHOLE_FILE, finite, remark, sigma};
+use super::{Remark, WHOLE_FILE, finite, remark, sigma, temperatures};
 use crate::identify::calibration::Outlier;
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::Measurements;
@@ -31,11 +31,13 @@ pub(crate) fn before(
 ) -> Result<Vec<Remark>, IdentifyError> {
     finite::check(profile, measurements)?;
     refuse_far_off(measurements)?;
+    let unit = temperatures::check(measurements)?;
     let mut remarks = match look(profile, measurements) {
-        Ok(remarks) => remarks,
+        Ok(remarks) => unit.into_iter().chain(remarks).collect::<Vec<_>>(),
         // one pose or one line may be what is to be judged
         Err(IdentifyError::Suspicious { message, hint }) => {
             let mut remarks = vec![remark("little-variety", WHOLE_FILE, message, &hint)];
+            remarks.extend(unit);
             remarks.extend(duplicates(&measurements.rows));
             // what follows from poses that differ does not from these
             return Ok(remarks);

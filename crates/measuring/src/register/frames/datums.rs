@@ -51,19 +51,24 @@ pub fn three_two_one(touches: &Datums, probe_radius_m: f64) -> Result<Pose, Fram
     })?;
     let across = |v: Vector| sub(v, scale(dot(primary.normal, v), primary.normal));
     let s = &touches.secondary_m;
-    let (middle, axes) = features::extents(s);
     let span = sub(s[s.len() - 1], s[0]);
-    let along = match s.len() {
-        2 => span,
-        _ => scale(dot(axes[0].1, span).signum(), axes[0].1),
+    // a line in the primary plane: at which height each was touched does not tilt it
+    let flat: Vec<Vector> = s.iter().map(|p| across(sub(*p, s[0]))).collect();
+    let (_, axes) = features::extents(&flat);
+    let (along, reach) = match s.len() {
+        2 => (across(span), norm(span)),
+        _ => (
+            scale(dot(axes[0].1, span).signum() * axes[0].0, axes[0].1),
+            features::extents(s).1[0].0,
+        ),
     };
-    let reach = if s.len() == 2 { norm(span) } else { axes[0].0 };
     let along = unit(
         "the last secondary touch",
         "the first, along the primary plane",
-        scale(if s.len() == 2 { 1.0 } else { reach }, across(along)),
+        along,
         reach.max(f64::MIN_POSITIVE),
     )?;
+    let middle = mean(s);
     let corner = Corner {
         touches,
         primary,
