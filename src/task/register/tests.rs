@@ -541,7 +541,6 @@ fn centres_of_spheres_touched_on_a_cap_are_as_sure_as_said() {
             }
         }
         let ratios: [f64; 3] = std::array::from_fn(|i| off[i] / said[i]);
-        println!("{stated:?}: {ratios:?}, {doubted} of 200 doubted");
         for ratio in ratios {
             assert!((0.65..1.5).contains(&ratio), "{stated:?}: {ratios:?}");
         }
