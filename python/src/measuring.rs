@@ -229,7 +229,7 @@ pub(crate) fn diagnose(
     let found = long(py, move |stop| {
         let hear = &mut |_: &str| stop.here();
         let found = if runs {
-            task::drift::diagnose_runs(&file, rows, &options, hear)?
+            task::drift::diagnose_runs(&file, &rows, &options, hear)?
         } else {
             task::diagnose::diagnose(&file, rows, &options, hear)?
         };

@@ -63,7 +63,7 @@ impl Diagnose {
         progress.say("diagnosing");
         let hear = &mut |what: &str| progress.say(what);
         let mut found = if self.runs {
-            diagnose_runs(&profile, measurements, &options, hear)?
+            diagnose_runs(&profile, &measurements, &options, hear)?
         } else {
             diagnose(&profile, measurements, &options, hear)?
         };

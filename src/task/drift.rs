@@ -193,7 +193,7 @@ fn typical_m(found: &Validation) -> f64 {
 /// Fewer runs than a change can be seen in; as [`diagnose`].
 pub fn diagnose_runs(
     file: &ProfileFile,
-    measurements: Rows,
+    measurements: &Rows,
     options: &Options,
     hear: &mut dyn FnMut(&str),
 ) -> Result<Diagnosis, Failure> {

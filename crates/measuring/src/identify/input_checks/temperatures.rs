@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(checked([41.0, 52.0, 75.0]), Ok(None));
         assert_eq!(checked([68.0, 70.5, 72.0]), Ok(Some("temperature-unit")));
         let kelvin = checked([293.1, 295.2, 296.0]).expect_err("no arm is so hot");
-        for words in ["line 2", "293.1", "kelvin (then it is 19.9"] {
+        for words in ["line 2", "293.1", "kelvin (then it is 20.0"] {
             assert!(kelvin.contains(words), "{kelvin}");
         }
     }
