@@ -130,7 +130,7 @@ impl<'a> Path<'a> {
         let wanted = equipped.controller.forward(end, &Conditions::default());
         let turning = walk_options.turning;
         let via = via.or_else(|| {
-            let end = end_of_arc(job, arrivals, fakes, at);
+            let end = fake_end(job, arrivals, fakes, at);
             let ends = (&start, &wanted, end);
             middle::halfway(
                 ground,
@@ -159,13 +159,25 @@ impl<'a> Path<'a> {
     }
 }
 
-/// Where the arc through the point of an arrival ends between fake targets, where that is the next
-/// arrival.
-fn end_of_arc(job: &Job, arrivals: &Arrivals, fakes: &[[f64; 6]], at: usize) -> Option<Pose> {
+/// The arrival at the end of the arc through the point of an arrival, where that is the next one and
+/// known.
+pub(super) fn end_of_arc<'a>(
+    program: &Program,
+    arrivals: &'a Arrivals,
+    at: usize,
+) -> Option<&'a Arrival> {
     let end = arrivals.all.get(at + 1)?;
-    let motion = &job.ground.program.moves[end.motion as usize];
-    let is_end = motion.motion == Motion::ArcEnd && end.from as usize == at && end.known;
-    let equipped = job.ground.equipped(motion.tool).filter(|_| is_end)?;
+    let is_end = program.moves[end.motion as usize].motion == Motion::ArcEnd;
+    Some(end).filter(|end| is_end && end.from as usize == at && end.known)
+}
+
+/// Where that arc ends between fake targets.
+fn fake_end(job: &Job, arrivals: &Arrivals, fakes: &[[f64; 6]], at: usize) -> Option<Pose> {
+    let program = job.ground.program;
+    let end = end_of_arc(program, arrivals, at)?;
+    let equipped = job
+        .ground
+        .equipped(program.moves[end.motion as usize].tool)?;
     let conditions = Conditions::default();
     Some(equipped.controller.forward(&fakes[at + 1], &conditions))
 }

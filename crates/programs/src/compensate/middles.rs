@@ -1,18 +1,18 @@
 //! The rotation in which the robot passes the middle of an arc between fake targets.
 //!
-//! The tool rotates from the fake beginning to the fake end. Where joints with backlash come to these from
-//! one side and to the middle from the other that is not the rotation for which the middle was
-//! corrected at first.
+//! The tool rotates from the fake beginning to the fake end. Where joints with backlash come to
+//! these from one side and to the middle from the other that is not the rotation for which the
+//! middle was corrected at first.
 
 use super::Job;
 use super::approach::Approach;
-use super::ends::{Ends, Path};
+use super::ends::{Ends, Path, end_of_arc};
 use crate::geometry::Rotation;
 use crate::inverse::{Outcome, Status};
 use crate::model::Conditions;
 use crate::motion::course::Course;
 use crate::motion::walk::{Arrivals, WalkOptions};
-use crate::program::Motion;
+use crate::program::Displacement;
 use crate::program::script::short;
 use std::sync::Arc;
 
@@ -53,11 +53,15 @@ fn turned(
     outcome: &Outcome,
     ends: &Ends,
 ) -> Option<Rotation> {
+    let program = job.ground.program;
+    let own = program.moves.get(approach.motion as usize)?;
+    // through a point that is derived from the target the path is another one
+    if own.displacement != Displacement::None {
+        return None;
+    }
     let at = approach.arrival as usize;
-    let end = arrivals.all.get(at + 1)?;
-    let motion = &job.ground.program.moves[end.motion as usize];
-    let is_end = motion.motion == Motion::ArcEnd && end.from as usize == at && end.known;
-    let path = Path::of(job, arrivals, walk_options, &ends.fakes, at + 1).filter(|_| is_end)?;
+    end_of_arc(program, arrivals, at)?;
+    let path = Path::of(job, arrivals, walk_options, &ends.fakes, at + 1)?;
     let Course::Tool(course) = path.course else {
         return None;
     };
