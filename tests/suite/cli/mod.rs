@@ -17,6 +17,7 @@ mod limits;
 mod marked;
 mod memory;
 mod mistakes;
+mod offset_wrists;
 mod out_of_bounds;
 mod outputs;
 mod outputs_kept;

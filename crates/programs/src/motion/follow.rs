@@ -124,6 +124,12 @@ pub(crate) fn follow(
     let arm = &equipped.arm;
     let at = |s: f64, branch: Branch, near: &[f64; 6]| {
         let pose = if s < 1.0 { path.pose(s) } else { *end };
+        // several answers of such an arm are on one branch: the one to which the path leads
+        if arm.has_offset_wrist()
+            && let Ok(q) = arm.follow(near, &pose)
+        {
+            return Some(q);
+        }
         let solution = arm.solve_along(&pose, branch, near);
         (solution.beyond == 0.0).then_some(solution.q)
     };
@@ -142,7 +148,8 @@ pub(crate) fn follow(
             .min_by(|a, b| a.0.total_cmp(&b.0));
         branch = nearest?.1;
     }
-    let steps = if path.angle_rad() > MANY_RAD || path.length_m() > MANY_M {
+    let is_long = path.angle_rad() > MANY_RAD || path.length_m() > MANY_M;
+    let steps = if is_long || arm.has_offset_wrist() && path.is_arc() {
         8.0
     } else {
         1.0
