@@ -53,6 +53,20 @@ impl Disk {
         file.sync_all()
     }
 
+    /// Whether there is anything at a path.
+    pub(super) fn exists(&self, path: &Path) -> Result<bool> {
+        self.step()?;
+        match fs::symlink_metadata(path) {
+            Ok(_) => Ok(true),
+            Err(error)
+                if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+            {
+                Ok(false)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
     /// Writes over the beginning of a file.
     pub(super) fn overwrite(&self, path: &Path, bytes: &[u8]) -> Result<()> {
         self.step()?;

@@ -444,7 +444,10 @@ impl Files {
         self.refuse_changed()?;
         print()?;
         self.refuse_changed()?;
-        Ok(staged.commit()?)
+        if let Some(left) = staged.commit()? {
+            screen::warn(&left);
+        }
+        Ok(())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::disk::Disk;
 use super::journal::{self, Entry, Held, Journal, Stage, foreign};
-use super::work::{Stop, Work, exists, is_of_run};
+use super::work::{Stop, Work, is_of_run};
 use crate::printable::name_of;
 use crate::task::Failure;
 use std::fs;
@@ -115,7 +115,7 @@ fn new_files(folder: &Path) -> Vec<PathBuf> {
 fn remove_abandoned(disk: &Disk, folder: &Path, made: &[PathBuf]) -> Option<String> {
     let gone = made
         .iter()
-        .filter(|path| exists(path) && disk.remove(path).is_ok());
+        .filter(|path| disk.exists(path).unwrap_or(false) && disk.remove(path).is_ok());
     let names: Vec<String> = gone.map(|path| name_of(path)).collect();
     (!names.is_empty()).then(|| {
         format!(

@@ -70,6 +70,11 @@ fn expected(after: bool) -> Content {
 }
 
 fn run(disk: &Disk, folder: &Path) -> Result<(), Failure> {
+    run_with(disk, folder, |_| ())
+}
+
+/// Likewise; `meanwhile` is done between all files are made and they are put into their places.
+fn run_with(disk: &Disk, folder: &Path, meanwhile: impl Fn(&Path)) -> Result<(), Failure> {
     let folder = folder.canonicalize().expect("scratch");
     let names: Vec<PathBuf> = FILES.iter().map(|(name, ..)| name.into()).collect();
     let new: Vec<New> = FILES
@@ -81,7 +86,9 @@ fn run(disk: &Disk, folder: &Path) -> Result<(), Failure> {
             bytes: text.as_bytes(),
         })
         .collect();
-    Transaction::stage(disk, &new, &mut Vec::new())?.commit()
+    let staged = Transaction::stage(disk, &new, &mut Vec::new())?;
+    meanwhile(&folder);
+    staged.commit().map(|_| ())
 }
 
 /// What the runs after a stop in both folders say.
@@ -194,7 +201,7 @@ fn a_kill_while_all_is_put_back_is_put_back_by_the_next_run() {
 #[test]
 fn what_was_changed_after_a_kill_stays_and_the_rest_is_put_back() {
     let mut seen = 0;
-    for last in 0..80 {
+    for last in 0..200 {
         let folder = world();
         let (disk, _) = stopped(move |step| step >= last);
         let _ = run(&disk, folder.path());
@@ -216,7 +223,7 @@ fn what_was_changed_after_a_kill_stays_and_the_rest_is_put_back() {
 
 /// Worlds stopped between two renames: the first files of `a` are new, those of `b` are not.
 fn stopped_halfway() -> Vec<tempfile::TempDir> {
-    let worlds = (0..80).map(|last| {
+    let worlds = (0..200).map(|last| {
         let folder = world();
         let _ = run(&stopped(move |step| step >= last).0, folder.path());
         folder
@@ -272,6 +279,21 @@ fn a_new_file_that_is_damaged_or_gone_comes_to_no_place_and_all_is_put_back() {
         }
     }
     assert!(seen > 5, "{seen}");
+}
+
+#[test]
+fn a_new_file_that_another_program_removes_meanwhile_comes_to_no_place_nor_do_the_others() {
+    for number in 0..3 {
+        let folder = world();
+        let failure = run_with(&Disk::default(), folder.path(), |folder| {
+            let mut made = next_to(folder, ".new");
+            made.sort();
+            fs::remove_file(&made[number % made.len()]).expect("scratch");
+        })
+        .expect_err("one is gone");
+        assert!(failure.message.contains("gone"), "{failure:?}");
+        assert_eq!(content(folder.path()), expected(false));
+    }
 }
 
 #[test]

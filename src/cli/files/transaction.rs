@@ -8,7 +8,7 @@
 use super::disk::Disk;
 use super::journal::{Entry, Held, Journal, Stage};
 use super::recovery::recover;
-use super::work::{Stop, Work, exists, hash_of};
+use super::work::{Stop, Work, hash_of};
 use crate::printable::name_of;
 use crate::program::sha256;
 use crate::task::Failure;
@@ -47,10 +47,10 @@ impl<'a> Transaction<'a> {
     ) -> Result<Self, Failure> {
         let hashes: Vec<String> = files.par_iter().map(|file| sha256(file.bytes)).collect();
         for _ in 0..TRIES {
-            let (planned, contents) = entries(files, &hashes)?;
+            let (planned, contents) = entries(disk, files, &hashes)?;
             let transaction = Self::begun(disk, files, planned, said)?;
             // until the journal was ours another run may have written there
-            let (entries, _) = entries(files, &hashes)?;
+            let (entries, _) = entries(disk, files, &hashes)?;
             if entries != transaction.work.entries {
                 continue;
             }
@@ -152,14 +152,16 @@ impl<'a> Transaction<'a> {
         Failure::file(known, "write", &stop.why)
     }
 
-    /// Puts all files into their places.
+    /// Puts all files into their places. What is to be said where something that is no longer needed
+    /// stays.
     ///
     /// # Errors
     /// One cannot be put there: all are put back.
-    pub(super) fn commit(mut self) -> Result<(), Failure> {
+    pub(super) fn commit(mut self) -> Result<Option<String>, Failure> {
         let work = &self.work;
         let stop_at_journal = Stop::at(&work.held.path);
-        let begun = work.sync().and_then(|()| {
+        let begun = work.refuse_gone().and_then(|()| work.sync());
+        let begun = begun.and_then(|()| {
             let set = work.held.set(work.disk, Stage::Commit);
             set.map_err(stop_at_journal)
         });
@@ -172,10 +174,16 @@ impl<'a> Transaction<'a> {
             let failure = self.failure(&stop);
             return Err(self.put_back(failure));
         }
-        // all is in its place: what cannot be removed now is removed by the next run
-        let _ = work.clean();
+        let cleaned = work.clean();
         self.is_done = true;
-        Ok(())
+        Ok(cleaned.err().map(|stop| {
+            format!(
+                "all files are written; {} could not be removed ({}): the next run that writes in its \
+                 folder does so",
+                name_of(&stop.path),
+                stop.why
+            )
+        }))
     }
 
     fn put_back(&mut self, failure: Failure) -> Failure {
@@ -230,10 +238,22 @@ fn busy(path: &Path) -> Failure {
     ))
 }
 
+/// Whether there is anything at a path.
+fn exists(disk: &Disk, path: &Path) -> Result<bool, Failure> {
+    let found = disk.exists(path);
+    found.map_err(|error| Failure::file(path, "read", &error))
+}
+
 /// The highest folder of a file that is not there yet.
-fn new_folder(place: &Path) -> Option<&Path> {
-    let above = place.ancestors().skip(1);
-    above.take_while(|folder| !exists(folder)).last()
+fn new_folder<'a>(disk: &Disk, place: &'a Path) -> Result<Option<&'a Path>, Failure> {
+    let mut highest = None;
+    for folder in place.ancestors().skip(1) {
+        if exists(disk, folder)? {
+            break;
+        }
+        highest = Some(folder);
+    }
+    Ok(highest)
 }
 
 /// Files relative to an entry, with what they hold.
@@ -241,12 +261,13 @@ type Contents<'a> = Vec<(PathBuf, &'a [u8])>;
 
 /// What is renamed: files, and new folders whole. `hashes` are those of the files.
 fn entries<'a>(
+    disk: &Disk,
     files: &[New<'a>],
     hashes: &[String],
 ) -> Result<(Vec<Entry>, Vec<Contents<'a>>), Failure> {
     let mut trees: BTreeMap<&Path, Vec<(PathBuf, usize)>> = BTreeMap::new();
     for (index, file) in files.iter().enumerate() {
-        let target = new_folder(&file.place).unwrap_or(&file.place);
+        let target = new_folder(disk, &file.place)?.unwrap_or(&file.place);
         let below = file
             .place
             .strip_prefix(target)
@@ -257,7 +278,7 @@ fn entries<'a>(
     let mut entries = Vec::with_capacity(trees.len());
     let mut contents = Vec::with_capacity(trees.len());
     for (target, below) in trees {
-        let old = if exists(target) {
+        let old = if exists(disk, target)? {
             Some(hash_of(target).map_err(|error| Failure::file(target, "read", &error))?)
         } else {
             None

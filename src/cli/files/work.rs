@@ -34,11 +34,6 @@ pub(super) struct Work<'a> {
     pub entries: Vec<Entry>,
 }
 
-/// Whether there is anything.
-pub(super) fn exists(path: &Path) -> bool {
-    fs::symlink_metadata(path).is_ok()
-}
-
 /// The hash of what a file holds.
 pub(super) fn hash_of(path: &Path) -> io::Result<String> {
     sha256_of(&mut fs::File::open(path)?)
@@ -79,11 +74,16 @@ impl Work<'_> {
         self.entries.iter().map(Entry::folder).collect()
     }
 
+    /// Whether there is anything; where the disk does not say, nobody goes on.
+    fn exists(&self, path: &Path) -> Result<bool, Stop> {
+        self.disk.exists(path).map_err(Stop::at(path))
+    }
+
     /// Whether the place is as it was before the run.
-    fn is_old(entry: &Entry) -> bool {
+    fn is_old(&self, entry: &Entry) -> Result<bool, Stop> {
         match &entry.old {
-            Some(hash) => holds(&entry.target, hash),
-            None => !exists(&entry.target),
+            Some(hash) => Ok(holds(&entry.target, hash)),
+            None => Ok(!self.exists(&entry.target)?),
         }
     }
 
@@ -105,7 +105,7 @@ impl Work<'_> {
     pub(super) fn refuse_damaged(&self) -> Result<(), Stop> {
         for entry in &self.entries {
             let staged = self.staged(entry);
-            let (at, why) = if exists(&staged) {
+            let (at, why) = if self.exists(&staged)? {
                 (&staged, "it is not what the run wrote")
             } else {
                 (&entry.target, "what the run wrote for it is gone")
@@ -117,13 +117,29 @@ impl Work<'_> {
         Ok(())
     }
 
+    /// That nobody has removed a new file before any is in its place.
+    pub(super) fn refuse_gone(&self) -> Result<(), Stop> {
+        for entry in &self.entries {
+            if !self.exists(&self.staged(entry))? {
+                let why = io::Error::other("what the run wrote for it is gone");
+                return Err(Stop::at(&entry.target)(why));
+            }
+        }
+        Ok(())
+    }
+
     /// Puts every new file into its place.
     pub(super) fn forward(&self) -> Result<(), Stop> {
-        let waiting = |entry: &&Entry| exists(&self.staged(entry));
-        let waiting: Vec<&Entry> = self.entries.iter().filter(waiting).collect();
-        if let Some(entry) = waiting.iter().find(|entry| !Self::is_old(entry)) {
-            let why = io::Error::other("it was changed by another program meanwhile");
-            return Err(Stop::at(&entry.target)(why));
+        let mut waiting = Vec::with_capacity(self.entries.len());
+        for entry in &self.entries {
+            if !self.exists(&self.staged(entry))? {
+                continue;
+            }
+            if !self.is_old(entry)? {
+                let why = io::Error::other("it was changed by another program meanwhile");
+                return Err(Stop::at(&entry.target)(why));
+            }
+            waiting.push(entry);
         }
         for entry in waiting {
             let renamed = self.disk.rename(&self.staged(entry), &entry.target);
@@ -136,7 +152,7 @@ impl Work<'_> {
     fn step_back(&self, entry: &Entry) -> Result<Option<(PathBuf, PathBuf)>, Stop> {
         let (staged, backup) = (self.staged(entry), self.backup(entry));
         let stop = |why: &str| Err(Stop::at(&entry.target)(io::Error::other(why)));
-        if exists(&staged) {
+        if self.exists(&staged)? {
             return Ok(None);
         }
         if Self::is_new(entry, &entry.target) {
@@ -146,13 +162,13 @@ impl Work<'_> {
                 Some(hash) if holds(&backup, hash) => {
                     return Ok(Some((backup, entry.target.clone())));
                 }
-                Some(_) if exists(&backup) => {
+                Some(_) if self.exists(&backup)? => {
                     return stop("what it held before was changed after a run was stopped");
                 }
                 Some(_) => {}
             }
         }
-        if Self::is_old(entry) {
+        if self.is_old(entry)? {
             return Ok(None);
         }
         stop("it was changed after a run that wrote it was stopped")
