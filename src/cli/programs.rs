@@ -165,7 +165,10 @@ fn no_text(bytes: &[u8]) -> Option<&'static str> {
     if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) {
         Some("it is UTF-16; save it as UTF-8 or in the controller's encoding")
     } else if memchr::memchr(0, head).is_some() {
-        Some("it holds bytes that are 0: UTF-16, or no text")
+        Some(
+            "it holds bytes that are 0: UTF-16, no text, or a module that is encoded and that the controller alone \
+             reads",
+        )
     } else if bytes.trim_ascii().is_empty() {
         Some("it is empty")
     } else {

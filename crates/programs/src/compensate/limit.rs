@@ -7,10 +7,10 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM, mm_from_m};
 use crate::model::Conditions;
-use crate::motion::arms::Equipped;
 use crate::motion::ground::Ground;
 use crate::motion::placed::bases;
 use crate::motion::plausibility;
+use crate::profile::{Mounted, Profile};
 use std::sync::OnceLock;
 
 /// Postures at which the effects are looked at, and which of them in order of size counts: 95 in
@@ -51,9 +51,8 @@ impl Limits {
 
     /// The limit for targets with a tool.
     fn of(&self, ground: &Ground, tool: usize) -> Separation {
-        self.raised.unwrap_or_else(|| {
-            *self.of_tools[tool].get_or_init(|| usual(ground, ground.arm_with(tool)))
-        })
+        self.raised
+            .unwrap_or_else(|| *self.of_tools[tool].get_or_init(|| usual(ground, tool)))
     }
 
     /// The limit for targets with each tool, where one was asked for.
@@ -79,7 +78,9 @@ impl Limits {
         let (shift_mm, shift_deg) = (mm_from_m(shift.distance_m), shift.angle_rad / DEG);
         let whence = match self.raised {
             Some(_) => "--max-shift",
-            None => "ten times what this profile's effects usually do, at most 20 mm and 2 deg",
+            None => {
+                "ten times what this profile's effects usually do with loads that it knows, at most 20 mm and 2 deg"
+            }
         };
         let message = format!(
             "the correction shifts {} by {shift_mm:.3} mm and {shift_deg:.3} deg; the limit is \
@@ -108,8 +109,33 @@ pub(super) fn advise(findings: &mut [Finding], needed: &Separation) {
     }
 }
 
-/// What the effects do at most postures, times ten.
-fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
+/// A tool with no more load than the profile knows: that of its heaviest tool, or the payload of the arm.
+/// What the program says it weighs may be wrong, and is not what the limit is measured by.
+fn with_known_load(profile: &Profile, tool: &Mounted) -> Mounted {
+    let loads = profile.tools.values().filter_map(|tool| tool.load);
+    let masses = loads.map(|(mass_kg, _)| mass_kg).chain(profile.payload_kg);
+    let known_kg = masses.fold(0.0, f64::max);
+    Mounted {
+        load: tool.load.map(|(mass_kg, centre)| {
+            let is_known = known_kg == 0.0 || mass_kg <= known_kg;
+            (if is_known { mass_kg } else { known_kg }, centre)
+        }),
+        ..tool.clone()
+    }
+}
+
+/// What the effects do at most postures with a tool, times ten.
+fn usual(ground: &Ground, tool: usize) -> Separation {
+    let equipped = ground.arm_with(tool);
+    let mounted = ground.setting.tools[tool].as_ref();
+    let known = mounted.map(|mounted| with_known_load(ground.profile, mounted));
+    let lighter = known.filter(|known| Some(known) != mounted);
+    let real = match &lighter {
+        Some(known) => &ground
+            .profile
+            .real_model(known, &equipped.inverse.conditions),
+        None => &equipped.inverse.real,
+    };
     let mut random = Random(SEED);
     let joints = &ground.profile.mechanism.joints;
     let mut gaps: Vec<Separation> = Vec::with_capacity(POSTURES);
@@ -122,7 +148,7 @@ fn usual(ground: &Ground, equipped: &Equipped) -> Separation {
             direction: std::array::from_fn(|_| if random.draw() < 0.5 { -1.0 } else { 1.0 }),
             ..equipped.inverse.conditions
         };
-        let real = equipped.inverse.real.forward(&q, &conditions);
+        let real = real.forward(&q, &conditions);
         let commanded = equipped.controller.forward(&q, &Conditions::default());
         let [real_base, nominal_base] = bases(ground.profile, || random.draw());
         gaps.push((real_base * real).separation(&(nominal_base * commanded)));

@@ -294,11 +294,31 @@ impl Reader<'_> {
             // a value of another type, unless it stands where only a target can
             Err(Fault::Unexpected { .. }) if !wanted => {
                 self.rewind(mark);
-                return Ok(None);
+                return self.written_joints(offset, mentions);
             }
             Err(fault) => return Err(fault),
         };
         Ok(Some(self.target(shape, None, offset, &leaves, mentions)))
+    }
+
+    /// Joints in the argument of a routine, `ArcMoveAbsJ [[0,10,10,0,30,0],[…]],…`; `None` where it is
+    /// data of another type.
+    fn written_joints(&mut self, offset: u32, mentions: u32) -> Result<Option<Written>, Fault> {
+        let mark = self.mark();
+        match self.aggregate(JOINTTARGET) {
+            Ok(leaves) => Ok(Some(self.target(
+                Shape::Joints,
+                None,
+                offset,
+                &leaves,
+                mentions,
+            ))),
+            Err(Fault::Unexpected { .. }) => {
+                self.rewind(mark);
+                Ok(None)
+            }
+            Err(fault) => Err(fault),
+        }
     }
 
     /// Parsed a target with its numbers. One with expressions in it has none; the names in them

@@ -31,7 +31,7 @@ impl Resolved<'_> {
         if text[..end].contains(&b'!') {
             return;
         }
-        for (name, is_below, limit) in bounds_in(&text[5..end]) {
+        for (name, relation, limit) in bounds_in(&text[5..end]) {
             let name = self.parsed.symbols.find(name);
             let [number] = name.map_or(Vec::new(), |name| self.numbers_named(name, context))[..]
             else {
@@ -43,7 +43,7 @@ impl Resolved<'_> {
                 bytes: (start, start + short(limit.len())),
                 context,
             };
-            numbers.bound(block, number, is_below, limit);
+            numbers.bound(block, number, (relation, limit));
         }
     }
 }

@@ -72,7 +72,13 @@ impl Translator<'_> {
             return Expr::Variable(known);
         }
         let holds = match self.resolved.parsed.elements[element as usize] {
-            Element::Target(target) if self.is_dead(target) => self.computed_name(declared.name),
+            Element::Target(target) if self.is_dead(target) => {
+                if is_written || declared.storage != Storage::Constant {
+                    self.computed_name(declared.name)
+                } else {
+                    self.blank_constant(declared.name)
+                }
+            }
             Element::Target(target) => Expr::Target(target),
             Element::Named(_) | Element::Composed(_) if depth > DEEPEST => self.computed(),
             Element::Named(other) => self.position_in(

@@ -58,10 +58,11 @@ use super::notation;
 use super::script::{NamedFrame, Part, Remark, Script, short};
 use super::{
     About, Configuration, Deciding, Inserted, Insertions, Language, Layout, Marker, Posture,
-    ReadError, Role, Settings, Source, Step,
+    ReadError, Role, Settings, Shape, Source, Step,
 };
 use crate::geometry::Pose;
 use crate::geometry::units::DEG;
+use arguments::NOT_CONNECTED;
 use foldhash::{HashSet, HashSetExt};
 use reader::Reader;
 use resolved::Resolved;
@@ -232,9 +233,14 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     let mut dead = HashSet::new();
     for bad in &resolved.parsed.bad_values {
         let target = &mut script.targets[bad.target];
-        // zeros are data without a value; a move to them is an error of the running program
+        // a rotation of zeros, and joints of 9E9, are data without a value: a move to them is an error of
+        // the running program
         let numbers = &script.numbers[target.numbers.start as usize..target.numbers.end as usize];
-        let is_blank = numbers.len() > 6 && numbers[3..7].iter().all(|number| number.value == 0.0);
+        let is_blank = if target.layout.shape == Shape::Joints {
+            numbers.iter().all(|number| number.value >= NOT_CONNECTED)
+        } else {
+            numbers.len() > 6 && numbers[3..7].iter().all(|number| number.value == 0.0)
+        };
         if !resolved.may_be_another(bad.target, is_blank) {
             return Err(bad.fault.in_source(&sources[target.file as usize]));
         }

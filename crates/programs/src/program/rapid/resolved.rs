@@ -667,8 +667,8 @@ impl<'a> Resolved<'a> {
         changed
     }
 
-    /// Whether the value that a target is declared with may be another one when the program runs:
-    /// something writes it, or it has none yet and is no constant.
+    /// Whether the value that a target is declared with may be another one when the program runs, or is none:
+    /// something writes it, or it has no value yet.
     pub(super) fn may_be_another(&self, target: usize, is_blank: bool) -> bool {
         let declares = |datum: &Datum| match datum.value {
             Stored::Elements { elements, .. } => self.parsed.elements[indices(elements)]
@@ -676,9 +676,7 @@ impl<'a> Resolved<'a> {
             _ => false,
         };
         let found = self.parsed.data.iter().position(declares);
-        found.is_some_and(|at| {
-            self.written[at] || is_blank && self.parsed.data[at].storage != Storage::Constant
-        })
+        found.is_some_and(|at| self.written[at] || is_blank)
     }
 }
 

@@ -65,6 +65,17 @@ impl Translator<'_> {
         }))
     }
 
+    /// A constant that marks what is not set.
+    pub(super) fn blank_constant(&mut self, name: Symbol) -> Expr {
+        Expr::Unknown(self.remark(name, |name| {
+            Remark::error_about(
+                "target-uninitialised",
+                format!("{name}, where this move goes to, is a constant without a position"),
+                "move to a target with numbers",
+            )
+        }))
+    }
+
     pub(super) fn not_in_files(&mut self, name: Symbol, wanted: Type) -> Expr {
         let (id, severity) = match wanted {
             Type::Jointtarget => ("joint-target-not-in-files", Severity::Note),

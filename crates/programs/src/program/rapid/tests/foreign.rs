@@ -23,6 +23,15 @@ fn a_call_with_the_arguments_of_a_move_is_taken_for_one_with_a_warning() {
 }
 
 #[test]
+fn joints_that_are_written_out_are_what_a_move_goes_to() {
+    let joints = "[[0,10,10,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let program = path(&format!("ArcMoveAbsJ {joints},v5,z5,t;\nMoveL p1,v5,z5,t;"));
+    assert_eq!(to(&program)[1..], ["p1"]);
+    assert_eq!(program.moves.len(), 2);
+    assert_eq!(ids(&program), ["move-assumed"]);
+}
+
+#[test]
 fn a_call_with_more_than_a_move_has_may_do_anything_with_its_targets() {
     for call in [
         "Pick p1,p2,v5,z5,t\\WObj:=w;",

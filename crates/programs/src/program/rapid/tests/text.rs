@@ -57,8 +57,8 @@ fn broken_text_is_an_error_with_its_place() {
             "coordinate",
         ),
         (
-            "MODULE m\nCONST robtarget p:=[[1,2,3],[0,0,0,0],CONF;\nENDMODULE",
-            (2, 30),
+            "MODULE m\nPROC a()\nMoveL [[1,2,3],[0,0,0,0],CONF,v5,z5,t;\nENDPROC\nENDMODULE",
+            (3, 17),
             "quaternion",
         ),
         (
@@ -202,6 +202,21 @@ fn data_without_an_orientation_yet_are_an_error_of_the_move_to_them() {
     }
     let used = module(&format!(":={blank}"), "MoveL q,v5,z5,t;").expect("a program");
     assert_eq!(ids(&used), ["computed-target"]);
+    // constants that mark what is not set
+    let none = "[[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+    let constants = format!(":={blank};\nCONST robtarget u:={blank};\nCONST jointtarget n:={none}");
+    let program = module(&constants, "").expect("a program");
+    assert_eq!(ids(&program), [""; 0]);
+    for go in ["MoveL u,v5,z5,t;", "MoveAbsJ n,v5,z5,t;"] {
+        let program = module(&constants, go).expect("a program");
+        assert_eq!(ids(&program), ["target-uninitialised"], "{go}");
+        let is_error = |finding: &Finding| finding.severity == Severity::Error;
+        assert!(
+            said(&program).iter().all(|finding| is_error(finding)),
+            "{go}"
+        );
+    }
+    assert!(module("", &format!("MoveAbsJ {none},v5,z5,t;")).is_err());
     assert!(
         module(
             ":=[[0,0,0],[0.5,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]",
