@@ -230,6 +230,9 @@ def measure(runs, profiles, language, folder, name):
     parts = []
     if language == "val3":
         parts = own = together
+    elif language == "krl":
+        # the poses stand in the .dat, what is said of the moves in the .src of its name
+        parts = own
     sets = [own] if language == "urscript" or len(together) == len(own) else [own, together]
     starts = [None, STARTS[language]] if runs.takes_start else [None]
     best = None

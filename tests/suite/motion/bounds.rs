@@ -53,6 +53,65 @@ fn steps_of_loops_are_counted_as_the_text_counts_them() {
 }
 
 #[test]
+fn conditions_of_loops_bound_what_adds_up() {
+    let said = |done: &Compensation| message(done, "displacement-unknown").to_owned();
+    let lower = "q=XP\nq.Y=q.Y-n*40\nLIN q\nn=n+1";
+    let krl = |body: &str| of_krl("DECL INT n=0\nDECL INT m=0\n", body);
+    for (body, is_bounded) in [
+        (format!("n=0\nWHILE n<4\n{lower}\nENDWHILE\n"), true),
+        (format!("n=0\nREPEAT\n{lower}\nUNTIL n>=4\n"), true),
+        (
+            format!("n=0\nREPEAT\n{lower}\nUNTIL (n==4) OR $IN[1]\n"),
+            true,
+        ),
+        (
+            format!("n=0\nLOOP\n{lower}\nIF n>3 THEN\nEXIT\nENDIF\nENDLOOP\n"),
+            true,
+        ),
+        (
+            format!("n=0\nm=0\nREPEAT\n{lower}\nm=m+1\nUNTIL m>=4\n"),
+            true,
+        ),
+        (
+            format!("n=0\nLOOP\n{lower}\nIF n>=4 THEN\nn=0\nENDIF\nENDLOOP\n"),
+            true,
+        ),
+        (
+            format!("n=0\nREPEAT\n{lower}\nUNTIL (n>=4) AND $IN[1]\n"),
+            false,
+        ),
+        (
+            format!("n=0\nLOOP\n{lower}\nIF n>3 THEN\nHALT\nENDIF\nENDLOOP\n"),
+            false,
+        ),
+        (
+            format!("n=0\nREPEAT\nm=0\n{lower}\nm=m+1\nUNTIL m>=4\n"),
+            false,
+        ),
+        (format!("REPEAT\n{lower}\nUNTIL n>=4\n"), false),
+    ] {
+        let said = said(&krl(&body));
+        let wanted = if is_bounded {
+            "up to 4 times"
+        } else {
+            "any number"
+        };
+        assert!(said.contains(wanted), "{body}: {said}");
+    }
+    let e = "VAR num e;";
+    let rapid = format!(
+        "e:=0;\nWHILE e>-160 DO\n{}\ne:=e-40;\nENDWHILE",
+        go("0,0,e")
+    );
+    let rapid = said(&of_rapid(e, &rapid));
+    assert!(rapid.contains("up to 4 times"), "{rapid}");
+    let script = "  e = 0\n  while e < 4:\n    movel(pose_add(w, p[0,-0.04*e,0,0,0,0]))\n    e = e + 1\n  \
+                  end\n";
+    let script = said(&of_urscript("", script));
+    assert!(script.contains("up to 4 times"), "{script}");
+}
+
+#[test]
 fn a_routine_that_an_interrupt_runs_too_adds_up_without_a_bound() {
     let step = |trap: &str| {
         format!(

@@ -166,7 +166,23 @@ fn one_of_several_counts_as_the_worst_of_them() {
     let grown = format!("{ZERO}R[2]=0\nFOR R[1]=1 TO 5\nR[2]=R[2]-40\nPR[10,3]=R[2]\n{GO}ENDFOR");
     let either = format!("{ZERO}IF (DI[1]=ON) THEN\nPR[10,3]=(-200)\nENDIF\n{GO}");
     let copy = "PR[1]=P[1]\nFOR R[1]=1 TO 5\nPR[1,3]=PR[1,3]-40\nL PR[1] 9mm/sec FINE\nENDFOR";
-    for lines in [&counted, &grown, &either, copy] {
+    // loops of jumps: the condition behind or before what is repeated, the number itself, another one
+    // that counts along
+    let below =
+        format!("{ZERO}R[2]=0\nLBL[1]\nPR[10,3]=R[2]\n{GO}R[2]=R[2]-40\nIF R[2]>(-200),JMP LBL[1]");
+    let above = format!(
+        "{ZERO}R[1]=0\nLBL[1]\nIF (R[1]>=5 OR DI[1]),JMP LBL[2]\nPR[10,3]=R[1]*(-40)\n{GO}R[1]=R[1]+1\nJMP \
+         LBL[1]\nLBL[2]"
+    );
+    let along = format!(
+        "{ZERO}R[1]=0\nLBL[1]\n{GO}PR[10,3]=PR[10,3]-40\nR[1]=R[1]+1\nIF R[1]<>5,JMP LBL[1]"
+    );
+    let turned_back = format!(
+        "{ZERO}R[1]=0\nLBL[1]\nPR[10,3]=R[1]*(-40)\n{GO}R[1]=R[1]+1\nIF (R[1]>=5) THEN\nR[1]=0\nENDIF\nJMP \
+         LBL[1]"
+    );
+    let jumping = [&below, &above, &along, &turned_back].map(String::as_str);
+    for lines in [&counted, &grown, &either, copy].into_iter().chain(jumping) {
         let done = of(lines);
         let most = unknown(&done).into_iter().fold(0.0, f64::max);
         let misses = misses(&done).into_iter().fold(most, f64::max);
@@ -180,8 +196,12 @@ fn one_of_several_counts_as_the_worst_of_them() {
     // a counter that is set back, a loop by a jump
     let back = grown.replace("PR[10,3]=R[2]", "IF DI[1]=ON,R[1]=R[1]-1\nPR[10,3]=R[2]");
     let jump = format!("{ZERO}R[2]=0\nLBL[1]\nR[2]=R[2]-40\nPR[10,3]=R[2]\n{GO}JMP LBL[1]");
+    // the counter begins anew inside the loop, or is another one
+    let anew = along.replace("R[1]=0\nLBL[1]", "LBL[1]\nR[1]=0");
+    let other = along.replace("IF R[1]<>5", "IF R[3]<>5");
+    let any = along.replace("IF R[1]<>5,JMP LBL[1]", "IF R[1]<5,JMP LBL[R[9]]");
     let sensor = format!("{ZERO}R[2]=0\nLBL[1]\nR[2]=R[2]-AI[1]\nPR[10,3]=R[2]\n{GO}JMP LBL[1]");
-    for lines in [&back, &jump, &sensor] {
+    for lines in [&back, &jump, &sensor, &anew, &other, &any] {
         let done = of(lines);
         let said = unknown(&done).into_iter().fold(0.0, f64::max);
         let has_no_bound = done

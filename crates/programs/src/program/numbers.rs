@@ -2,11 +2,16 @@
 //!
 //! A number that nothing writes but its declaration is that. One that is assigned itself and
 //! something more adds up: as often as the loops around that assignment count where the same
-//! routine sets it anew before, else any number of times.
+//! routine sets it anew before, or as conditions let it, else any number of times.
 
+mod blocks;
 mod bounds;
+mod flow;
+mod rounds;
 
-pub(super) use bounds::bounds_in;
+pub(super) use blocks::{Blocks, Site};
+pub(super) use bounds::{bounds_in, compared_in};
+use flow::Flow;
 
 use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
@@ -20,84 +25,6 @@ const MOST_ROUNDS: f64 = 1e6;
 /// Of a round, so that what controllers add up in single precision may come to a last one:
 /// 0.1 + 0.1 + 0.1 is not above 0.3.
 const OF_SUMS: f64 = 1e-3;
-
-/// A block of statements, by its place in its routine; how often it runs at most, where the text
-/// tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Block {
-    number: u32,
-    most: Option<u32>,
-}
-
-/// Where a number is written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Site {
-    routine: u32,
-    order: u32,
-    /// Outermost first.
-    blocks: Vec<Block>,
-}
-
-impl Site {
-    /// Where a routine begins.
-    pub(super) fn at_start(routine: u32) -> Self {
-        Self {
-            routine,
-            order: 0,
-            blocks: Vec::new(),
-        }
-    }
-}
-
-/// The blocks around the present statement.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Blocks {
-    routine: u32,
-    order: u32,
-    open: Vec<Block>,
-}
-
-impl Blocks {
-    /// A routine begins.
-    pub(super) fn begin(&mut self, routine: u32) {
-        (self.routine, self.order) = (routine, 0);
-        self.open.clear();
-    }
-
-    /// A block begins: a loop, or one of several branches, which run once.
-    pub(super) fn open(&mut self, most: Option<u32>) {
-        self.order += 1;
-        let number = self.order;
-        self.open.push(Block { number, most });
-    }
-
-    /// The block that began last, by its routine and number.
-    pub(super) fn last(&self) -> (u32, u32) {
-        (
-            self.routine,
-            self.open.last().map_or(0, |block| block.number),
-        )
-    }
-
-    /// Another branch begins.
-    pub(super) fn branch(&mut self) {
-        self.close();
-        self.open(Some(1));
-    }
-
-    pub(super) fn close(&mut self) {
-        self.open.pop();
-    }
-
-    pub(super) fn site(&mut self) -> Site {
-        self.order += 1;
-        Site {
-            routine: self.routine,
-            order: self.order,
-            blocks: self.open.clone(),
-        }
-    }
-}
 
 /// What is known of a number; `W` is what the text writes into it.
 #[derive(Debug)]
@@ -129,6 +56,11 @@ pub(super) struct Numbers<W> {
     unbounded: HashSet<(u32, u32)>,
     /// What bounds numbers in the rounds of a block: `WHILE n<10`.
     bounds: Vec<bounds::Bound<W>>,
+    /// How routines go from label to label, and what conditions say on the way.
+    flows: HashMap<u32, Flow>,
+    checks: Vec<rounds::Check<W>>,
+    /// Numbers that are also written where no site tells.
+    also_elsewhere: HashSet<u32>,
     /// The routines that each calls.
     calls: HashMap<u32, HashSet<u32>>,
     /// Routines that run at any time.
@@ -145,6 +77,9 @@ impl<W> Default for Numbers<W> {
             jumping: HashSet::default(),
             unbounded: HashSet::default(),
             bounds: Vec::new(),
+            flows: HashMap::default(),
+            checks: Vec::new(),
+            also_elsewhere: HashSet::default(),
             calls: HashMap::default(),
             concurrent: HashSet::default(),
             same: HashMap::default(),
@@ -242,6 +177,18 @@ impl<W> Numbers<W> {
         routine != other && (at_any_time.contains(&routine) || at_any_time.contains(&other))
     }
 
+    /// How a routine goes from label to label, where its jumps are followed.
+    pub(super) fn goes(&mut self, routine: u32, mut flow: Flow) {
+        flow.end();
+        self.flows.insert(routine, flow);
+    }
+
+    /// A number is also written where no site tells: by a loop that counts, or by an index.
+    pub(super) fn writes_elsewhere(&mut self, number: u32) {
+        let number = self.one(number);
+        self.also_elsewhere.insert(number);
+    }
+
     /// A block, by its routine and number, runs any number of times.
     pub(super) fn unbounded(&mut self, block: (u32, u32)) {
         self.unbounded.insert(block);
@@ -315,9 +262,43 @@ impl<W> Numbers<W> {
         if facts.is_endless {
             return Quantity::endless();
         }
-        let mut values = Vec::new();
-        let mut growing = Vec::new();
-        let mut is_turned = false;
+        let Some(gathered) = self.gathered(number, evaluate, open) else {
+            return Quantity::endless();
+        };
+        let mut value = Quantity::any(&gathered.all);
+        for (by, site) in &gathered.growing {
+            // what else writes it may be what sets it anew, or may not
+            let most = site.and_then(|site| {
+                let most = self.most(site, &gathered.resets);
+                most.or_else(|| {
+                    let is_alone = gathered.is_alone();
+                    let start = is_alone.then_some(&gathered.all[..])?;
+                    let mut limit = |what: &W| {
+                        let mut of = |other: u32| self.value_in(other, evaluate, open);
+                        evaluate(what, &mut of)
+                    };
+                    self.rounds_within(number, site, by, start, &mut limit)
+                })
+            });
+            let most = most.or_else(|| self.rounds_between(number, &gathered, evaluate, open));
+            value = value.plus(again(by, most));
+            if gathered.is_turned {
+                value = value.plus(again(&by.clone().times(-1.0), most));
+            }
+        }
+        value
+    }
+
+    /// What a number is set to, and what is added to it; `None` where it becomes something else of
+    /// itself.
+    fn gathered(
+        &self,
+        number: u32,
+        evaluate: &Evaluate<W>,
+        open: &mut Vec<u32>,
+    ) -> Option<Gathered<'_>> {
+        let facts = self.facts.get(&number)?;
+        let mut gathered = Gathered::default();
         for (what, site) in &facts.writes {
             let mut of = |other: u32| {
                 if self.one(other) == number {
@@ -328,45 +309,26 @@ impl<W> Numbers<W> {
             };
             let (own, rest) = evaluate(what, &mut of).apart();
             if own == 0.0 {
-                values.push((rest, site.as_ref()));
+                gathered.all.push(rest);
+                gathered.resets.extend(site);
             } else if own == 1.0 {
-                growing.push((rest, site.as_ref()));
+                gathered.growing.push((rest, site.as_ref()));
             } else if own == -1.0 && rest.exact() == Some(0.0) {
-                is_turned = true;
+                gathered.is_turned = true;
             } else {
-                return Quantity::endless();
+                return None;
             }
         }
-        let resets = values.iter().filter_map(|(_, site)| *site);
-        let resets: Vec<&Site> = resets.collect();
-        let mut all: Vec<Quantity> = values.iter().map(|(value, _)| value.clone()).collect();
+        gathered.is_lost = facts.is_lost;
         if facts.is_lost {
-            all.push(Quantity::unknown());
+            gathered.all.push(Quantity::unknown());
         }
-        if is_turned {
-            let turned: Vec<_> = all.iter().map(|value| value.clone().times(-1.0)).collect();
-            all.extend(turned);
+        if gathered.is_turned {
+            let all = gathered.all.iter();
+            let turned: Vec<_> = all.map(|value| value.clone().times(-1.0)).collect();
+            gathered.all.extend(turned);
         }
-        let mut value = Quantity::any(&all);
-        let is_alone = growing.len() == 1 && !is_turned && !facts.is_lost;
-        for (by, site) in growing {
-            // what else writes it may be what sets it anew, or may not
-            let most = site.and_then(|site| {
-                let start = is_alone.then_some(&all[..]);
-                self.most(site, &resets).or_else(|| {
-                    let mut limit = |what: &W| {
-                        let mut of = |other: u32| self.value_in(other, evaluate, open);
-                        evaluate(what, &mut of)
-                    };
-                    self.rounds_within(number, site, &by, start?, &mut limit)
-                })
-            });
-            value = value.plus(again(&by, most));
-            if is_turned {
-                value = value.plus(again(&by.times(-1.0), most));
-            }
-        }
-        value
+        Some(gathered)
     }
 
     /// How often at most a write is come to between two that set the number anew.
@@ -388,6 +350,28 @@ impl<W> Numbers<W> {
             let is_bounded = !self.unbounded.contains(&(site.routine, block.number));
             Some(product.saturating_mul(block.most.filter(|_| is_bounded)?))
         })
+    }
+}
+
+/// What the text makes of a number.
+#[derive(Debug, Default)]
+struct Gathered<'a> {
+    /// All that it is set to.
+    all: Vec<Quantity>,
+    /// Where that is.
+    resets: Vec<&'a Site>,
+    /// What is added to it, and where.
+    growing: Vec<(Quantity, Option<&'a Site>)>,
+    /// It may change its sign.
+    is_turned: bool,
+    /// Something that only the running program knows may write it.
+    is_lost: bool,
+}
+
+impl Gathered<'_> {
+    /// Whether it grows at one place alone, from what the text tells.
+    fn is_alone(&self) -> bool {
+        self.growing.len() == 1 && !self.is_turned && !self.is_lost
     }
 }
 

@@ -4,7 +4,7 @@
 use super::contexts::{Given, Numbered};
 use super::displacing::Displacing;
 use super::notation::pose_of_turning_angles;
-use super::numbers::{Blocks, Numbers, Operand, Site, counted, evaluated, rounds};
+use super::numbers::{Blocks, Numbers, Operand, Site, compared_in, counted, evaluated, rounds};
 use super::quantity::{Arithmetic, Quantity, evaluate};
 use super::script::short;
 use super::words::Words;
@@ -176,6 +176,9 @@ struct Counter<'a> {
     end: u32,
 }
 
+/// From a step of a routine to the next one (`true`), or to another.
+pub(super) type Edge = (u32, bool);
+
 /// What all texts write into numbers.
 #[derive(Debug, Default)]
 pub(super) struct Entries<'a> {
@@ -183,6 +186,8 @@ pub(super) struct Entries<'a> {
     numbers: Numbers<(Written<'a>, At)>,
     blocks: Blocks,
     routine: u32,
+    /// Something goes to a label of the routine from anywhere.
+    jumps_anywhere: bool,
     /// Where the present statement begins.
     at: u32,
     counters: Vec<Counter<'a>>,
@@ -203,8 +208,17 @@ pub(super) struct Entries<'a> {
 
 impl<'a> Entries<'a> {
     pub(super) fn begin(&mut self, routine: u32) {
+        self.end();
         self.routine = routine;
         self.blocks.begin(routine);
+    }
+
+    /// The text of the routine ends.
+    fn end(&mut self) {
+        let flow = std::mem::take(&mut self.blocks.flow);
+        if !std::mem::take(&mut self.jumps_anywhere) && !flow.is_empty() {
+            self.numbers.goes(self.routine, flow);
+        }
     }
 
     /// A statement begins at a byte of its file.
@@ -216,9 +230,19 @@ impl<'a> Entries<'a> {
         (self.routine, self.at)
     }
 
-    /// A block begins that runs so often at most.
-    pub(super) fn open(&mut self, most: Option<u32>) {
-        self.blocks.open(most);
+    /// A branch begins. The edge by which its statements are come to.
+    pub(super) fn open_branch(&mut self) -> Edge {
+        (self.blocks.open_branch(), true)
+    }
+
+    /// Likewise one of several that `break` leaves.
+    pub(super) fn open_switch(&mut self) {
+        self.blocks.open_switch();
+    }
+
+    /// Likewise a loop that the text does not count.
+    pub(super) fn open_loop(&mut self) -> Edge {
+        (self.blocks.open_loop(None), true)
     }
 
     /// Another branch of it begins.
@@ -226,13 +250,51 @@ impl<'a> Entries<'a> {
         self.blocks.branch();
     }
 
+    /// A block ends.
     pub(super) fn close(&mut self) {
+        self.end_counter();
+        self.blocks.close();
+    }
+
+    /// A loop ends with a condition. The edge to what is behind it; else it begins again.
+    pub(super) fn close_or_repeat(&mut self) -> Option<Edge> {
+        Some((self.blocks.close_or_repeat()?, true))
+    }
+
+    fn end_counter(&mut self) {
         let last = self.blocks.last();
         let mut counters = self.counters.iter_mut().rev();
         if let Some(counter) = counters.find(|counter| counter.block == last) {
             counter.end = self.at;
         }
-        self.blocks.close();
+    }
+
+    /// `break`
+    pub(super) fn leave(&mut self) {
+        self.blocks.flow.leave();
+    }
+
+    /// The routine ends here.
+    pub(super) fn stop(&mut self) {
+        self.blocks.flow.stop();
+    }
+
+    /// A condition that holds where an edge is gone, and not where the other one of its step is: what it says of
+    /// numbers that are these sides of comparisons.
+    pub(super) fn check(
+        &mut self,
+        (step, is_next): Edge,
+        condition: &'a [u8],
+        number_of: &mut dyn FnMut(&'a [u8]) -> Option<u32>,
+    ) {
+        for (holds, side, relation, limit) in compared_in(condition) {
+            if let Some(number) = number_of(side) {
+                let edge = (step, is_next == holds);
+                let limit = (Written::Text(limit), self.here());
+                self.numbers
+                    .check(self.routine, edge, number, (relation, limit));
+            }
+        }
     }
 
     /// What a number is before anything runs.
@@ -254,6 +316,9 @@ impl<'a> Entries<'a> {
     /// A number is written, or (not `whole`) one of several that have its name.
     pub(super) fn assign(&mut self, number: u32, written: Written<'a>, is_whole: bool) {
         self.assigned.insert(number);
+        if !is_whole {
+            self.numbers.writes_elsewhere(number);
+        }
         let site = is_whole.then(|| self.blocks.site());
         self.numbers.write(number, (written, self.here()), site);
     }
@@ -302,9 +367,21 @@ impl<'a> Entries<'a> {
         !is_counted && !self.assigned.contains(&number)
     }
 
-    /// The program jumps.
-    pub(super) fn jumps(&mut self) {
+    /// A label.
+    pub(super) fn label(&mut self, key: u64) {
+        self.blocks.flow.label(key);
+    }
+
+    /// The program goes to a label, or may go there. The edge by which it does.
+    pub(super) fn jump(&mut self, key: u64, may: bool) -> Edge {
         self.numbers.jumps(self.routine);
+        (self.blocks.flow.jump(key, may), false)
+    }
+
+    /// The program may go from anywhere to a label.
+    pub(super) fn jumps_anywhere(&mut self) {
+        self.numbers.jumps(self.routine);
+        self.jumps_anywhere = true;
     }
 
     pub(super) fn calls(&mut self, callee: u32) {
@@ -343,7 +420,8 @@ impl<'a> Entries<'a> {
     pub(super) fn count(&mut self, counter: Option<(u32, bool)>, words: Words<'a, '_>) {
         let to = words.find(b"TO");
         let (Some((counter, is_whole)), Some(to)) = (counter, to) else {
-            return self.blocks.open(None);
+            self.blocks.open_loop(None);
+            return;
         };
         let step = words.find(b"STEP").filter(|step| *step > to);
         let end = step.unwrap_or(words.len());
@@ -360,7 +438,8 @@ impl<'a> Entries<'a> {
         let step = if of[2].is_empty() { Some(1.0) } else { step };
         let most = from.zip(to).zip(step);
         let most = most.and_then(|((from, to), step)| rounds(from, to, step));
-        self.blocks.open(most);
+        self.numbers.writes_elsewhere(counter);
+        self.blocks.open_loop(most);
         self.counters.push(Counter {
             number: counter,
             is_whole,
@@ -375,6 +454,7 @@ impl<'a> Entries<'a> {
     /// All texts are entries: what routines write into what they are handed comes back, and loops whose
     /// counter something else writes run any number of times.
     pub(super) fn finish(&mut self) {
+        self.end();
         let mut open = std::mem::take(&mut self.handed);
         let counted: HashSet<u32> = self.counters.iter().map(|of| of.number).collect();
         loop {

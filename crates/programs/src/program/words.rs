@@ -169,6 +169,22 @@ pub(super) struct Words<'a, 'w> {
     pub all: &'w [Word],
 }
 
+impl<'a, 'w> Words<'a, 'w> {
+    /// Those in a part of its bytes.
+    pub(super) fn within(&self, part: &[u8]) -> Words<'a, 'w> {
+        let start = part.as_ptr() as usize - self.bytes.as_ptr() as usize;
+        let end = start + part.len();
+        let first = self
+            .all
+            .partition_point(|word| (word.start as usize) < start);
+        let last = self.all.partition_point(|word| (word.end as usize) <= end);
+        Words {
+            bytes: self.bytes,
+            all: self.all.get(first..last).unwrap_or_default(),
+        }
+    }
+}
+
 impl<'a> Words<'a, '_> {
     pub(super) fn len(&self) -> usize {
         self.all.len()
@@ -218,6 +234,11 @@ impl<'a> Words<'a, '_> {
     pub(super) fn before(&self, sign: u8) -> Self {
         let at = (0..self.len()).find(|at| self.is(*at, sign));
         self.part(0..at.unwrap_or(self.len()))
+    }
+
+    /// Those before a keyword; all where it is not there.
+    pub(super) fn before_word(&self, word: &[u8]) -> Self {
+        self.part(0..self.find(word).unwrap_or(self.len()))
     }
 
     pub(super) fn behind(&self, at: usize) -> Self {

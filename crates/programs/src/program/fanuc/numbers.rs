@@ -6,13 +6,13 @@
 
 mod loops;
 
-use super::content::{Content, Entered, Own};
+use super::content::{Content, Entered, Own, canonical};
 use super::posreg::Shown;
 use super::start::{Step, Steps};
 use crate::geometry::Pose;
 use crate::program::TargetId;
 use crate::program::notation::pose_of_angles;
-use crate::program::numbers::{Blocks, Numbers, Site};
+use crate::program::numbers::{Blocks, Numbers, Site, compared_in};
 use crate::program::quantity::Quantity;
 use crate::program::script::RoutineId;
 use foldhash::{HashMap, HashSet};
@@ -128,6 +128,10 @@ impl Known {
     pub(super) fn end(&mut self) {
         self.clear();
         let path = std::mem::take(&mut self.path);
+        let flow = std::mem::take(&mut self.blocks.flow);
+        if !path.jumps.iter().any(|(_, label)| *label == ANY_LABEL) {
+            self.numbers.goes(path.routine, flow);
+        }
         let last_jump = path.jumps.iter().map(|(at, _)| *at).max().unwrap_or(0);
         // by jumps that come to something else of the program, and by any
         let mut passed = vec![[0_i32; 2]; path.order as usize + 2];
@@ -164,16 +168,59 @@ impl Known {
         self.steps.add(path.routine, steps);
     }
 
-    /// A branch begins.
-    pub(super) fn open(&mut self) {
+    /// A branch begins. The step from which its statements are the next.
+    pub(super) fn open(&mut self) -> u32 {
         self.settle();
         self.path.depth += 1;
         self.path.written.push(Vec::new());
-        self.blocks.open(Some(1));
+        self.blocks.open_branch()
+    }
+
+    /// A statement begins that goes elsewhere, where it is run. The step from which it is the next.
+    pub(super) fn open_jump(&mut self) -> u32 {
+        self.blocks.open_branch()
+    }
+
+    pub(super) fn close_jump(&mut self) {
+        self.blocks.close();
+    }
+
+    /// The program ends here.
+    pub(super) fn stop(&mut self) {
+        self.blocks.flow.stop();
+    }
+
+    /// From a step the program goes to the next where a condition holds, else elsewhere.
+    pub(super) fn check(&mut self, step: u32, condition: &[u8]) {
+        let condition = canonical(condition);
+        for (holds, side, relation, limit) in compared_in(&condition) {
+            if let Some(number) = self.alone(side) {
+                let limit = self.entered(u32::MAX, limit, 0);
+                self.reads(&limit);
+                let (at, limited) = ((step, holds), (relation, Rc::new(limit)));
+                self.numbers.check(self.path.routine, at, number, limited);
+            }
+        }
+    }
+
+    /// The number that a text is.
+    fn alone(&self, text: &[u8]) -> Option<u32> {
+        let mut all = Vec::new();
+        let value = self.of_text(text, (0, self.path.routine), &mut |number| {
+            all.push(number);
+            Quantity::own()
+        });
+        let [number] = all[..] else { return None };
+        (value == Quantity::own()).then_some(number)
     }
 
     /// Another branch begins: what the one before has written is not there.
     pub(super) fn branch(&mut self) {
+        self.leave_branch();
+        self.blocks.branch();
+    }
+
+    fn leave_branch(&mut self) {
         self.settle();
         match self.path.written.last() {
             Some(written) => written
@@ -181,11 +228,10 @@ impl Known {
                 .for_each(|number| _ = self.now.remove(number)),
             None => self.now.clear(),
         }
-        self.blocks.branch();
     }
 
     pub(super) fn close(&mut self) {
-        self.branch();
+        self.leave_branch();
         self.path.depth = self.path.depth.saturating_sub(1);
         let written = self.path.written.pop().unwrap_or_default();
         if let Some(around) = self.path.written.last_mut() {
@@ -205,10 +251,13 @@ impl Known {
         self.clear();
         self.path.order += 1;
         self.path.labels.insert(key, self.path.order);
+        self.blocks.flow.label(key);
     }
 
-    pub(super) fn jump(&mut self, key: u64) {
+    /// The program goes to a label, or may go there.
+    pub(super) fn jump(&mut self, key: u64, may: bool) {
         self.settle();
+        self.blocks.flow.jump(key, may);
         self.path.order += 1;
         self.path.jumps.push((self.path.order, key));
         self.numbers.jumps(self.path.routine);
@@ -441,6 +490,7 @@ impl Known {
             let concerned = self.all.iter().filter(|number| any_of(**number) == of);
             for number in concerned.copied().chain([of]).collect::<Vec<_>>() {
                 self.numbers.write(number, Rc::clone(&entered), None);
+                self.numbers.writes_elsewhere(number);
                 self.assigned.insert(number);
             }
             self.numbers.lose(of);
@@ -463,6 +513,7 @@ impl Known {
         let assigned = assigned.filter(|of| self.assigned.contains(&of.counter));
         let assigned = assigned.map(|of| {
             self.numbers.unbounded(of.block);
+            self.numbers.writes_elsewhere(of.counter);
             of.number
         });
         assigned.collect()

@@ -124,7 +124,9 @@ impl Reader<'_> {
             (b"LBL" | b"LABEL", _) => self.jump(rest, false),
             (b"JMP" | b"SPRUNG", _) => self.jump(&rest[word_length(rest)..], false),
             (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => {
-                self.known.open();
+                let inside = self.known.open();
+                self.known
+                    .check(inside, before_then(rest).unwrap_or_default());
                 self.builder.begin_if(None);
             }
             (b"ENDIF", _) => {
@@ -163,8 +165,14 @@ impl Reader<'_> {
                 let program = memchr::memchr(b'=', rest).map(|at| rest[at + 1..].trim_ascii());
                 self.monitor(&name, program.unwrap_or_default());
             }
-            (b"END" | b"ENDE", None) => self.builder.back(),
-            (b"ABORT" | b"ABBRUCH", None) => self.builder.exit(),
+            (b"END" | b"ENDE", None) => {
+                self.known.stop();
+                self.builder.back();
+            }
+            (b"ABORT" | b"ABBRUCH", None) => {
+                self.known.stop();
+                self.builder.exit();
+            }
             (b"TOUCH" | b"SEARCH" | b"TRACK" | b"MP", _) => {
                 self.known.clear();
                 self.mode(&name, rest);
@@ -214,13 +222,20 @@ impl Reader<'_> {
             let word = action[..word_length(action)].to_ascii_uppercase();
             // what goes elsewhere leaves behind it all as it is
             let is_jump = is_one_of(&word, "JMP SPRUNG LBL LABEL END ENDE ABORT ABBRUCH");
-            if !is_jump {
-                self.known.open();
+            let inside = if is_jump {
+                self.known.open_jump()
+            } else {
+                self.known.open()
+            };
+            if matches!(name, b"IF" | b"WENN") {
+                self.known.check(inside, &known[name.len()..]);
             }
             self.builder.begin_if(None);
             self.behind_comma(text, depth);
             self.builder.end_choice();
-            if !is_jump {
+            if is_jump {
+                self.known.close_jump();
+            } else {
                 self.known.close();
             }
         } else if !is_condition && !is_harmless(name) {
@@ -243,7 +258,7 @@ impl Reader<'_> {
         let Some(number) = indexed(index) else { return };
         self.state.goes_anywhere |= number.is_none();
         let key = number.map_or(ANY_LABEL, u64::from);
-        self.known.jump(key);
+        self.known.jump(key, may);
         if may {
             self.builder.may_go_to(key);
         } else {
@@ -400,8 +415,14 @@ pub(super) fn is_chosen(text: &[u8]) -> bool {
 
 /// Whether `THEN` ends a condition.
 fn ends_with_then(text: &[u8]) -> bool {
-    let last = text.rsplit(|&b| !is_word(b)).next();
-    last.is_some_and(|word| word.eq_ignore_ascii_case(b"THEN"))
+    before_then(text).is_some()
+}
+
+/// The condition before THEN, with which a text ends.
+fn before_then(text: &[u8]) -> Option<&[u8]> {
+    let last = text.rsplit(|&b| !is_word(b)).next()?;
+    let is_then = last.eq_ignore_ascii_case(b"THEN");
+    is_then.then(|| &text[..text.len() - last.len()])
 }
 
 /// Whether a text begins what is done on a condition.

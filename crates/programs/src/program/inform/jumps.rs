@@ -28,6 +28,21 @@ pub(super) fn is_conditional(text: &[u8]) -> bool {
     false
 }
 
+/// The condition of an instruction that may be passed over; empty where it is not known.
+pub(super) fn condition(text: &[u8]) -> Option<&[u8]> {
+    if !is_conditional(text) {
+        return None;
+    }
+    let Some(word) = words(text).find(|word| is_condition(word)) else {
+        return Some(&[]);
+    };
+    let at = word.as_ptr() as usize - text.as_ptr() as usize;
+    let length = word.iter().take_while(|b| b.is_ascii_uppercase()).count();
+    let behind = &text[at + length..];
+    let end = memchr::memmem::find(behind, b"//").unwrap_or(behind.len());
+    Some(&behind[..end])
+}
+
 /// Whether a condition begins with this word: `IF`, `IFEXP`, `IFEXPRESS`, blank or not behind it.
 pub(super) fn is_condition(word: &[u8]) -> bool {
     word == b"IF" || word.starts_with(b"IF(") || word.starts_with(b"IFEXP")
@@ -54,10 +69,10 @@ impl Reader<'_> {
     }
 
     /// `JUMP *A`, `JUMP LABEL:B000`
-    pub(super) fn jump(&mut self, to: &[u8], conditional: bool) {
+    pub(super) fn jump(&mut self, to: &[u8], condition: Option<&[u8]>) {
         let key = self.key_of_label(to);
-        self.numbers.jump(key);
-        if conditional {
+        self.numbers.jump(key, condition);
+        if condition.is_some() {
             self.builder.may_go_to(key);
         } else {
             self.builder.go_to(key);
@@ -74,6 +89,7 @@ impl Reader<'_> {
 
     /// At the end of a job: from where a jump by a number comes it goes on to each of the labels.
     pub(super) fn end_labels(&mut self) {
+        self.numbers.end(!self.here.jumps_anywhere);
         if !self.here.jumps_anywhere {
             return;
         }
@@ -88,7 +104,9 @@ impl Reader<'_> {
     pub(super) fn trap(&mut self, place: Place, label: &[u8]) {
         self.builder.begin_if(None);
         self.builder.stop(place);
-        self.jump(label, false);
+        let key = self.key_of_label(label);
+        self.numbers.jump(key, Some(&[]));
+        self.builder.go_to(key);
         self.builder.end_choice();
     }
 }

@@ -14,7 +14,7 @@ use super::job::Job;
 use super::lines::{Line, words};
 use crate::program::number;
 use crate::program::numbers::{
-    Blocks, Numbers, Operand as Part, Site, bounds_in, counted, evaluated, rounds,
+    Blocks, Numbers, Operand as Part, Site, bounds_in, compared_in, counted, evaluated, rounds,
 };
 use crate::program::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use crate::program::script::VariableId;
@@ -140,23 +140,60 @@ impl Known {
     }
 
     pub(super) fn label(&mut self, key: u64) {
+        self.blocks.flow.label(key);
         self.clear();
         self.ahead.remove(&key);
         self.labels.insert(key);
     }
 
-    pub(super) fn jump(&mut self, key: u64) {
+    /// The job goes to a label; where there is a condition, if that holds.
+    pub(super) fn jump(&mut self, key: u64, condition: Option<&[u8]>) {
+        let step = self.blocks.flow.jump(key, condition.is_some());
+        self.check((step, false), condition.unwrap_or_default());
         if !self.labels.contains(&key) {
             self.ahead.insert(key);
         }
         self.numbers.jumps(self.job);
     }
 
-    /// A branch begins, or a loop that counts.
-    pub(super) fn open(&mut self, most: Option<u32>, counter: Option<u32>) {
+    /// A branch begins on a condition, where there is one.
+    pub(super) fn open(&mut self, condition: &[u8]) {
         self.clear();
-        self.blocks.open(most);
+        let inside = self.blocks.open_branch();
+        self.check((inside, true), condition);
+        self.open.push(None);
+    }
+
+    /// A loop begins. The step from which its statements are the next.
+    fn open_loop(&mut self, most: Option<u32>, counter: Option<u32>) -> u32 {
+        self.clear();
         self.open.push(counter);
+        self.blocks.open_loop(most)
+    }
+
+    /// From a step the job goes one way where a condition holds, else the other.
+    fn check(&mut self, (step, is_next): (u32, bool), condition: &[u8]) {
+        for (holds, side, relation, limit) in compared_in(condition) {
+            if let Some(number) = self.named(side, self.job) {
+                let limit = Written::Text(limit.into(), self.job);
+                let edge = (step, is_next == holds);
+                self.numbers
+                    .check(self.job, edge, number, (relation, limit));
+            }
+        }
+    }
+
+    /// The job ends here.
+    pub(super) fn stop(&mut self) {
+        self.blocks.flow.stop();
+    }
+
+    /// The end of a job; `is_followed` where its jumps go to labels that they name.
+    pub(super) fn end(&mut self, is_followed: bool) {
+        let flow = std::mem::take(&mut self.blocks.flow);
+        if is_followed {
+            self.numbers.goes(self.job, flow);
+        }
     }
 
     pub(super) fn branch(&mut self) {
@@ -195,7 +232,7 @@ impl Known {
             {
                 self.numbers.lose(number);
             }
-            self.open(None, None);
+            self.open_loop(None, None);
             return None;
         };
         for text in [first, last] {
@@ -216,7 +253,7 @@ impl Known {
             let site = self.blocks.site();
             self.numbers.write(counter, written, Some(site));
         }
-        self.open(most, counter);
+        self.open_loop(most, counter);
         if let Some(counter) = counter {
             self.loops.push((counter, self.blocks.last(), next));
         }
@@ -225,14 +262,15 @@ impl Known {
 
     /// `B000<5`, behind WHILE: each round begins with that.
     pub(super) fn begin_while(&mut self, condition: &[u8]) {
-        self.open(None, None);
-        for (name, is_below, limit) in bounds_in(condition) {
+        let inside = self.open_loop(None, None);
+        let block = self.blocks.last();
+        for (name, relation, limit) in bounds_in(condition) {
             if let Some(number) = self.named(name, self.job) {
                 let limit = Written::Text(limit.into(), self.job);
-                let block = self.blocks.last();
-                self.numbers.bound(block, number, is_below, limit);
+                self.numbers.bound(block, number, (relation, limit));
             }
         }
+        self.check((inside, true), condition);
     }
 
     // ---- what is written
@@ -499,8 +537,9 @@ impl Known {
         }
         let assigned = self.loops.iter();
         let assigned = assigned.filter(|(counter, ..)| self.assigned.contains(counter));
-        let assigned = assigned.map(|(_, block, number)| {
+        let assigned = assigned.map(|(counter, block, number)| {
             self.numbers.unbounded(*block);
+            self.numbers.writes_elsewhere(*counter);
             *number
         });
         assigned.collect()

@@ -5,7 +5,7 @@ use super::cnd::Conditions;
 use super::indexed::Indexed;
 use super::instruction::{Effect, Operand, effect, is_actual, is_move, numbered};
 use super::job::{Coordinates, Letter, Positions};
-use super::jumps::{is_conditional, is_label};
+use super::jumps::{condition, is_label};
 use super::lines::{Line, Lines, words};
 use super::numbers::{Known, shared};
 use super::parts::{Added, Computed, known_numbers};
@@ -251,11 +251,11 @@ impl<'a> Reader<'a> {
                 self.builder.end_loop(false);
             }
             b"IFTHEN" | b"IFTHENEXP" => {
-                self.numbers.open(Some(1), None);
+                self.numbers.open(&line.text[first.len()..]);
                 self.builder.begin_if(None);
             }
             b"SWITCH" => {
-                self.numbers.open(Some(1), None);
+                self.numbers.open(&[]);
                 self.builder.begin_choice();
                 if rest.any(|word| word == b"CASE") {
                     self.builder.next_branch(false);
@@ -279,17 +279,20 @@ impl<'a> Reader<'a> {
 
     /// An instruction that may have a condition behind it.
     fn instruction(&mut self, line: Line<'a>, first: &'a [u8]) {
-        let conditional = is_conditional(line.text);
+        let condition = condition(line.text);
         let second = words(line.text).nth(1).unwrap_or_default();
         if first == b"JUMP" && is_label(second) {
-            return self.jump(second, conditional);
+            return self.jump(second, condition);
         }
-        if conditional {
-            self.numbers.open(Some(1), None);
+        if let Some(condition) = condition {
+            self.numbers.open(condition);
             self.builder.begin_if(None);
         }
         match first {
-            b"RET" => self.builder.back(),
+            b"RET" => {
+                self.numbers.stop();
+                self.builder.back();
+            }
             b"CALL" | b"JUMP" => {
                 let call = self.call(line, second);
                 let caller = self.routine();
@@ -298,6 +301,7 @@ impl<'a> Reader<'a> {
                 self.builder.call(call);
                 if first == b"JUMP" {
                     // the caller goes on where the other job ends
+                    self.numbers.stop();
                     self.builder.back();
                 }
             }
@@ -319,7 +323,7 @@ impl<'a> Reader<'a> {
             b"COMARCOF" => self.track_seam(line, false),
             _ => self.writes(line, first, second),
         }
-        if conditional {
+        if condition.is_some() {
             self.numbers.close();
             self.builder.end_choice();
         }

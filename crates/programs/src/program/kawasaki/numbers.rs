@@ -3,7 +3,7 @@
 use super::calls::{is_started, started};
 use super::keywords::find;
 use super::moves::is_joints;
-use super::reader::Reader;
+use super::reader::{Reader, key};
 use super::sections::{SPELLING, Statement};
 use super::targets::{Name, shifted};
 use crate::geometry::Pose;
@@ -13,7 +13,7 @@ use crate::program::contexts::{Varied, varied};
 use crate::program::quantity::Quantity;
 use crate::program::script::{Expr, Place, Remark, RoutineId, VariableId, short};
 use crate::program::transformations::{
-    EACH, Entries, Numbering, Of, Reads, Steps, Written, exactly,
+    EACH, Edge, Entries, Numbering, Of, Reads, Steps, Written, exactly,
 };
 use crate::program::words::Words;
 use foldhash::HashMap;
@@ -130,17 +130,33 @@ impl<'a> Reader<'a> {
         if !part.is_empty() {
             known.entries.begin_statement(part.span().start);
         }
-        if find(part, "GOto").is_some() {
-            known.entries.jumps();
+        if let Some(label) = line.label {
+            known.entries.label(key(label));
+        }
+        if let Some(at) = find(part, "GOto") {
+            self.tell_jump(line, at, routine, known);
         }
         match line.keyword {
-            "IF" if part.find(b"THEN").is_some() => known.entries.open(Some(1)),
-            "CASE" | "SCASE" => known.entries.open(Some(1)),
+            "IF" if part.find(b"THEN").is_some() => {
+                let inside = known.entries.open_branch();
+                self.check(inside, rest.before_word(b"THEN"), routine, known);
+            }
+            "CASE" | "SCASE" => _ = known.entries.open_branch(),
             "ELSEIF" | "ELse" | "VALUE" | "SVALUE" => known.entries.branch(),
             "ANY" if part.len() == 1 || part.is(1, b':') => known.entries.branch(),
-            "WHile" | "DO" => known.entries.open(None),
+            "WHile" => {
+                let inside = known.entries.open_loop();
+                self.check(inside, rest.before_word(b"DO"), routine, known);
+            }
+            "DO" => _ = known.entries.open_loop(),
             "FOR" => self.tell_loop(rest, routine, known),
-            "ENd" | "UNtil" => known.entries.close(),
+            "ENd" => known.entries.close(),
+            "UNtil" => {
+                if let Some(behind) = known.entries.close_or_repeat() {
+                    self.check(behind, rest, routine, known);
+                }
+            }
+            "RETurn" | "RETURNE" | "STOp" | "HAlt" => known.entries.stop(),
             "POint" => self.tell_point(rest, routine, known),
             "PCEXecute" | "ONE" => {
                 for callee in self.programs_of(started(rest).text(0)) {
@@ -162,6 +178,45 @@ impl<'a> Reader<'a> {
             "" | "HSENSE" => self.tell_other(part, routine, known),
             _ => {}
         }
+    }
+
+    /// `GOTO 10 IF n<5`, `IF n<5 GOTO 10`; from anywhere behind `ON`.
+    fn tell_jump(
+        &self,
+        line: &Statement<'a, '_>,
+        at: usize,
+        routine: RoutineId,
+        known: &mut Known<'a>,
+    ) {
+        let part = line.words;
+        let label = part.text(at + 1);
+        let condition = match line.keyword {
+            "GOto" => part.find(b"IF").map(|of| part.behind(of + 1)),
+            "IF" => Some(part.part(1..at)),
+            _ => return known.entries.jumps_anywhere(),
+        };
+        let edge = known.entries.jump(key(label), condition.is_some());
+        if let Some(condition) = condition {
+            self.check(edge, condition, routine, known);
+        }
+    }
+
+    /// What a condition says of numbers where an edge is gone, and where it is not.
+    fn check(
+        &self,
+        edge: Edge,
+        condition: Words<'a, '_>,
+        routine: RoutineId,
+        known: &mut Known<'a>,
+    ) {
+        let mut entries = std::mem::take(&mut known.entries);
+        entries.check(edge, condition.whole(), &mut |side| {
+            let words = condition.within(side);
+            let (name, _) = Name::of(words).filter(|(_, length)| *length == words.len())?;
+            let is_whole = name.key.as_ref().is_some_and(Vec::is_empty);
+            is_whole.then(|| self.number_of(&name, routine, known))
+        });
+        known.entries = entries;
     }
 
     /// `FOR i = 1 TO 10 STEP 2`

@@ -11,7 +11,7 @@ use super::tokens::{Cursor, Kind, Token};
 use crate::program::TargetId;
 use crate::program::names::{Context, Symbol};
 use crate::program::numbers::{
-    Blocks, Numbers, Operand, bounds_in, counted, evaluated, rounds, word,
+    self, Blocks, Numbers, Operand, bounds_in, compared_in, counted, evaluated, rounds,
 };
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::script::{Place, short};
@@ -75,8 +75,18 @@ pub(super) struct Known {
 
 impl Known {
     pub(super) fn begin(&mut self, routine: u32) {
+        self.end();
         self.blocks.begin(routine);
         self.open.clear();
+    }
+
+    /// The text of a routine ends.
+    pub(super) fn end(&mut self) {
+        let (routine, _) = self.blocks.last();
+        let flow = std::mem::take(&mut self.blocks.flow);
+        if !flow.is_empty() && !self.numbers.has_jumps(routine) {
+            self.numbers.goes(routine, flow);
+        }
     }
 
     /// A number is written, and not by FOR alone: loops around that count with it run any number of
@@ -206,25 +216,44 @@ impl Reader {
         let known = &mut self.names.known;
         let next = cursor.blanks();
         match word {
-            b"IF" | b"SWITCH" => known.blocks.open(Some(1)),
+            b"IF" => {
+                let inside = known.blocks.open_branch();
+                let start = cursor.at;
+                cursor.skip_all();
+                let text = &cursor.bytes[start..cursor.at];
+                let capitals = text.to_ascii_uppercase();
+                let end = numbers::word(&capitals, "THEN").unwrap_or(text.len());
+                self.check((inside, true), &text[..end], start);
+            }
+            b"SWITCH" => known.blocks.open(Some(1)),
             b"ELSE" | b"CASE" | b"DEFAULT" => known.blocks.branch(),
             b"LOOP" | b"REPEAT" => known.blocks.open(None),
             b"WHILE" => {
-                known.blocks.open(None);
+                let inside = known.blocks.open_loop(None);
                 let block = known.blocks.last();
                 let start = cursor.at;
                 cursor.skip_all();
+                let condition = &cursor.bytes[start..cursor.at];
                 let context = self.context();
-                for (name, is_below, limit) in bounds_in(&cursor.bytes[start..cursor.at]) {
+                for (name, relation, limit) in bounds_in(condition) {
                     let name = self.names.symbols.intern(name);
                     let number = self.names.number(name, context);
                     let at = Place::new(self.file, short(start));
                     let limit = Written::Value(limit.into(), at, context);
                     let numbers = &mut self.names.known.numbers;
-                    numbers.bound(block, number, is_below, limit);
+                    numbers.bound(block, number, (relation, limit));
+                }
+                self.check((inside, true), condition, start);
+            }
+            b"UNTIL" => {
+                if let Some(end) = known.blocks.close_or_repeat() {
+                    let start = cursor.at;
+                    cursor.skip_all();
+                    self.check((end, true), &cursor.bytes[start..cursor.at], start);
                 }
             }
-            b"ENDIF" | b"ENDSWITCH" | b"ENDLOOP" | b"ENDWHILE" | b"UNTIL" => known.blocks.close(),
+            b"ENDIF" | b"ENDSWITCH" | b"ENDLOOP" | b"ENDWHILE" => known.blocks.close(),
+            b"EXIT" => known.blocks.flow.leave(),
             b"ENDFOR" => {
                 known.blocks.close();
                 if let Some(open) = known.open.pop() {
@@ -264,7 +293,8 @@ impl Reader {
                     .and_then(|(from, to, step)| rounds(from.exact()?, to.exact()?, step.exact()?));
                 // one that other routines change counts otherwise
                 let is_counted = !known.is_assigned_elsewhere(counter);
-                known.blocks.open(most.filter(|_| is_counted));
+                known.numbers.writes_elsewhere(counter);
+                known.blocks.open_loop(most.filter(|_| is_counted));
                 known.loops[at].block = known.blocks.last();
             }
             b"ANIN" | b"DIGIN" => {
@@ -285,6 +315,7 @@ impl Reader {
                 }
             }
             b"RETURN" => {
+                known.blocks.flow.stop();
                 if let Some(routine) = self.context().routine {
                     let start = cursor.at;
                     cursor.skip_all();
@@ -302,6 +333,24 @@ impl Reader {
         }
     }
 
+    /// Notes what a condition says of numbers where an edge is gone, and where it is not.
+    fn check(&mut self, (step, is_next): (u32, bool), condition: &[u8], start: usize) {
+        let Some(routine) = self.context().routine else {
+            return;
+        };
+        let context = self.context();
+        let at = Place::new(self.file, short(start));
+        for (holds, side, relation, limit) in compared_in(condition) {
+            if side.iter().all(|b| is_letter(*b)) && !side[0].is_ascii_digit() {
+                let name = self.names.symbols.intern(side);
+                let number = self.names.number(name, context);
+                let limit = Written::Value(limit.into(), at, context);
+                let (edge, numbers) = ((step, is_next == holds), &mut self.names.known.numbers);
+                numbers.check(routine, edge, number, (relation, limit));
+            }
+        }
+    }
+
     /// Notes what `name[..].part=value` writes, behind the name; in the order of the text or at any
     /// time.
     fn note_write(&mut self, name: Token, mut cursor: Cursor, is_in_order: bool) {
@@ -315,6 +364,10 @@ impl Reader {
         cursor.skip_all();
         let name = self.symbol(&cursor, name);
         let is_whole = at.is_none() && is_in_order;
+        if !is_whole {
+            let number = self.names.number(name, self.context());
+            self.names.known.numbers.writes_elsewhere(number);
+        }
         if part.is_none() && !is_aggregate {
             self.number_written(name, start, &cursor, is_whole.then_some(()));
         }
@@ -519,9 +572,9 @@ fn evaluate_loop(
     of: &mut dyn FnMut(&[u8]) -> Quantity,
 ) -> Option<(Quantity, Quantity, Quantity)> {
     let text = text.trim_ascii().strip_prefix(b"=")?;
-    let to = word(text, "TO")?;
+    let to = numbers::word(text, "TO")?;
     let rest = &text[to + 2..];
-    let step = word(rest, "STEP");
+    let step = numbers::word(rest, "STEP");
     let mut value = |text: &[u8]| {
         evaluate(text, &mut |_| Quantity::unknown())
             .filter(|value| value.exact().is_some())

@@ -252,6 +252,7 @@ impl Reader {
 
     /// Once the declarations of all files are read.
     pub(super) fn settle(&mut self) {
+        self.names.known.end();
         self.names.settle();
         self.settle_components();
         self.mark_concurrent();

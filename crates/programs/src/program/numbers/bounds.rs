@@ -1,30 +1,30 @@
-//! Counters of loops whose condition bounds them: `WHILE n<10`.
+//! What conditions say of numbers, and counters of loops that they bound: `WHILE n<10`.
 
 use super::super::quantity::{Quantity, is_letter};
-use super::{Numbers, Site, rounds, word};
+use super::rounds::growths;
+use super::{Numbers, Site, word};
 
-/// Where each round of a block begins, a number is below another, or above it.
+/// Where each round of a block begins, a number is to a limit as given.
 #[derive(Debug)]
 pub(super) struct Bound<W> {
     block: (u32, u32),
     number: u32,
-    is_below: bool,
+    relation: Relation,
     limit: W,
 }
 
 impl<W> Numbers<W> {
-    /// Each round of a block begins with a number below a limit, or above it.
+    /// Each round of a block begins with a number that is to a limit as given.
     pub(in crate::program) fn bound(
         &mut self,
         block: (u32, u32),
         number: u32,
-        is_below: bool,
-        limit: W,
+        (relation, limit): (Relation, W),
     ) {
         self.bounds.push(Bound {
             block,
             number,
-            is_below,
+            relation,
             limit,
         });
     }
@@ -43,20 +43,7 @@ impl<W> Numbers<W> {
             return None;
         }
         let by = by.exact()?;
-        let ends: Option<Vec<_>> = start.iter().map(Quantity::ends).collect();
-        let ends = ends?.into_iter();
-        let from = if by > 0.0 {
-            ends.map(|(least, _)| least).reduce(f64::min)?
-        } else {
-            ends.map(|(_, greatest)| greatest).reduce(f64::max)?
-        };
         site.blocks.iter().enumerate().find_map(|(at, block)| {
-            let is_of = |bound: &&Bound<W>| {
-                bound.block == (site.routine, block.number)
-                    && self.one(bound.number) == number
-                    && bound.is_below == (by > 0.0)
-            };
-            let bound = self.bounds.iter().find(is_of)?;
             // so often in one round
             let each = site.blocks[at + 1..]
                 .iter()
@@ -64,92 +51,219 @@ impl<W> Numbers<W> {
                     let is_bounded = !self.unbounded.contains(&(site.routine, inner.number));
                     Some(each.saturating_mul(inner.most.filter(|_| is_bounded)?))
                 })?;
-            let (least, greatest) = limit(&bound.limit).ends()?;
-            let to = if by > 0.0 { greatest } else { least };
-            Some(rounds(from, to, by)?.saturating_add(each - 1))
+            let mut bounds = self.bounds.iter().filter(|bound| {
+                bound.block == (site.routine, block.number)
+                    && self.one(bound.number) == number
+                    && (each == 1 || bound.relation != Relation::NotEqual)
+            });
+            let most = bounds
+                .find_map(|bound| growths(bound.relation, start, by, &limit(&bound.limit)))?;
+            Some(most.saturating_add(each - 1))
         })
     }
 }
 
-/// What a condition says of names in each of its parts that `AND` joins: the name, whether it is
-/// below what is behind (`n<10`, `n<=m`, `10>n`), and that.
-pub(in crate::program) fn bounds_in(condition: &[u8]) -> Vec<(&[u8], bool, &[u8])> {
+/// How what stands before a sign of comparison is to what stands behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::program) enum Relation {
+    /// Below it, and never equal, or at most equal.
+    Below {
+        is_strict: bool,
+    },
+    /// Above it.
+    Above {
+        is_strict: bool,
+    },
+    Equal,
+    NotEqual,
+}
+
+impl Relation {
+    fn of(sign: &[u8]) -> Option<Self> {
+        Some(match sign {
+            b"<" => Self::Below { is_strict: true },
+            b"<=" | b"=<" => Self::Below { is_strict: false },
+            b">" => Self::Above { is_strict: true },
+            b">=" | b"=>" => Self::Above { is_strict: false },
+            b"=" | b"==" => Self::Equal,
+            b"<>" | b"!=" => Self::NotEqual,
+            _ => return None,
+        })
+    }
+
+    /// What holds where it does not.
+    #[must_use]
+    pub(in crate::program) fn negated(self) -> Self {
+        match self {
+            Self::Below { is_strict } => Self::Above {
+                is_strict: !is_strict,
+            },
+            Self::Above { is_strict } => Self::Below {
+                is_strict: !is_strict,
+            },
+            Self::Equal => Self::NotEqual,
+            Self::NotEqual => Self::Equal,
+        }
+    }
+
+    /// With both sides exchanged.
+    #[must_use]
+    fn exchanged(self) -> Self {
+        match self {
+            Self::Below { is_strict } => Self::Above { is_strict },
+            Self::Above { is_strict } => Self::Below { is_strict },
+            same => same,
+        }
+    }
+}
+
+/// The comparisons of a condition that all are as they stand where it holds, or all the contrary
+/// where it does not: those that `AND` joins, or `OR`.
+fn comparisons(condition: &[u8], holds: bool) -> Vec<(&[u8], Relation, &[u8])> {
+    let condition = inside_brackets(condition);
     let capitals = condition.to_ascii_uppercase();
-    if word(&capitals, "OR").is_some() || word(&capitals, "NOT").is_some() {
+    let (joins, other) = if holds { ("AND", "OR") } else { ("OR", "AND") };
+    let names = [other, "NOT", "XOR"];
+    let is_negated = capitals
+        .windows(2)
+        .any(|two| two[0] == b'!' && two[1] != b'=');
+    if is_negated || names.iter().any(|name| word(&capitals, name).is_some()) {
         return Vec::new();
     }
     let (mut all, mut from) = (Vec::new(), 0);
     loop {
-        let and = word(&capitals[from..], "AND");
-        let part = &condition[from..and.map_or(condition.len(), |at| from + at)];
-        all.extend(bound_in(part));
-        match and {
-            Some(at) => from += at + 3,
+        let join = word(&capitals[from..], joins);
+        let part = &condition[from..join.map_or(condition.len(), |at| from + at)];
+        all.extend(comparison(part).map(|(before, relation, behind)| {
+            let relation = if holds { relation } else { relation.negated() };
+            (before, relation, behind)
+        }));
+        match join {
+            Some(at) => from += at + joins.len(),
             None => return all,
         }
     }
 }
 
-fn bound_in(mut part: &[u8]) -> Option<(&[u8], bool, &[u8])> {
-    part = part.trim_ascii();
-    while let Some(inside) = part
-        .strip_prefix(b"(")
-        .and_then(|part| part.strip_suffix(b")"))
-    {
-        part = inside.trim_ascii();
+/// Brackets around brackets that are looked into.
+const DEEPEST: usize = 16;
+
+/// A text without the brackets that stand around the whole of it.
+fn inside_brackets(mut text: &[u8]) -> &[u8] {
+    for _ in 0..DEEPEST {
+        text = text.trim_ascii();
+        let inside = text.strip_prefix(b"(");
+        let Some(inside) = inside.and_then(|text| text.strip_suffix(b")")) else {
+            break;
+        };
+        let mut depth = 0_i32;
+        let is_whole = inside.iter().all(|b| {
+            depth += i32::from(*b == b'(') - i32::from(*b == b')');
+            depth >= 0
+        });
+        if !is_whole {
+            break;
+        }
+        text = inside;
     }
-    let at = part.iter().position(|b| matches!(b, b'<' | b'>'))?;
-    let is_below = part[at] == b'<';
-    let behind = part[at + 1..].strip_prefix(b"=").unwrap_or(&part[at + 1..]);
-    let [before, behind] = [&part[..at], behind].map(<[u8]>::trim_ascii);
-    // n<>10, and brackets that do not stand around the whole
+    text
+}
+
+fn comparison(part: &[u8]) -> Option<(&[u8], Relation, &[u8])> {
+    let part = inside_brackets(part);
+    let is_sign = |b: &u8| matches!(b, b'<' | b'>' | b'=' | b'!');
+    let at = part.iter().position(is_sign)?;
+    let length = part[at..].iter().take_while(|b| is_sign(b)).count();
+    let relation = Relation::of(&part[at..at + length])?;
+    let [before, behind] = [&part[..at], &part[at + length..]].map(<[u8]>::trim_ascii);
+    // brackets that do not stand around the whole
     let is_one = |text: &[u8]| {
         let count = |bracket| memchr::memchr_iter(bracket, text).count();
-        !text.is_empty()
-            && !text.iter().any(|b| matches!(b, b'<' | b'>' | b'='))
-            && count(b'(') == count(b')')
+        !text.is_empty() && !text.iter().any(is_sign) && count(b'(') == count(b')')
     };
-    if !is_one(before) || !is_one(behind) {
-        return None;
-    }
+    (is_one(before) && is_one(behind)).then_some((before, relation, behind))
+}
+
+/// What a condition says of the one side of a comparison and the other, where it holds and (`false`) where
+/// it does not.
+pub(in crate::program) fn compared_in(
+    condition: &[u8],
+) -> impl Iterator<Item = (bool, &[u8], Relation, &[u8])> {
+    [true, false].into_iter().flat_map(move |holds| {
+        let all = comparisons(condition, holds).into_iter();
+        all.flat_map(move |(before, relation, behind)| {
+            [
+                (holds, before, relation, behind),
+                (holds, behind, relation.exchanged(), before),
+            ]
+        })
+    })
+}
+
+/// What a condition says of names where it holds (`n<10`, `10>n`): the name, and how it is to the
+/// other side.
+pub(in crate::program) fn bounds_in(
+    condition: &[u8],
+) -> impl Iterator<Item = (&[u8], Relation, &[u8])> {
     let is_name = |text: &[u8]| text.iter().all(|b| is_letter(*b)) && !text[0].is_ascii_digit();
-    if is_name(before) {
-        return Some((before, is_below, behind));
-    }
-    is_name(behind).then_some((behind, !is_below, before))
+    compared_in(condition)
+        .filter(move |(holds, side, ..)| *holds && is_name(side))
+        .map(|(_, side, relation, limit)| (side, relation, limit))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn text(of: &[u8]) -> String {
+        String::from_utf8_lossy(of).into_owned()
+    }
+
     #[test]
     fn conditions_bound_names() {
-        let of = |text: &str| -> Vec<(String, bool, String)> {
-            let owned = |text: &[u8]| String::from_utf8_lossy(text).into_owned();
-            bounds_in(text.as_bytes())
-                .into_iter()
-                .map(|(name, is_below, limit)| (owned(name), is_below, owned(limit)))
-                .collect()
-        };
-        let one =
-            |name: &str, is_below: bool, limit: &str| (name.to_owned(), is_below, limit.to_owned());
-        assert_eq!(of(" n<10 "), [one("n", true, "10")]);
-        assert_eq!(of("(n <= 2*m) and di1=1"), [one("n", true, "2*m")]);
-        assert_eq!(
-            of("0<n AND m>-5"),
-            [one("n", false, "0"), one("m", false, "-5")]
-        );
-        for text in [
-            "n<10 OR x",
-            "NOT n<10",
-            "n<>10",
-            "n=10",
-            "TRUE",
-            "(n<10",
-            "f(n)<10",
+        let below = |is_strict| Relation::Below { is_strict };
+        let above = |is_strict| Relation::Above { is_strict };
+        for (condition, wanted) in [
+            (" n<10 ", &[("n", below(true), "10")][..]),
+            ("(n <= 2*m) and di1", &[("n", below(false), "2*m")]),
+            (
+                "0<n AND m>-5",
+                &[("n", above(true), "0"), ("m", above(true), "-5")],
+            ),
+            ("n<>10", &[("n", Relation::NotEqual, "10")]),
+            ("n<m", &[("n", below(true), "m"), ("m", above(true), "n")]),
+            ("n<10 OR x", &[]),
+            ("NOT n<10", &[]),
+            ("!(di1 AND n<10 AND di2)", &[]),
+            ("TRUE", &[]),
+            ("(n<10", &[]),
+            (
+                "((n<10) and (m>1))",
+                &[("n", below(true), "10"), ("m", above(true), "1")],
+            ),
+            ("(n)<(m)", &[]),
+            ("f(n)<10", &[]),
         ] {
-            assert_eq!(of(text), [], "{text}");
+            let found: Vec<_> = bounds_in(condition.as_bytes())
+                .map(|(name, relation, limit)| (text(name), relation, text(limit)))
+                .collect();
+            let wanted: Vec<_> = wanted
+                .iter()
+                .map(|&(name, relation, limit)| (name.to_owned(), relation, limit.to_owned()))
+                .collect();
+            assert_eq!(found, wanted, "{condition}");
         }
+    }
+
+    #[test]
+    fn what_does_not_hold_is_the_contrary_of_each_alternative() {
+        let all = comparisons(b"n>=4 or m=2 or di1", false);
+        let [first, second] = all[..] else {
+            panic!("{all:?}");
+        };
+        assert_eq!((first.0, first.2), (&b"n"[..], &b"4"[..]));
+        assert_eq!(first.1, Relation::Below { is_strict: true });
+        assert_eq!(second.1, Relation::NotEqual);
+        assert_eq!(comparisons(b"n>=4 and m=2", false), []);
     }
 }

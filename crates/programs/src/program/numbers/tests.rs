@@ -1,5 +1,7 @@
 //! What numbers may be that texts write.
 
+mod jumping;
+
 use super::*;
 
 /// Number `a` is 0, and so on; each write is a text.

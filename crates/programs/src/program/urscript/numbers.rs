@@ -116,14 +116,14 @@ impl Variables<'_, '_> {
         let condition = &text[start as usize..end as usize];
         let condition = condition.trim_ascii_end();
         let condition = condition.strip_suffix(b":").unwrap_or(condition);
-        for (name, is_below, limit) in bounds_in(condition) {
+        for (name, relation, limit) in bounds_in(condition) {
             let name = self.parsed.known_symbol(name);
             let Some(variable) = name.and_then(|name| self.meaning(name, function)) else {
                 continue;
             };
             let start = short(limit.as_ptr() as usize - text.as_ptr() as usize);
             let limit = Written::Limit(start, start + short(limit.len()), function);
-            numbers.bound(block, variable, is_below, limit);
+            numbers.bound(block, variable, (relation, limit));
         }
     }
 

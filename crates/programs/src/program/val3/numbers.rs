@@ -10,7 +10,7 @@ use crate::program::numbers::{Operand, evaluated};
 use crate::program::quantity::{Arithmetic, Quantity};
 use crate::program::script::{RoutineId, short};
 use crate::program::transformations::{
-    EACH, Entries, Numbering, Of as Value, Reads, Steps, Written, exactly,
+    EACH, Edge, Entries, Numbering, Of as Value, Reads, Steps, Written, exactly,
 };
 use crate::program::words::Words;
 use crate::program::{Displacement, Stride};
@@ -80,17 +80,45 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Notes what a condition says of numbers where an edge is gone, and where it is not.
+    fn check(&mut self, edge: Edge, condition: Words<'a, '_>) {
+        let routine = self.here.routine;
+        let mut entries = std::mem::take(&mut self.entries);
+        entries.check(edge, condition.whole(), &mut |side| {
+            let words = condition.within(side);
+            let name = Reference::of(words);
+            let name = name.filter(|name| name.words == words.len() && !name.has_field)?;
+            let is_whole = !(0..words.len()).any(|at| words.is(at, b'['));
+            self.number(&name, routine)
+                .filter(|_| is_whole && self.kind_of(&name) == Kind::Num)
+        });
+        self.entries = entries;
+    }
+
     /// Notes what a statement writes into numbers.
     pub(super) fn tell(&mut self, line: Words<'a, '_>) {
         let routine = self.here.routine;
         self.entries.begin_statement(line.span().start);
         match line.text(0) {
-            b"if" | b"switch" => self.entries.open(Some(1)),
-            b"elseIf" | b"case" | b"else" | b"default" => self.entries.branch(),
-            b"while" | b"do" => self.entries.open(None),
-            b"endIf" | b"endSwitch" | b"endWhile" | b"endFor" | b"until" => {
-                self.entries.close();
+            b"if" => {
+                let inside = self.entries.open_branch();
+                self.check(inside, line.behind(1));
             }
+            b"switch" => self.entries.open_switch(),
+            b"elseIf" | b"case" | b"else" | b"default" => self.entries.branch(),
+            b"while" => {
+                let inside = self.entries.open_loop();
+                self.check(inside, line.behind(1));
+            }
+            b"do" => _ = self.entries.open_loop(),
+            b"endIf" | b"endSwitch" | b"endWhile" | b"endFor" => self.entries.close(),
+            b"until" => {
+                if let Some(behind) = self.entries.close_or_repeat() {
+                    self.check(behind, line.behind(1));
+                }
+            }
+            b"break" => self.entries.leave(),
+            b"return" => self.entries.stop(),
             b"for" => self.tell_loop(line.behind(1)),
             _ => {}
         }

@@ -59,7 +59,7 @@ impl Known {
         }
         self.path.depth += 1;
         self.path.written.push(Vec::new());
-        self.blocks.open(most);
+        self.blocks.open_loop(most);
         if let Some((number, written)) = inside {
             self.now.insert(number, written);
             self.note_written(number);

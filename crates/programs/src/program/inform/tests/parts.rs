@@ -101,7 +101,41 @@ fn numbers_that_loops_count_displace_as_far_as_these_run() {
         ),
         (
             format!("SET D000 0\nWHILE D000<300000\n{go}\nADD D000 100000\nENDWHILE"),
+            300.0,
+        ),
+        (
+            format!("SET D000 0\nWHILE D000<=300000\n{go}\nADD D000 100000\nENDWHILE"),
             400.0,
+        ),
+        (
+            format!("SET D000 0\n*L\n{go}\nADD D000 100000\nJUMP *L IF D000<300000"),
+            300.0,
+        ),
+        (
+            format!(
+                "SET D000 0\n*L\n{go}\nADD D000 100000\nJUMP *L IFEXPRESS (D000<300000 AND \
+                 IN#(1)=ON)"
+            ),
+            300.0,
+        ),
+        (
+            format!(
+                "SET D000 0\nSET B000 0\n*L\n{go}\nADD D000 100000\nINC B000\nJUMP *L IF B000<3"
+            ),
+            300.0,
+        ),
+        (
+            format!(
+                "SET B000 0\n*L\nJUMP *E IF B000>=4\nSET D000 EXPRESS B000 * 100000\n{go}\nINC \
+                 B000\nJUMP *L\n*E"
+            ),
+            400.0,
+        ),
+        (
+            format!(
+                "SET D000 0\n*L\n{go}\nADD D000 100000\nIFTHEN D000>=300000\nSET D000 0\nENDIF\nJUMP *L"
+            ),
+            300.0,
         ),
     ] {
         let found = most(&text);
@@ -109,6 +143,8 @@ fn numbers_that_loops_count_displace_as_far_as_these_run() {
     }
     for text in [
         // nothing bounds the loop, or sets it anew; the counter changes
+        format!("SET D000 0\n*L\n{go}\nADD D000 100000\nJUMP *L IF D001<300000"),
+        format!("*L\n{go}\nADD D000 100000\nJUMP *L IF D000<300000\nSET D000 0\nJUMP *L"),
         format!("SET D000 0\n*L\n{go}\nADD D000 100000\nJUMP *L IF IN#(1)=ON"),
         format!("FOR I000 = 1 TO 5\n{go}\nADD D000 100000\nNEXT I000"),
         format!("SET D000 0\nFOR I000 = 1 TO 5\n{go}\nADD D000 100000\nDEC I000\nNEXT I000"),

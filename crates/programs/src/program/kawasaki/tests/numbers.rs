@@ -103,6 +103,38 @@ fn reach_mm(code: &str, others: &str) -> f64 {
 }
 
 #[test]
+fn conditions_of_loops_and_jumps_bound_what_adds_up() {
+    let (go, by_i) = ("LMOVE SHIFT(p1 BY 0,0,h)", "LMOVE SHIFT(p1 BY 0,0,i*30)");
+    for code in [
+        format!("h = 0\nWHILE h < 120 DO\n{go}\nh = h+30\nEND"),
+        format!("h = 0\nDO\n{go}\nh = h+30\nUNTIL h >= 120"),
+        format!("h = 0\ni = 0\nDO\n{go}\nh = h+30\ni = i+1\nUNTIL i == 4"),
+        format!("i = 0\n10 {by_i}\ni = i+1\nIF i < 4 GOTO 10"),
+        format!("i = 0\n10 {by_i}\ni = i+1\nGOTO 10 IF i < 4 AND SIG(1)"),
+        format!("i = 0\nup: IF i >= 4 GOTO out\n{by_i}\ni = i+1\nGOTO up\nout: BREAK"),
+        format!("i = 0\n10 {by_i}\ni = i+1\nIF i >= 4 THEN\nRETURN\nEND\nGOTO 10"),
+    ] {
+        let reach = reach_mm(&code, "");
+        assert!((reach - 120.0).abs() < 1e-9, "{code}: {reach}");
+    }
+    for code in [
+        format!("i = 0\n10 {by_i}\ni = i+1\nIF j < 4 GOTO 10"),
+        format!("i = 0\n10 {by_i}\ni = i+1\nGOTO 10 IF i < 4 OR SIG(1)"),
+        format!("i = 0\nON 1001 GOTO 10\n10 {by_i}\ni = i+1\nIF i < 4 GOTO 10"),
+        format!("10 {by_i}\ni = i+1\nIF i < 4 GOTO 10"),
+    ] {
+        let found = by(&code, "");
+        let is_bounded = match &found {
+            Displacement::Within(all) => all
+                .iter()
+                .all(|stride| matches!(stride, Stride::By { most: Some(_), .. })),
+            _ => false,
+        };
+        assert!(!is_bounded, "{code}: {found:?}");
+    }
+}
+
+#[test]
 fn inside_its_loop_a_counter_is_what_the_loop_counts() {
     let go = "LMOVE SHIFT(p1 BY 0,0,i*30)";
     let other = ".PROGRAM go()\nFOR i = 0 TO 8\nEND\n.END\n";

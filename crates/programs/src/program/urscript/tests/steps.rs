@@ -37,12 +37,11 @@ fn by(axis: usize, by: f64) -> Displacement {
 #[test]
 fn counters_step_from_a_position_as_far_as_the_loop_lets_them() {
     let go = "movel(pose_trans(base,p[i*0.05,0,0,0,0,0]))";
-    // the last round may be one more: what adds up in single precision is not exact
     for (condition, most) in [
-        ("i<5", 6),
+        ("i<5", 5),
         ("(i <= 4)", 5),
-        ("5>i and ready", 6),
-        ("i<n", 6),
+        ("5>i and ready", 5),
+        ("i<n", 5),
     ] {
         let program = path(&format!(
             "{BASE}n=5\ni=0\nwhile {condition}:\n{go}\ni=i+1\nend"

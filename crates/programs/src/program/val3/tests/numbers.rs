@@ -233,6 +233,39 @@ fn a_counter_that_the_data_give_a_value_is_what_its_loop_counts() {
 }
 
 #[test]
+fn conditions_of_loops_bound_what_adds_up() {
+    let go = "movel(appro(pA,{nI*30,0,0,0,0,0}),tA,m)\nnI=nI+1";
+    let leave = "if nI>=4\nbreak\nendIf";
+    for code in [
+        format!("nI=0\nwhile nI<4\n{go}\nendWhile"),
+        format!("nI=0\nwhile (nI<4) and bIn\n{go}\nendWhile"),
+        format!("nI=0\ndo\n{go}\nuntil nI>=4"),
+        format!("nI=0\nnH=0\ndo\n{go}\nnH=nH+1\nuntil nH==4"),
+        format!("nI=0\nwhile true\n{go}\n{leave}\nendWhile"),
+        format!("nI=0\nwhile true\n{go}\nif nI>=4\nreturn\nendIf\nendWhile"),
+    ] {
+        let reach = at_most(&by(&code));
+        assert!((reach - 120.0).abs() < 1e-9, "{code}: {reach}");
+    }
+    for code in [
+        format!("nI=0\nwhile bIn\n{go}\nendWhile"),
+        format!("nI=0\ndo\n{go}\nuntil nI>=4 and bIn"),
+        format!("do\n{go}\nuntil nI>=4"),
+        // it leaves the choice, not the loop
+        format!("nI=0\nwhile true\n{go}\nswitch nH\ncase 1\n{leave}\nbreak\nendSwitch\nendWhile"),
+    ] {
+        let found = by(&code);
+        let is_bounded = match &found {
+            Displacement::Within(all) => all
+                .iter()
+                .all(|stride| matches!(stride, Stride::By { most: Some(_), .. })),
+            _ => false,
+        };
+        assert!(!is_bounded, "{code}: {found:?}");
+    }
+}
+
+#[test]
 fn a_counter_in_a_program_that_is_given_it_or_in_a_task_counts() {
     let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
     let parameter = "<Parameters><Parameter name=\"x\" type=\"num\" use=\"reference\" \
