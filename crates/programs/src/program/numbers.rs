@@ -16,7 +16,8 @@ use flow::Flow;
 use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};
 use foldhash::{HashMap, HashSet};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
 
 /// Numbers that are computed from each other that are followed.
 const DEEPEST: usize = 24;
@@ -34,6 +35,8 @@ struct Facts<W> {
     is_lost: bool,
     /// It may be written in a way that is not followed.
     is_endless: bool,
+    /// It is also written where no site tells.
+    is_elsewhere: bool,
 }
 
 impl<W> Default for Facts<W> {
@@ -42,6 +45,7 @@ impl<W> Default for Facts<W> {
             writes: Vec::new(),
             is_lost: false,
             is_endless: false,
+            is_elsewhere: false,
         }
     }
 }
@@ -59,8 +63,8 @@ pub(super) struct Numbers<W> {
     /// How routines go from label to label, and what conditions say on the way.
     flows: HashMap<u32, Flow>,
     checks: Vec<rounds::Check<W>>,
-    /// Numbers that are also written where no site tells.
-    also_elsewhere: HashSet<u32>,
+    bounded: RefCell<HashMap<u32, Option<Rc<rounds::Bounded>>>>,
+    work_left: Cell<usize>,
     /// The routines that each calls.
     calls: HashMap<u32, HashSet<u32>>,
     /// Routines that run at any time.
@@ -79,7 +83,8 @@ impl<W> Default for Numbers<W> {
             bounds: Vec::new(),
             flows: HashMap::default(),
             checks: Vec::new(),
-            also_elsewhere: HashSet::default(),
+            bounded: RefCell::default(),
+            work_left: Cell::new(rounds::MOST_WORK),
             calls: HashMap::default(),
             concurrent: HashSet::default(),
             same: HashMap::default(),
@@ -122,6 +127,7 @@ impl<W> Numbers<W> {
             of.writes.extend(facts.writes);
             of.is_lost |= facts.is_lost;
             of.is_endless |= facts.is_endless;
+            of.is_elsewhere |= facts.is_elsewhere;
         }
     }
 
@@ -185,8 +191,7 @@ impl<W> Numbers<W> {
 
     /// A number is also written where no site tells: by a loop that counts, or by an index.
     pub(super) fn writes_elsewhere(&mut self, number: u32) {
-        let number = self.one(number);
-        self.also_elsewhere.insert(number);
+        self.facts_of(number).is_elsewhere = true;
     }
 
     /// A block, by its routine and number, runs any number of times.
@@ -319,7 +324,7 @@ impl<W> Numbers<W> {
                 return None;
             }
         }
-        gathered.is_lost = facts.is_lost;
+        (gathered.is_lost, gathered.is_elsewhere) = (facts.is_lost, facts.is_elsewhere);
         if facts.is_lost {
             gathered.all.push(Quantity::unknown());
         }
@@ -366,6 +371,8 @@ struct Gathered<'a> {
     is_turned: bool,
     /// Something that only the running program knows may write it.
     is_lost: bool,
+    /// It is also written where no site tells.
+    is_elsewhere: bool,
 }
 
 impl Gathered<'_> {

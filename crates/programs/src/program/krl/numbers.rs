@@ -364,11 +364,11 @@ impl Reader {
         cursor.skip_all();
         let name = self.symbol(&cursor, name);
         let is_whole = at.is_none() && is_in_order;
-        if !is_whole {
-            let number = self.names.number(name, self.context());
-            self.names.known.numbers.writes_elsewhere(number);
-        }
         if part.is_none() && !is_aggregate {
+            if !is_whole {
+                let number = self.names.number(name, self.context());
+                self.names.known.numbers.writes_elsewhere(number);
+            }
             self.number_written(name, start, &cursor, is_whole.then_some(()));
         }
         let site = is_whole.then(|| self.names.known.blocks.site());

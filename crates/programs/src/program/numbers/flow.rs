@@ -58,6 +58,10 @@ pub(in crate::program) struct Flow {
 }
 
 impl Flow {
+    pub(super) fn len(&self) -> usize {
+        self.steps.len()
+    }
+
     /// Whether nothing is in it.
     pub(in crate::program) fn is_empty(&self) -> bool {
         self.steps.is_empty()

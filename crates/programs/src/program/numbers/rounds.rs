@@ -5,7 +5,11 @@ use super::super::quantity::Quantity;
 use super::bounds::Relation;
 use super::flow::{Flow, Passed};
 use super::{Evaluate, Gathered, Numbers, Site, rounds};
-use foldhash::HashSet;
+use std::rc::Rc;
+
+/// Steps and conditions that are looked at in all programs of a run: what would take more is not
+/// bounded.
+pub(super) const MOST_WORK: usize = 50_000_000;
 
 /// What is so of a number where a routine goes from a step to the next, or to another.
 #[derive(Debug)]
@@ -23,6 +27,19 @@ struct Bounding {
     most: u32,
     /// The number comes to its limit, and is not compared with what is beyond.
     passes_none: bool,
+}
+
+/// A number whose own conditions bound how often it grows between two places that set it anew.
+#[derive(Debug)]
+pub(super) struct Bounded {
+    most: u32,
+    /// Where these conditions are.
+    edges: Vec<Passed>,
+    routine: u32,
+    /// The step at which it grows.
+    grows: u32,
+    /// Those at which the routine sets it anew, in order; `None` where something else does, too.
+    resets: Option<Vec<u32>>,
 }
 
 impl<W> Numbers<W> {
@@ -57,57 +74,58 @@ impl<W> Numbers<W> {
             return None;
         };
         let (step, flow) = (site.step?, self.flows.get(&site.routine)?);
-        if self.also_elsewhere.contains(&number) || self.runs_inside_itself(site.routine) {
+        if gathered.is_elsewhere || self.runs_inside_itself(site.routine) {
             return None;
         }
         let resets = steps_of(&gathered.resets, site.routine);
-        let anew = |passed: Passed| matches!(passed, Passed::Step(at) if resets.contains(&at));
-        if flow.again(step, &|passed, _| (!anew(passed)).then_some(0)) == 0 {
+        let anew = |passed: Passed| is_at(passed, &resets);
+        if self.again(flow, step, &|passed, _| (!anew(passed)).then_some(0))? == 0 {
             return Some(1);
         }
-        if let Some((most, _)) = self.checked(number, gathered, evaluate, open) {
-            return Some(most);
+        if let Some(own) = self.bounded(number, gathered, evaluate, open) {
+            return Some(own.most);
         }
         // a number that counts along
-        let of_routine = self
-            .checks
-            .iter()
-            .filter(|check| check.routine == site.routine);
-        let others: HashSet<u32> = of_routine.map(|check| self.one(check.number)).collect();
-        let mut others: Vec<u32> = others.into_iter().filter(|one| *one != number).collect();
+        self.can_afford(self.checks.len())?;
+        let of_routine = self.checks.iter().filter(|of| of.routine == site.routine);
+        let mut others: Vec<u32> = of_routine.map(|of| self.one(of.number)).collect();
         others.sort_unstable();
+        others.dedup();
         let along = others.into_iter().filter_map(|other| {
-            if open.contains(&other) || self.also_elsewhere.contains(&other) {
+            if other == number || open.contains(&other) {
                 return None;
             }
-            open.push(other);
-            let of = self.gathered(other, evaluate, open);
-            let most = of.and_then(|of| {
-                let (most, edges) = self.checked(other, &of, evaluate, open)?;
-                counted_along(&of, (most, &edges), (flow, site), &anew)
-            });
-            open.pop();
-            most
+            let known = self.bounded.borrow().get(&other).cloned();
+            let other = known.unwrap_or_else(|| {
+                open.push(other);
+                let of = self.gathered(other, evaluate, open);
+                let found = of.and_then(|of| self.bounded(other, &of, evaluate, open));
+                open.pop();
+                self.bounded.borrow_mut().insert(other, found.clone());
+                found
+            })?;
+            self.counted_along(&other, (flow, site.routine, step), &anew)
         });
         along.min()
     }
 
-    /// How often at most a number grows whose own conditions bound it, and where these are.
-    fn checked(
+    /// A number that grows, where its own conditions bound that.
+    fn bounded(
         &self,
         number: u32,
         gathered: &Gathered,
         evaluate: &Evaluate<W>,
         open: &mut Vec<u32>,
-    ) -> Option<(u32, Vec<Passed>)> {
+    ) -> Option<Rc<Bounded>> {
         let [(by, Some(site))] = &gathered.growing[..] else {
             return None;
         };
         let by = by.exact().filter(|_| gathered.is_alone())?;
-        let (step, flow) = (site.step?, self.flows.get(&site.routine)?);
-        if self.runs_inside_itself(site.routine) {
+        let (grows, flow) = (site.step?, self.flows.get(&site.routine)?);
+        if gathered.is_elsewhere || self.runs_inside_itself(site.routine) {
             return None;
         }
+        self.can_afford(self.checks.len())?;
         let checks = self
             .checks
             .iter()
@@ -126,11 +144,8 @@ impl<W> Numbers<W> {
             .collect();
         let resets = steps_of(&gathered.resets, site.routine);
         let is_bounded = |edges: &[Passed]| {
-            let is_wall = |passed: Passed| match passed {
-                Passed::Step(at) => resets.contains(&at),
-                Passed::Edge(..) => edges.contains(&passed),
-            };
-            flow.again(step, &|passed, _| (!is_wall(passed)).then_some(0)) == 0
+            let is_wall = |passed: Passed| is_at(passed, &resets) || edges.contains(&passed);
+            self.again(flow, grows, &|passed, _| (!is_wall(passed)).then_some(0)) == Some(0)
         };
         // between two limits it may pass one that it never equals where that is looked at
         let joined = bounds.iter().filter(|bounding| !bounding.passes_none);
@@ -141,56 +156,75 @@ impl<W> Numbers<W> {
             let most = of.iter().map(|bounding| bounding.most).max()?;
             is_bounded(&edges).then_some((most, edges))
         });
-        each.min_by_key(|(most, _)| *most)
+        let (most, edges) = each.min_by_key(|(most, _)| *most)?;
+        let is_here = |reset: &&Site| reset.routine == site.routine && reset.step.is_some();
+        Some(Rc::new(Bounded {
+            most,
+            edges,
+            routine: site.routine,
+            grows,
+            resets: gathered.resets.iter().all(is_here).then_some(resets),
+        }))
+    }
+
+    /// How often at most a routine comes to a step without setting its number anew (`anew`), where
+    /// another number counts along.
+    fn counted_along(
+        &self,
+        other: &Bounded,
+        (flow, routine, step): (&Flow, u32, u32),
+        anew: &dyn Fn(Passed) -> bool,
+    ) -> Option<u32> {
+        let resets = other.resets.as_ref().filter(|_| other.routine == routine)?;
+        // the other number begins anew on the way
+        let restarts = self.again(flow, step, &|passed, state| match passed {
+            _ if anew(passed) => None,
+            _ if is_at(passed, resets) => Some(1),
+            _ => Some(state),
+        })?;
+        if restarts & 2 != 0 {
+            return None;
+        }
+        // each time the other number grows, and is compared behind that
+        let before = self.again(flow, step, &|passed, state| match (passed, state) {
+            _ if anew(passed) => None,
+            (Passed::Step(at), _) if at == other.grows => Some(1),
+            (_, 1) if other.edges.contains(&passed) => None,
+            _ => Some(state),
+        })?;
+        if before == 0 {
+            return Some(other.most);
+        }
+        // each time the other number grows
+        let is_without = |passed| !anew(passed) && passed != Passed::Step(other.grows);
+        let without = self.again(flow, step, &|passed, _| is_without(passed).then_some(0))?;
+        (without == 0).then_some(other.most.saturating_add(1))
+    }
+
+    /// As [`Flow::again`], as long as there is work left.
+    fn again(&self, flow: &Flow, step: u32, pass: &dyn Fn(Passed, u8) -> Option<u8>) -> Option<u8> {
+        self.can_afford(flow.len())?;
+        Some(flow.again(step, pass))
+    }
+
+    fn can_afford(&self, work: usize) -> Option<()> {
+        let left = self.work_left.get().checked_sub(work);
+        self.work_left.set(left.unwrap_or(0));
+        left.map(|_| ())
     }
 }
 
-/// How often at most a routine comes to a place without setting its number anew (`anew`), where
-/// another number that grows so often, by conditions on these edges, counts along.
-fn counted_along(
-    of: &Gathered,
-    (most, edges): (u32, &[Passed]),
-    (flow, site): (&Flow, &Site),
-    anew: &dyn Fn(Passed) -> bool,
-) -> Option<u32> {
-    let is_here = |other: &Site| other.routine == site.routine && other.step.is_some();
-    let [(_, Some(grows))] = of.growing[..] else {
-        return None;
-    };
-    if !is_here(grows) || !of.resets.iter().all(|reset| is_here(reset)) {
-        return None;
-    }
-    let (step, grows) = (site.step?, grows.step?);
-    let resets = steps_of(&of.resets, site.routine);
-    // the other number begins anew on the way
-    let restarts = flow.again(step, &|passed, state| match passed {
-        _ if anew(passed) => None,
-        Passed::Step(at) if resets.contains(&at) => Some(1),
-        _ => Some(state),
-    });
-    if restarts & 2 != 0 {
-        return None;
-    }
-    // each time the other number grows, and is compared behind that
-    let before = flow.again(step, &|passed, state| match (passed, state) {
-        _ if anew(passed) => None,
-        (Passed::Step(at), _) if at == grows => Some(1),
-        (_, 1) if edges.contains(&passed) => None,
-        _ => Some(state),
-    });
-    if before == 0 {
-        return Some(most);
-    }
-    // each time the other number grows
-    let is_without = |passed| !anew(passed) && passed != Passed::Step(grows);
-    let without = flow.again(step, &|passed, _| is_without(passed).then_some(0));
-    (without == 0).then_some(most.saturating_add(1))
+/// Whether that is one of the steps, which are in order.
+fn is_at(passed: Passed, steps: &[u32]) -> bool {
+    matches!(passed, Passed::Step(at) if steps.binary_search(&at).is_ok())
 }
 
-/// The steps at which a routine sets a number anew.
+/// The steps at which a routine sets a number anew, in order.
 fn steps_of(resets: &[&Site], routine: u32) -> Vec<u32> {
     let here = resets.iter().filter(|reset| reset.routine == routine);
-    here.filter_map(|reset| reset.step).collect()
+    let mut steps: Vec<u32> = here.filter_map(|reset| reset.step).collect();
+    steps.sort_unstable();
+    steps
 }
 
 /// How often a number grows at most that is one of these at first, where each time but the first it

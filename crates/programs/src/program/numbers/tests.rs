@@ -5,11 +5,11 @@ mod jumping;
 use super::*;
 
 /// Number `a` is 0, and so on; each write is a text.
-fn value(numbers: &Numbers<&str>, number: u32) -> Quantity {
+fn value<W: AsRef<str>>(numbers: &Numbers<W>, number: u32) -> Quantity {
     numbers.value(number, &|text, of| {
         evaluated(
             Arithmetic::Real,
-            text.as_bytes(),
+            text.as_ref().as_bytes(),
             &mut |operand| match operand {
                 Operand::Name([letter]) => Some(of(u32::from(letter - b'a'))),
                 Operand::Name(_) => Some(Quantity::unknown()),

@@ -270,19 +270,6 @@ fn run(ops: &[Op], inputs: &[bool]) -> [Vec<i32>; 2] {
     seen
 }
 
-fn value_of(numbers: &Numbers<String>, number: u32) -> Quantity {
-    numbers.value(number, &|text, of| {
-        evaluated(
-            Arithmetic::Real,
-            text.as_bytes(),
-            &mut |operand| match operand {
-                Operand::Name([letter]) => Some(of(u32::from(letter - b'a'))),
-                _ => None,
-            },
-        )
-    })
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
@@ -295,7 +282,7 @@ proptest! {
         let ops = tidy(ops);
         let numbers = read(&ops);
         for (number, seen) in (0..).zip(run(&ops, &inputs)) {
-            let Some((least, greatest)) = value_of(&numbers, number).ends() else {
+            let Some((least, greatest)) = value(&numbers, number).ends() else {
                 continue;
             };
             for value in seen {
@@ -408,6 +395,23 @@ fn conditions_bound_what_adds_up_between_labels() {
         ),
     ];
     for (ops, wanted) in cases {
-        assert_eq!(value_of(&read(ops), 0).ends(), wanted, "{ops:?}");
+        assert_eq!(value(&read(ops), 0).ends(), wanted, "{ops:?}");
     }
+}
+
+#[test]
+fn what_takes_too_much_work_has_no_bound() {
+    let ops = |count: u32| {
+        let grow = (0..count).map(|_| Op::Add(0, 1));
+        let all = [Op::Set(0, 0), Op::Label(1)].into_iter().chain(grow);
+        all.chain([Op::Jump(1, Some((0, BELOW, 4)), false)])
+            .collect::<Vec<Op>>()
+    };
+    assert_eq!(value(&read(&ops(1)), 0).ends(), Some((0.0, 4.0)));
+    // once nothing is left
+    let numbers = read(&ops(1));
+    numbers.work_left.set(2);
+    assert_eq!(value(&numbers, 0).ends(), None);
+    // several places
+    assert_eq!(value(&read(&ops(2)), 0).ends(), None);
 }
