@@ -286,6 +286,12 @@ impl<'a> Words<'a, '_> {
         (value.fract() == 0.0 && value.abs() < MOST_WHOLE).then_some(whole)
     }
 
+    /// The whole numbers that a list is; none where anything else is in it.
+    pub(super) fn whole_numbers(&self) -> Vec<i64> {
+        let all = self.list().into_iter().map(|part| part.whole_number());
+        all.collect::<Option<_>>().unwrap_or_default()
+    }
+
     /// What these words compare with a whole number, `n==1`, `(n<>1)`, and what it is to be.
     pub(super) fn compared(&self) -> Option<(Self, Wanted)> {
         if self.is(0, b'(') && self.closing(0) + 1 == self.len() {

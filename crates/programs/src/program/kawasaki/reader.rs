@@ -343,8 +343,8 @@ impl<'a> Reader<'a> {
             }
             "VALUE" => {
                 self.builder.next_branch(true);
-                let number = part.behind(1).before(b':').whole_number();
-                self.builder.pass_case(number);
+                let numbers = part.behind(1).before(b':').whole_numbers();
+                self.builder.pass_cases(&numbers);
             }
             "SVALUE" => self.builder.next_branch(false),
             "ELse" => self.builder.next_branch(true),

@@ -1,7 +1,8 @@
 //! Calls of routines and functions.
 
+use super::asked::Literal;
 use super::frames::{State, Table};
-use super::names::{DataKind, Index, whole};
+use super::names::{self, DataKind, Index};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, FRAME_ASSIGNED, WITHOUT_AXES, carried, conveyor};
 use super::sensors::leads;
@@ -137,7 +138,7 @@ fn is_whole(index: &[u8]) -> bool {
 }
 
 /// An argument as it is written.
-enum Given {
+pub(super) enum Given {
     /// A variable.
     Named(Symbol, Index),
     /// All of an array: `p[]`.
@@ -155,6 +156,8 @@ enum Given {
     /// A position that is written out, or a product.
     Position(Expr, DataKind),
     Number(u32),
+    /// TRUE, FALSE, `#NAME` or a number below zero.
+    Literal(Literal),
     Other,
 }
 
@@ -333,6 +336,10 @@ impl Reader {
         changed(self);
         for (at, given) in given.iter().enumerate() {
             let parameter = parameter(self, at);
+            if let Some((of, choice)) = self.choice_given(given, parameter) {
+                arguments.push(Argument::new(Some(of), choice, None));
+                continue;
+            }
             if let Given::Named(name, at) = *given {
                 let positions = self.positions_given((name, at), parameter);
                 gives |= !positions.is_empty();
@@ -496,11 +503,19 @@ impl Reader {
         if ahead.blanks() == b'{' {
             return self.position_argument(cursor);
         }
+        let mut whole = *cursor;
+        whole.skip();
+        let text = cursor.bytes[ahead.at..whole.at].trim_ascii();
         let token = ahead.next();
+        if !matches!(token.kind, Kind::Number)
+            && let Some(literal) = self.names.literal(text)
+        {
+            return Given::Literal(literal);
+        }
         let alone = |ahead: &mut Cursor| matches!(ahead.blanks(), b',' | b')');
         match token.kind {
             Kind::Number if alone(&mut ahead) => {
-                whole(number::parse(ahead.text(token))).map_or(Given::Other, Given::Number)
+                names::whole(number::parse(ahead.text(token))).map_or(Given::Other, Given::Number)
             }
             Kind::Name => {
                 let Ok(at) = ahead.brackets() else {

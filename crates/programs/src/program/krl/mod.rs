@@ -22,6 +22,7 @@
 //! refused.
 
 mod aggregate;
+mod asked;
 mod assignments;
 mod calls;
 mod components;

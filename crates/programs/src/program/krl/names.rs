@@ -265,6 +265,8 @@ pub(super) struct Names {
     pub quiet: super::quiet::Quiet,
     /// Names that choose tools, bases and loads.
     pub choosing: HashSet<Symbol>,
+    /// Parameters that branches ask about.
+    pub asked: super::asked::Asked,
     /// Names that are given to routines: the name, the routine, which argument, and where.
     pub given: Vec<(Symbol, Symbol, usize, Context)>,
 }
@@ -334,6 +336,7 @@ impl Names {
     pub(super) fn settle(&mut self) {
         self.settle_structures();
         self.values.sort_by_key(|&(datum, index, _)| (datum, index));
+        self.settle_asked();
         self.carry_choosing();
         self.settle_quiet();
         self.give_numbers();

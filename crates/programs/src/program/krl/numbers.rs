@@ -152,6 +152,7 @@ impl Reader {
     /// Only the running program knows a variable, or a component of it.
     fn lose_number(&mut self, name: Symbol, part: Option<u8>) {
         let context = self.context();
+        self.names.note_own_written(name, context);
         let number = self.names.number(name, context);
         let known = &mut self.names.known;
         known.assign(number);

@@ -23,7 +23,7 @@ pub(super) fn is_motion(word: &[u8]) -> bool {
 }
 
 /// Words in front of what may stand in brackets, and is no argument.
-const CONDITIONS: [&[u8]; 7] = [
+pub(super) const CONDITIONS: [&[u8]; 7] = [
     b"IF", b"WHILE", b"UNTIL", b"SWITCH", b"CASE", b"RETURN", b"WAIT",
 ];
 
@@ -103,6 +103,7 @@ impl Reader {
         let next = cursor.blanks();
         self.note_numbers(word, first, cursor);
         self.note_displacing(cursor);
+        self.note_asked(word, cursor);
         let is_spline = matches!(word, b"SPLINE" | b"PTP_SPLINE" | b"ENDSPLINE");
         if (is_motion(word) || is_spline) && !matches!(next, b'=' | b':' | b'.') {
             self.note_loud();
@@ -147,6 +148,7 @@ impl Reader {
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
                 self.names.touched.insert(name);
+                self.names.note_own_written(name, self.context());
             }
             _ => {
                 if next == b'(' && !CONDITIONS.contains(&word) {
@@ -228,6 +230,7 @@ impl Reader {
         };
         let mut name = self.symbol(&cursor, name);
         self.note_written(name);
+        self.names.note_own_written(name, self.context());
         self.touch(name, at);
         // what is behind may be a member of a structure that is not declared yet
         for (part, inner) in &parts {
@@ -519,11 +522,21 @@ impl Reader {
     /// Branches, loops and jumps; whether it is one.
     fn flow(&mut self, word: &[u8], mut cursor: Cursor) -> bool {
         match word {
-            b"IF" => self.builder.begin_if(None),
+            b"IF" => {
+                let test = self.test(cursor);
+                self.builder.begin_if(test);
+            }
             b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
             b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),
-            b"SWITCH" => self.builder.begin_choice(),
-            b"CASE" => self.builder.next_branch(false),
+            b"SWITCH" => {
+                let of = self.switched(cursor);
+                self.builder.begin_switch(of);
+            }
+            b"CASE" => {
+                self.builder.next_branch(true);
+                let numbers = self.cases(cursor);
+                self.builder.pass_cases(&numbers);
+            }
             b"LOOP" | b"REPEAT" => self.builder.begin_loop(false),
             b"WHILE" => {
                 self.builder.begin_loop(false);

@@ -1,10 +1,10 @@
 //! Statements that lead elsewhere: choices, loops, jumps, handlers.
 
+use super::asked::Asked;
 use super::errors::Handles;
 use super::reader::{OpenLoop, Reader};
 use super::syntax::{Counting, Expression, StatementKind};
 use super::tokens::{Fault, Kind};
-use crate::program::names::Symbol;
 use crate::program::number;
 use crate::program::numbers::rounds;
 
@@ -52,17 +52,25 @@ impl Reader<'_> {
         self.advance()?;
         match word {
             b"if" => {
-                let asked = self.presence()?;
+                let first = self.token.start;
+                let presence = self.presence()?;
                 let is_block = self.condition()?;
+                let asked = presence.or_else(|| self.value_asked(word, first));
                 self.note(start, StatementKind::If(asked));
                 self.short_ifs += u32::from(!is_block);
             }
             b"elseif" | b"case" => {
-                self.note(start, StatementKind::Branch { is_last: false });
+                let (first, at) = (self.token.start, self.parsed.statements.len());
+                self.note(start, StatementKind::Else);
                 self.condition()?;
+                let asked = self.value_asked(word, first);
+                self.parsed.statements[at].kind = match word {
+                    b"case" => StatementKind::Case(asked),
+                    _ => StatementKind::ElseIf(asked),
+                };
             }
             b"else" | b"default" => {
-                self.note(start, StatementKind::Branch { is_last: true });
+                self.note(start, StatementKind::Else);
                 if self.token.is(b':') {
                     self.advance()?;
                 }
@@ -100,8 +108,10 @@ impl Reader<'_> {
                 self.note(start, StatementKind::EndLoop { endless });
             }
             b"test" => {
+                let first = self.token.start;
                 self.condition()?;
-                self.note(start, StatementKind::Test);
+                let asked = self.value_asked(word, first);
+                self.note(start, StatementKind::Test(asked));
             }
             b"error" | b"undo" | b"backward" => self.handler(start, word == b"error")?,
             b"goto" => {
@@ -217,7 +227,7 @@ impl Reader<'_> {
 
     /// The parameter that `Present(name)` or `NOT Present(name)` asks for, where that is the whole
     /// condition; nothing is passed over.
-    fn presence(&mut self) -> Result<Option<(Symbol, bool)>, Fault> {
+    fn presence(&mut self) -> Result<Option<Asked>, Fault> {
         let Some(routine) = self.context.routine else {
             return Ok(None);
         };
@@ -249,7 +259,7 @@ impl Reader<'_> {
         self.parsed
             .asked
             .extend(asked.map(|(name, _)| (routine, name)));
-        Ok(asked)
+        Ok(asked.map(|(name, wanted)| Asked::Presence(name, wanted)))
     }
 
     /// `condition THEN`, `1,2:` and their like, without the statements behind; whether a word or

@@ -301,6 +301,9 @@ impl Translator<'_> {
                 let value = self.is_given(argument);
                 given.push(script::Argument::new(Some(presence), value, None));
             }
+            if let Some((choice, value)) = self.choice_given(datum, argument) {
+                given.push(script::Argument::new(Some(choice), value, None));
+            }
             if !kind.is_target() && !kind.is_frame() {
                 continue;
             }

@@ -15,6 +15,7 @@
 mod aggregate;
 mod ahead;
 mod arguments;
+mod asked;
 mod axes;
 mod behind;
 mod blocks;

@@ -170,8 +170,10 @@ impl Resolved<'_> {
                         noted.numbers.write(RESULT | routine, written, None);
                     }
                 }
-                StatementKind::If(_) | StatementKind::Test => blocks.open(Some(1)),
-                StatementKind::Branch { .. } => blocks.branch(),
+                StatementKind::If(_) | StatementKind::Test(_) => blocks.open(Some(1)),
+                StatementKind::ElseIf(_) | StatementKind::Case(_) | StatementKind::Else => {
+                    blocks.branch();
+                }
                 StatementKind::Loop { most, .. } => {
                     blocks.open(most);
                     let at = (file, statement.offset);
@@ -277,7 +279,7 @@ impl Resolved<'_> {
     }
 
     /// The value of an argument: of `\h:=-200` what is behind the sign.
-    fn value_bytes(&self, file: u32, argument: &Argument) -> (u32, u32) {
+    pub(super) fn value_bytes(&self, file: u32, argument: &Argument) -> (u32, u32) {
         let (start, end) = argument.span;
         if argument.option.is_none() {
             return (start, end);

@@ -68,13 +68,13 @@ pub(super) struct Callees {
 
 /// A call with what it is given.
 #[derive(Clone, Copy)]
-struct Given {
-    callee: Callee,
-    verb: Verb,
-    arguments: Part,
-    of_function: bool,
-    context: Context,
-    file: u32,
+pub(super) struct Given {
+    pub callee: Callee,
+    pub verb: Verb,
+    pub arguments: Part,
+    pub of_function: bool,
+    pub context: Context,
+    pub file: u32,
 }
 
 impl<'a> Resolved<'a> {
@@ -487,6 +487,7 @@ impl<'a> Resolved<'a> {
                 _ => {}
             }
         }
+        self.find_asked(&calls);
         // what a routine writes into a parameter by reference is written where it is called
         loop {
             let mut changed = false;
@@ -648,6 +649,10 @@ impl<'a> Resolved<'a> {
                 // of what the files do not declare, the moves say later what it is
                 self.kind(*name, given.context)
                     .is_none_or(Type::is_of_moves)
+                    || given
+                        .context
+                        .routine
+                        .is_some_and(|routine| self.parsed.values_asked.contains(&(routine, *name)))
             }));
         }
         let mut changed = false;

@@ -1,6 +1,7 @@
 //! What the reader parsed of a text before names are resolved.
 
 use super::aggregate::Leaf;
+use super::asked::Asked;
 use super::errors::Handles;
 use super::verbs::Led;
 use crate::program::names::{Context, Symbol, Symbols};
@@ -43,6 +44,8 @@ pub(super) struct Parsed {
     pub if_given: HashSet<(u32, Symbol)>,
     /// Parameters of which a routine asks whether they are given (`Present`).
     pub asked: HashSet<(u32, Symbol)>,
+    /// Parameters about whose value branches of a routine ask.
+    pub values_asked: HashSet<(u32, Symbol)>,
     /// Elements that statements name by constants, with a number of each from 1 on.
     pub places: BTreeMap<(Symbol, [u32; 3]), u32>,
     /// Arguments of instructions.
@@ -158,6 +161,7 @@ impl Parsed {
             indices,
             if_given,
             asked,
+            values_asked,
             places,
             functions,
             given,
@@ -177,6 +181,7 @@ impl Parsed {
             && indices.is_empty()
             && if_given.is_empty()
             && asked.is_empty()
+            && values_asked.is_empty()
             && places.is_empty()
             && functions.is_empty()
             && given.is_empty()
@@ -526,13 +531,16 @@ pub(super) enum StatementKind {
     Call(Called),
     /// A function of the files, or one that may write its arguments: one of [`Parsed::functions`].
     Function(u32),
-    /// What its condition asks, where it is `Present(name)` (true) or `NOT Present(name)`.
-    If(Option<(Symbol, bool)>),
-    /// `ELSEIF`, `CASE`; `ELSE`, `DEFAULT` where it is the last.
-    Branch {
-        is_last: bool,
-    },
-    Test,
+    /// What its condition asks of a parameter.
+    If(Option<Asked>),
+    /// `ELSEIF`, and what it asks.
+    ElseIf(Option<Asked>),
+    /// `CASE`, and of what.
+    Case(Option<Asked>),
+    /// `ELSE`, `DEFAULT`
+    Else,
+    /// What it asks about.
+    Test(Option<Asked>),
     EndChoice,
     Loop {
         may_pass: bool,

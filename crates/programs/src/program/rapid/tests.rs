@@ -1,6 +1,7 @@
 //! What the language reads, by behaviour.
 
 mod arrays;
+mod asked;
 mod calls;
 mod deciding;
 mod derived;

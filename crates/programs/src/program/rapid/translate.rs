@@ -11,7 +11,7 @@ use crate::program::contexts::Calls;
 use crate::program::names::{Context, Symbol};
 use crate::program::script::{
     Builder, Call, Expr, Held, How, Instruction, Modal, Place, Remark, RemarkId, Script, Start,
-    TableId, ValueId, Variable, VariableId, Wanted, Written,
+    TableId, ValueId, Variable, VariableId, Written,
 };
 use crate::program::{External, ExternalNames, ExternalUse, Settings, Shape, TargetId};
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
@@ -78,6 +78,8 @@ pub(super) struct Translator<'a> {
     pub kept_results: HashMap<u32, VariableId>,
     /// Whether optional parameters are given, by parameter.
     presences: HashMap<u32, VariableId>,
+    /// What parameters are about which branches ask.
+    pub(super) choices: HashMap<u32, VariableId>,
     /// Targets whose numbers no robot can use and that are written over.
     dead: HashSet<TargetId>,
     /// Names that the files do not declare and that moves use: what for.
@@ -168,6 +170,7 @@ pub(super) fn translate(
         results: HashMap::new(),
         kept_results: HashMap::new(),
         presences: HashMap::new(),
+        choices: HashMap::new(),
         dead,
         wanted: HashMap::new(),
         shared: HashSet::new(),
@@ -309,14 +312,24 @@ impl Translator<'_> {
                 self.function(function, is_last);
             }
             StatementKind::If(asked) => {
-                let condition = asked.and_then(|(name, wanted)| {
-                    let routine = self.context.routine?;
-                    Some((self.presence(routine, name)?, Wanted::Flag(wanted)))
-                });
-                self.builder.begin_if(condition);
+                let test = asked.and_then(|asked| self.test_of(asked));
+                self.builder.begin_if(test);
             }
-            StatementKind::Branch { is_last } => self.builder.next_branch(is_last),
-            StatementKind::Test => self.builder.begin_choice(),
+            StatementKind::ElseIf(asked) => {
+                let test = asked.and_then(|asked| self.test_of(asked));
+                self.builder.next_branch(true);
+                self.builder.pass_branch(test);
+            }
+            StatementKind::Case(asked) => {
+                let numbers = asked.map_or(Vec::new(), |asked| self.cases(asked));
+                self.builder.next_branch(true);
+                self.builder.pass_cases(&numbers);
+            }
+            StatementKind::Else => self.builder.next_branch(true),
+            StatementKind::Test(asked) => {
+                let of = asked.and_then(|asked| self.tested(asked));
+                self.builder.begin_switch(of);
+            }
             StatementKind::EndChoice => self.builder.end_choice(),
             StatementKind::Loop { may_pass, most } => self.builder.begin_rounds(may_pass, most),
             StatementKind::EndLoop { endless } => self.builder.end_loop(endless),

@@ -215,7 +215,7 @@ impl Builder {
         self.begin_switch(None);
     }
 
-    /// Likewise, of what a variable holds; each has its [`Self::pass_case`].
+    /// Likewise, of what a variable holds; each has its [`Self::pass_cases`].
     pub fn begin_switch(&mut self, of: Option<VariableId>) {
         let (next, end) = (self.new_label(), self.new_label());
         self.jump(next);
@@ -252,13 +252,24 @@ impl Builder {
         }
     }
 
-    /// Likewise of a `CASE` of this number.
-    pub fn pass_case(&mut self, number: Option<i64>) {
+    /// Likewise of a `CASE` of these numbers; of what is not known where they are none.
+    pub fn pass_cases(&mut self, numbers: &[i64]) {
         let of = match self.open.last() {
             Some(Block::Choice { of, .. }) => *of,
             _ => None,
         };
-        self.pass_branch(of.zip(number.map(Wanted::Number)));
+        let (Some(of), Some((last, others))) = (of, numbers.split_last()) else {
+            return self.pass_branch(None);
+        };
+        let inside = self.new_label();
+        for number in others {
+            let next = self.new_label();
+            self.branch_unless(Some((of, Wanted::Number(*number))), next);
+            self.jump(inside);
+            self.put(next);
+        }
+        self.pass_branch(Some((of, Wanted::Number(*last))));
+        self.put(inside);
     }
 
     /// `ENDIF`, `ENDTEST`, `ENDSWITCH`.

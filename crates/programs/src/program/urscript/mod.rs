@@ -29,6 +29,7 @@
 //! function is one of the language or of a server (`server.name()`): those move nothing. What `qnear` holds is read where it is a literal or a
 //! variable that is assigned once.
 
+mod asked;
 mod calls;
 mod common;
 mod composed;

@@ -128,7 +128,7 @@ impl Variables<'_, '_> {
     }
 
     /// What an assignment writes, or what a call gives in its brackets.
-    fn text_of(&self, written: Written) -> Option<(&[u8], FunctionId)> {
+    pub(super) fn text_of(&self, written: Written) -> Option<(&[u8], FunctionId)> {
         match written {
             Written::Assigned(number) => {
                 let assignment = &self.parsed.assignments[number as usize];

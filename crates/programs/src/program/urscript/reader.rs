@@ -159,7 +159,9 @@ impl<'a> Reader<'a> {
             }
             b"if" => {
                 let never = self.is_never_true();
+                let start = self.scanner.at;
                 self.header()?;
+                self.note_question(b"if", start);
                 self.open(BlockKind::Branch, first, "`if`")?;
                 self.event(if never { Event::Never } else { Event::If });
                 Ok(())
@@ -167,7 +169,9 @@ impl<'a> Reader<'a> {
             b"elif" => {
                 self.branch(first)?;
                 self.event(Event::Branch { is_last: true });
+                let start = self.scanner.at;
                 self.header()?;
+                self.note_question(b"elif", start);
                 self.event(Event::ElseIf);
                 Ok(())
             }
@@ -190,14 +194,20 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             b"switch" if self.scanner.peek().kind != Kind::Sign(b'=') => {
+                let start = self.scanner.at;
                 self.header()?;
+                self.note_question(b"switch", start);
                 self.open(BlockKind::Branch, first, "`switch`")?;
                 self.event(Event::Switch);
                 Ok(())
             }
             b"case" | b"default" if self.in_branch() && !self.assigns() => {
+                let start = self.scanner.at;
                 self.header()?;
                 let is_last = self.text(first) == b"default";
+                if !is_last {
+                    self.note_question(b"case", start);
+                }
                 self.event(Event::Branch { is_last });
                 Ok(())
             }

@@ -220,6 +220,8 @@ pub(super) enum Event {
     Tracking(bool, u32),
     /// Index in [`Parsed::calls`].
     Call(u32),
+    /// What the condition of the next `if`, `elif`, `switch` or `case` asks of a parameter, between these bytes.
+    Question(u32, u32),
     If,
     /// `if` with a condition that is never true: nothing runs before its first branch.
     Never,

@@ -5,6 +5,7 @@ use crate::program::{
     Before, Displacement, Edits, Motion, Move, Program, Shape, Shift, Stride, Value,
 };
 
+mod asked;
 mod deciding;
 mod flow;
 mod posts;

@@ -11,7 +11,7 @@ use self::loads::Present;
 use super::common::{self, Common};
 use super::files::Text;
 use super::goals::{Facets, Goals};
-use super::syntax::{Called, Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
+use super::syntax::{Cog, Content, Event, Expr, ExprId, FunctionId, Parsed, Payload, Step};
 use super::threads;
 use super::variables::{Assigned, MOST_STEPS, VarId, Variables};
 use crate::program::script::{
@@ -42,8 +42,8 @@ pub(super) fn translate(
     builder.script.numbers.append(&mut parsed.numbers);
 }
 
-struct Translator<'m, 'n, 'a> {
-    goals: Goals<'m, 'n, 'a>,
+pub(super) struct Translator<'m, 'n, 'a> {
+    pub(super) goals: Goals<'m, 'n, 'a>,
     text: &'m Text<'m>,
     tcp: VariableId,
     load: VariableId,
@@ -55,7 +55,11 @@ struct Translator<'m, 'n, 'a> {
     /// Sets of guards: for moves, for streams, for arcs with which the tool rotates, for moves to
     /// joints that are computed from unknown ones.
     guards: [u32; 4],
-    first_routine: RoutineId,
+    pub(super) first_routine: RoutineId,
+    /// What parameters are about which branches ask.
+    pub(super) choices: HashMap<VarId, VariableId>,
+    /// What the condition of the next branch asks.
+    question: Option<(u32, u32)>,
     loads: HashMap<[u64; 4], script::ValueId>,
     present: Present,
     /// Loads may go along with the tool.
@@ -138,6 +142,8 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             tracking,
             guards,
             first_routine,
+            choices: HashMap::new(),
+            question: None,
             loads: HashMap::new(),
             present: Present::default(),
             loads_in_tool,
@@ -149,7 +155,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
     }
 
-    fn at(&self, offset: u32) -> Place {
+    pub(super) fn at(&self, offset: u32) -> Place {
         self.text.place(offset)
     }
 
@@ -372,11 +378,32 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                     let how = How::Whole(script::Expr::Value(value));
                     self.write(Some(self.tracking), how, offset);
                 }
-                Event::Call(call) => self.call(&parsed.calls[call as usize]),
-                Event::If => builder.begin_if(None),
-                Event::Switch | Event::Never => builder.begin_choice(),
-                Event::Branch { is_last } => builder.next_branch(is_last),
-                Event::ElseIf => builder.pass_branch(None),
+                Event::Call(call) => self.call(call),
+                Event::Question(start, end) => self.question = Some((start, end)),
+                Event::If | Event::ElseIf => {
+                    let question = self.question.take();
+                    let test = question.and_then(|part| self.test_of(part, function));
+                    match event {
+                        Event::If => self.goals.builder.begin_if(test),
+                        _ => self.goals.builder.pass_branch(test),
+                    }
+                }
+                Event::Switch => {
+                    let question = self.question.take();
+                    let of = question.and_then(|part| self.switched(part, function));
+                    self.goals.builder.begin_switch(of);
+                }
+                Event::Never => {
+                    self.question = None;
+                    builder.begin_choice();
+                }
+                Event::Branch { is_last: true } => builder.next_branch(true),
+                Event::Branch { is_last: false } => {
+                    let question = self.question.take();
+                    let number = question.and_then(|part| self.case(part, function));
+                    self.goals.builder.next_branch(true);
+                    self.goals.builder.pass_cases(number.as_slice());
+                }
                 Event::EndIf => builder.end_choice(),
                 Event::Loop => builder.begin_loop(false),
                 Event::Condition(..) => {
@@ -460,8 +487,9 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
         }
     }
 
-    fn call(&mut self, call: &Called) {
+    fn call(&mut self, number: u32) {
         let parsed = self.goals.parsed;
+        let call = &parsed.calls[number as usize];
         if self.goals.variables.is_of_language(call) {
             return;
         }
@@ -485,6 +513,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 };
                 let given = |(parameter, value)| Argument::new(Some(parameter), value, None);
                 arguments.extend(values.into_iter().map(given));
+                arguments.extend(self.choice_given(number, callee, position));
             }
         }
         let place = self.at(call.offset);

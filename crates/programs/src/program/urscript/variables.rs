@@ -111,6 +111,8 @@ pub(super) struct Variables<'n, 'a> {
     pub targets: Vec<bool>,
     /// Literals of features that targets stand in.
     pub(super) features: HashSet<LiteralId>,
+    /// Parameters about which branches ask, and that only calls give a value.
+    pub(super) asked: HashSet<VarId>,
 }
 
 impl<'n, 'a> Variables<'n, 'a> {
@@ -141,11 +143,13 @@ impl<'n, 'a> Variables<'n, 'a> {
             numbers: crate::program::numbers::Numbers::default(),
             targets: vec![false; parsed.literals.len()],
             features: HashSet::default(),
+            asked: HashSet::default(),
         };
         variables.declare_parameters();
         variables.assign();
         variables.bind();
         variables.fix();
+        variables.find_asked();
         variables.find_mentions();
         variables.find_numbers();
         variables.find_targets();

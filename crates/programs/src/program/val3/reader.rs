@@ -264,7 +264,7 @@ impl<'a> Reader<'a> {
             b"case" => {
                 self.builder.next_branch(true);
                 self.uses(line);
-                self.builder.pass_case(line.behind(1).whole_number());
+                self.builder.pass_cases(&line.behind(1).whole_numbers());
             }
             b"else" | b"default" => self.builder.next_branch(true),
             b"endIf" | b"endSwitch" => self.builder.end_choice(),

@@ -1,0 +1,215 @@
+//! What branches ask of the parameters of routines: `IF n=2 THEN`, `TEST tool`. Where a call gives a
+//! number, a constant, TRUE or FALSE, it runs the branch that it is given.
+
+use super::reader::Reader;
+use super::resolved::{Entity, Given, Resolved, named};
+use super::syntax::{Argument, Part, Storage, Stored, indices};
+use super::translate::Translator;
+use crate::program::contexts::Numbered;
+use crate::program::names::{Meaning, Symbol};
+use crate::program::number;
+use crate::program::numbers::{inside_brackets, question};
+use crate::program::script::{Expr, Held, Test, Variable, VariableId, Wanted};
+
+/// What a condition asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Asked {
+    /// Whether an optional parameter is given: `Present(name)` (true) or `NOT Present(name)`.
+    Presence(Symbol, bool),
+    /// What a parameter is: the bytes of the condition.
+    Value(Part),
+}
+
+/// What stands in front of the word or sign that ends a condition.
+fn without_end(text: &[u8]) -> &[u8] {
+    let text = text.strip_suffix(b":").unwrap_or(text);
+    let (rest, end) = text.split_at(text.len().saturating_sub(4));
+    let is_end = end.eq_ignore_ascii_case(b"THEN");
+    if is_end { rest } else { text }.trim_ascii()
+}
+
+impl Reader<'_> {
+    /// What the condition of a word asks that has been read from there on.
+    pub(super) fn value_asked(&mut self, word: &[u8], start: u32) -> Option<Asked> {
+        let routine = self.context.routine?;
+        let part = (start, self.behind.max(start));
+        let text = without_end(&self.bytes[indices(part)]);
+        let name = match word {
+            b"case" => return Some(Asked::Value(part)),
+            b"test" => text,
+            _ => question(text)?.name,
+        };
+        let name = self.parsed.symbols.find(name)?;
+        let (first, end) = self.parsed.routines.get(routine as usize)?.parameters;
+        let own = &self.parsed.data[indices((first, end))];
+        if own.iter().all(|datum| datum.name != name) {
+            return None;
+        }
+        self.parsed.values_asked.insert((routine, name));
+        Some(Asked::Value(part))
+    }
+}
+
+impl Resolved<'_> {
+    /// Parameters that are given to those that branches ask about are asked about, too.
+    pub(super) fn find_asked(&mut self, calls: &[Given]) {
+        if self.parsed.values_asked.is_empty() {
+            return;
+        }
+        let mut changed = true;
+        while std::mem::take(&mut changed) {
+            for given in calls {
+                let Some(caller) = given.context.routine else {
+                    continue;
+                };
+                let arguments = &self.list(given.of_function)[indices(given.arguments)];
+                let callees =
+                    self.callees(given.callee, given.arguments, given.context, given.file);
+                let mut names = Vec::new();
+                for &routine in &callees.routines {
+                    for (datum, argument) in self.parameters(routine, arguments) {
+                        let key = (routine, self.datum(datum).name);
+                        let argument = argument.filter(|_| self.parsed.values_asked.contains(&key));
+                        names.extend(argument.and_then(|of| named(&of.expression)));
+                    }
+                }
+                for name in names {
+                    changed |= self.parsed.values_asked.insert((caller, name));
+                }
+            }
+        }
+    }
+
+    /// Whether branches ask for what a parameter is, and nothing but calls gives it a value.
+    fn is_value_asked(&self, parameter: u32) -> bool {
+        let of = self.datum(parameter);
+        let is_asked = |routine| self.parsed.values_asked.contains(&(routine, of.name));
+        matches!(of.storage, Storage::Parameter { .. })
+            && of.context.routine.is_some_and(is_asked)
+            && !self.is_written(Entity::Declared(parameter))
+            && (of.kind != super::syntax::Type::Num || self.is_only_given(self.number(parameter)))
+    }
+}
+
+impl Resolved<'_> {
+    fn condition_of(&self, file: u32, part: Part) -> &[u8] {
+        without_end(&self.sources[file as usize].bytes[indices(part)])
+    }
+}
+
+impl Translator<'_> {
+    /// On what a condition depends.
+    pub(super) fn test_of(&mut self, asked: Asked) -> Option<Test> {
+        match asked {
+            Asked::Presence(name, wanted) => {
+                let routine = self.context.routine?;
+                Some((self.presence(routine, name)?, Wanted::Flag(wanted)))
+            }
+            Asked::Value(part) => {
+                let resolved = self.resolved;
+                let of = question(resolved.condition_of(self.here.file, part))?;
+                let held = of
+                    .of
+                    .map_or(Some(Held::Flag(true)), |of| self.literal(of))?;
+                let wanted = match held {
+                    Held::Flag(flag) => Wanted::Flag(flag == of.holds),
+                    Held::Number(number) if of.holds => Wanted::Number(number),
+                    Held::Number(number) => Wanted::NotNumber(number),
+                    _ => return None,
+                };
+                Some((self.asked_value(of.name)?, wanted))
+            }
+        }
+    }
+
+    /// About what a TEST asks.
+    pub(super) fn tested(&mut self, asked: Asked) -> Option<VariableId> {
+        match asked {
+            Asked::Value(part) => {
+                let resolved = self.resolved;
+                self.asked_value(resolved.condition_of(self.here.file, part))
+            }
+            Asked::Presence(..) => None,
+        }
+    }
+
+    /// The numbers of a CASE; none where it has another value.
+    pub(super) fn cases(&self, asked: Asked) -> Vec<i64> {
+        let Asked::Value(part) = asked else {
+            return Vec::new();
+        };
+        let text = self.resolved.condition_of(self.here.file, part);
+        let parts = text.split(|b| *b == b',');
+        let numbers = parts.map(|part| match self.literal(part.trim_ascii()) {
+            Some(Held::Number(number)) => Some(number),
+            _ => None,
+        });
+        numbers.collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// What a call gives a parameter for what branches ask, and its variable; `None` where the text does not tell.
+    pub(super) fn choice_given(
+        &mut self,
+        parameter: u32,
+        argument: Option<&Argument>,
+    ) -> Option<(VariableId, Expr)> {
+        let resolved = self.resolved;
+        let argument = argument.filter(|_| resolved.is_value_asked(parameter))?;
+        let file = self.here.file;
+        let bytes = indices(resolved.value_bytes(file, argument));
+        let text = inside_brackets(&resolved.sources[file as usize].bytes[bytes]);
+        let value = match self.literal(text) {
+            Some(held) => self.builder.script.held(held),
+            None => Expr::Variable(self.asked_value(text)?),
+        };
+        Some((self.choice(parameter), value))
+    }
+
+    /// The variable of a parameter of the present routine that branches ask about.
+    fn asked_value(&mut self, name: &[u8]) -> Option<VariableId> {
+        let resolved = self.resolved;
+        let name = resolved.parsed.symbols.find(name)?;
+        let Meaning::One(datum) = resolved.meaning(name, self.context) else {
+            return None;
+        };
+        let is_own = resolved.datum(datum).context.routine == self.context.routine;
+        (is_own && resolved.is_value_asked(datum)).then(|| self.choice(datum))
+    }
+
+    fn choice(&mut self, parameter: u32) -> VariableId {
+        if let Some(&known) = self.choices.get(&parameter) {
+            return known;
+        }
+        let of = self.resolved.datum(parameter);
+        let variable = self.builder.script.variable(Variable {
+            routine: of.context.routine,
+            ..Variable::new(self.resolved.spelling(of.name), of.place, Expr::Absent)
+        });
+        self.choices.insert(parameter, variable);
+        variable
+    }
+
+    /// The value that a text is: TRUE, FALSE, a whole number or a constant that is one.
+    fn literal(&self, text: &[u8]) -> Option<Held> {
+        if text.eq_ignore_ascii_case(b"TRUE") || text.eq_ignore_ascii_case(b"FALSE") {
+            return Some(Held::Flag(text.len() == 4));
+        }
+        let constant = || {
+            let resolved = self.resolved;
+            let name = resolved.parsed.symbols.find(text)?;
+            let Meaning::One(datum) = resolved.meaning(name, self.context) else {
+                return None;
+            };
+            let of = resolved.datum(datum);
+            match (of.storage, of.value) {
+                (Storage::Constant, Stored::Number(value)) => Some(value),
+                _ => None,
+            }
+        };
+        let value = number::parse(text).or_else(constant)?;
+        // beyond this num has no other digits
+        let is_whole = value.fract() == 0.0 && value.abs() <= f64::from(1 << 23);
+        #[allow(clippy::cast_possible_truncation)]
+        is_whole.then_some(Held::Number(value as i64))
+    }
+}

@@ -1,0 +1,196 @@
+//! What branches ask of the parameters of functions: `if n == 2:`, `switch tool:`. Where a call gives
+//! a number, a variable that has one value, `True` or `False`, it runs the branch that it is given.
+
+use super::numbers::Written;
+use super::reader::Reader;
+use super::syntax::{Event, Expr, FunctionId};
+use super::translate::Translator;
+use super::variables::{Assigned, VarId, Variables};
+use crate::program::number;
+use crate::program::numbers::{inside_brackets, question};
+use crate::program::script::{self, Held, Test, Variable, VariableId, Wanted, short};
+use foldhash::HashSet;
+
+/// The bytes of a condition, without the colon behind it.
+fn condition(text: &[u8]) -> &[u8] {
+    let text = text.trim_ascii_end();
+    inside_brackets(text.strip_suffix(b":").unwrap_or(text))
+}
+
+impl Reader<'_> {
+    /// Notes what the condition asks that has been read from a byte on, if that is a parameter; what
+    /// a CASE has is always noted.
+    pub(super) fn note_question(&mut self, word: &[u8], start: usize) {
+        let text = &self.scanner.bytes[start..self.scanner.at];
+        let text = condition(text);
+        let name = match word {
+            b"switch" => Some(text),
+            b"case" => None,
+            _ => question(text).map(|of| of.name),
+        };
+        let symbol = name.and_then(|name| self.parsed.known_symbol(name));
+        let own = &self.parsed.functions[self.function as usize].parameters;
+        let is_own = symbol.is_some_and(|symbol| own.iter().any(|(of, _)| *of == symbol));
+        if is_own || word == b"case" && !own.is_empty() {
+            self.event(Event::Question(short(start), short(self.scanner.at)));
+        }
+    }
+}
+
+impl Variables<'_, '_> {
+    /// The parameters that branches ask about or that are given to such, and that nothing but calls
+    /// gives a value.
+    pub(super) fn find_asked(&mut self) {
+        let parsed = self.parsed;
+        let mut asked = HashSet::default();
+        for (at, function) in (0..).zip(&parsed.functions) {
+            for event in &function.events {
+                if let Event::Question(start, end) = *event {
+                    let name = question(self.condition_of((start, end))).map(|of| of.name);
+                    asked.extend(name.and_then(|name| self.parameter(name, at)));
+                }
+            }
+        }
+        let mut before = usize::MAX;
+        while !asked.is_empty() && before != asked.len() {
+            before = asked.len();
+            for call in &parsed.calls {
+                for &callee in self.callees(call) {
+                    for position in 0..parsed.functions[callee as usize].parameters.len() {
+                        let (parameter, given) = self.given(call, callee, position);
+                        if let Some((value, function)) = given
+                            && asked.contains(&parameter)
+                            && let Expr::Name(name, _) = parsed.expression(value)
+                        {
+                            let of = self.parameter(parsed.bytes(name), function);
+                            asked.extend(of);
+                        }
+                    }
+                }
+            }
+        }
+        let is_given = |of: &VarId| self.sources(*of).all(|one| one.way == Assigned::Given);
+        asked.retain(is_given);
+        self.asked = asked;
+    }
+
+    fn condition_of(&self, (start, end): (u32, u32)) -> &[u8] {
+        condition(&self.parsed.text[start as usize..end as usize])
+    }
+
+    /// The parameter of a function that a name means in it.
+    fn parameter(&self, name: &[u8], function: FunctionId) -> Option<VarId> {
+        let variable = self.meaning(self.parsed.known_symbol(name)?, function)?;
+        let is_own = self.list[variable as usize].parameter == Some(function);
+        is_own.then_some(variable)
+    }
+
+    /// The value that a text is: `True`, `False`, a whole number, or a variable that has one.
+    fn literal(&self, text: &[u8], function: FunctionId) -> Option<Held> {
+        if text.eq_ignore_ascii_case(b"True") || text.eq_ignore_ascii_case(b"False") {
+            return Some(Held::Flag(text.len() == 4));
+        }
+        let fixed = || {
+            let variable = self.meaning(self.parsed.known_symbol(text)?, function)?;
+            match self.parsed.expression(self.fixed(variable)?.value) {
+                Expr::Number(value) => Some(value),
+                _ => None,
+            }
+        };
+        let value = number::parse(text).or_else(fixed)?;
+        // beyond this int ends
+        let is_whole = value.fract() == 0.0 && value.abs() <= f64::from(i32::MAX);
+        #[allow(clippy::cast_possible_truncation)]
+        is_whole.then_some(Held::Number(value as i64))
+    }
+}
+
+impl Translator<'_, '_, '_> {
+    /// On what the condition between these bytes depends.
+    pub(super) fn test_of(&mut self, part: (u32, u32), function: FunctionId) -> Option<Test> {
+        let variables = self.goals.variables;
+        let of = question(variables.condition_of(part))?;
+        let held = match of.of {
+            Some(text) => variables.literal(text, function)?,
+            None => Held::Flag(true),
+        };
+        let wanted = match held {
+            Held::Flag(flag) => Wanted::Flag(flag == of.holds),
+            Held::Number(number) if of.holds => Wanted::Number(number),
+            Held::Number(number) => Wanted::NotNumber(number),
+            _ => return None,
+        };
+        Some((self.asked(of.name, function)?, wanted))
+    }
+
+    /// About what a `switch` asks.
+    pub(super) fn switched(
+        &mut self,
+        part: (u32, u32),
+        function: FunctionId,
+    ) -> Option<VariableId> {
+        let variables = self.goals.variables;
+        self.asked(variables.condition_of(part), function)
+    }
+
+    /// The number of a `case`.
+    pub(super) fn case(&self, part: (u32, u32), function: FunctionId) -> Option<i64> {
+        let variables = self.goals.variables;
+        match variables.literal(variables.condition_of(part), function) {
+            Some(Held::Number(number)) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// What a call gives a parameter about which branches ask, and its variable; `None` where the
+    /// text does not tell.
+    pub(super) fn choice_given(
+        &mut self,
+        call: u32,
+        callee: FunctionId,
+        position: usize,
+    ) -> Option<script::Argument> {
+        let parsed = self.goals.parsed;
+        let variables = self.goals.variables;
+        let of = &parsed.calls[call as usize];
+        let (parameter, _) = variables.given(of, callee, position);
+        if !variables.asked.contains(&parameter) {
+            return None;
+        }
+        let given = Written::Given {
+            call,
+            callee,
+            position,
+        };
+        let (text, function) = variables.text_of(given)?;
+        let text = inside_brackets(text);
+        let value = match variables.literal(text, function) {
+            Some(held) => self.goals.builder.script.held(held),
+            None => script::Expr::Variable(self.asked(text, function)?),
+        };
+        let choice = self.choice(parameter);
+        Some(script::Argument::new(Some(choice), value, None))
+    }
+
+    fn asked(&mut self, name: &[u8], function: FunctionId) -> Option<VariableId> {
+        let variables = self.goals.variables;
+        let parameter = variables.parameter(name, function)?;
+        let is_asked = variables.asked.contains(&parameter);
+        is_asked.then(|| self.choice(parameter))
+    }
+
+    fn choice(&mut self, parameter: VarId) -> VariableId {
+        if let Some(&known) = self.choices.get(&parameter) {
+            return known;
+        }
+        let of = &self.goals.variables.list[parameter as usize];
+        let name = self.goals.parsed.spelling(of.name);
+        let variable = Variable {
+            routine: of.parameter.map(|function| self.first_routine + function),
+            ..Variable::new(name, self.at(of.offset), script::Expr::Absent)
+        };
+        let made = self.goals.builder.script.variable(variable);
+        self.choices.insert(parameter, made);
+        made
+    }
+}

@@ -1,0 +1,77 @@
+//! Branches that calls choose.
+
+use super::*;
+
+/// The x of the tools, in millimetres, with which the moves of a program run that calls `setup`.
+fn set_up(lines: &str, setup: &str) -> Vec<String> {
+    let program = read(&format!(
+        "def main():\nGRIP=1\nk=get_standard_analog_in(0)\n{setup}\nset_tcp(p[0,0,0,0,0,0])\n{lines}\n\
+         movel(p[.1,.2,.3,0,0,1])\nend\nmain()\n"
+    ));
+    let tools = program.moves.iter().map(|of| tool_x(&program, of.tool));
+    let mut tools: Vec<String> = tools
+        .map(|x| x.map_or(String::new(), |x| format!("{:.0}", x * 1000.0)))
+        .collect();
+    tools.sort_unstable();
+    tools.dedup();
+    tools
+}
+
+const BY_IF: &str = "def setup(n):\nif n==GRIP:\nset_tcp(p[.1,0,0,0,0,0])\nelif (n != 3):\n\
+    set_tcp(p[.2,0,0,0,0,0])\nend\nend";
+const BY_SWITCH: &str = "def setup(n):\nswitch n:\ncase 1:\nset_tcp(p[.1,0,0,0,0,0])\ncase 2:\n\
+    set_tcp(p[.2,0,0,0,0,0])\nend\nend";
+
+#[test]
+fn numbers_and_constants_choose_their_branch() {
+    for (call, text, tool) in [
+        ("setup(1)", BY_IF, "100"),
+        ("setup(GRIP)", BY_IF, "100"),
+        ("setup(n=2)", BY_IF, "200"),
+        ("setup( -1 )", BY_IF, "200"),
+        ("setup(3)", BY_IF, "0"),
+        ("setup(2)\nsetup(1)", BY_IF, "100"),
+        ("setup(1)", BY_SWITCH, "100"),
+        ("setup(2)", BY_SWITCH, "200"),
+        ("setup(4)", BY_SWITCH, "0"),
+    ] {
+        assert_eq!(set_up(call, text), [tool], "{call} {text}");
+    }
+}
+
+#[test]
+fn flags_and_defaults_choose_their_branch() {
+    let text = "def setup(far=True):\nif not far:\nset_tcp(p[.1,0,0,0,0,0])\nelse:\n\
+        set_tcp(p[.2,0,0,0,0,0])\nend\nend";
+    for (call, tool) in [
+        ("setup(False)", "100"),
+        ("setup(True)", "200"),
+        ("setup(far=False)", "100"),
+        ("setup()", "200"),
+    ] {
+        assert_eq!(set_up(call, text), [tool], "{call}");
+    }
+}
+
+#[test]
+fn what_chooses_may_be_handed_on() {
+    let text = format!("def cell(m):\nsetup(m)\nend\n{BY_IF}");
+    assert_eq!(set_up("cell(1)", &text), ["100"]);
+    assert_eq!(set_up("cell(3)", &text), ["0"]);
+}
+
+/// What the text does not tell is not decided.
+#[test]
+fn branches_that_calls_do_not_choose_are_all_taken() {
+    let before = |line: &str| BY_IF.replace("if n==GRIP", &format!("{line}\nif n==GRIP"));
+    for (call, text) in [
+        ("setup(k)", BY_IF.to_owned()),
+        ("setup(GRIP+1)", BY_IF.to_owned()),
+        ("if k>1:\nsetup(1)\nelse:\nsetup(2)\nend", BY_IF.to_owned()),
+        ("setup(1)", before("n=n+1")),
+        ("GRIP=2\nsetup(1)", BY_IF.to_owned()),
+    ] {
+        let tools = set_up(call, &text);
+        assert!(tools.len() > 1, "{call} {text}: {tools:?}");
+    }
+}
