@@ -57,6 +57,7 @@ AXES = {
     "rapid": [TRACK.format("eax_a", 1, 0), TRACK.format("eax_a", 0, 1), "  other: [eax_a]\n"],
     "krl": [TRACK.format("E1", 1, 0), TRACK.format("E1", 0, 1), "  other: [E1]\n"],
 }
+MISSING = re.compile(r"\b(\w+) is not in the files: the numbers of its tool and base are not known")
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 
 
@@ -166,9 +167,13 @@ class Runs:
                 ):
                     name, value = quoted or plain, tool if what == "tool" else frame
                     more += ["--" + what, f"{name}={value}" if name else value]
+                missing = [f["message"] for f in report["findings"]] if report and language == "krl" else []
+                missing = {m[1] for m in map(MISSING.search, missing) if m}
+                if missing and "--with" not in given:
+                    more += ["--with", declare(folder, missing)]
                 if report and "--tool" not in given:
                     alone = [f for f in report["findings"] if f["id"] == "target-unused" and f["severity"] == "error"]
-                    more = ["--tool", tool, "--frame", frame] if alone else []
+                    more += ["--tool", tool, "--frame", frame] if alone else []
                 if not more or all(value in given for value in more):
                     return done.returncode, needed(report), error, given
                 given += more
@@ -176,6 +181,16 @@ class Runs:
             return -1, None, "it takes more than ten minutes", given
         finally:
             shutil.rmtree(folder, ignore_errors=True)
+
+
+def declare(folder, names):
+    """Writes the $config.dat of a robot that has tool 1 and no work frame with this FDAT."""
+    made = os.path.join(folder, "with")
+    os.makedirs(made)
+    lines = [f"DECL FDAT {name}={{TOOL_NO 1,BASE_NO 0,IPO_FRAME #BASE}}\n" for name in sorted(names)]
+    with open(os.path.join(made, "$config.dat"), "w", encoding="utf-8") as file:
+        file.write("DEFDAT $CONFIG\n" + "".join(lines) + "ENDDAT\n")
+    return made
 
 
 def needed(report):

@@ -10,7 +10,7 @@ mod flow;
 mod rounds;
 
 pub(super) use blocks::{Blocks, Site};
-pub(super) use bounds::{Question, bounds_in, compared_in, inside_brackets, question};
+pub(super) use bounds::{Question, bounds_in, compared_in, equality, inside_brackets, question};
 use flow::Flow;
 
 use super::functions;

@@ -42,6 +42,7 @@
 //! INC, RTCP, COORD, IF or CALL is known in German only. That moves other than J stop where CONFIG names another posture than the path ends in (MOTN-063), and
 //! MOTN-018, are *not verified on a controller*.
 
+mod asked;
 mod config;
 mod content;
 mod controller;

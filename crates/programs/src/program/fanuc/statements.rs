@@ -1,5 +1,6 @@
 //! Instructions as statements: calls, jumps, blocks.
 
+use super::asked::case;
 use super::content::canonical;
 use super::controller::{Kind, Which};
 use super::indices::counter;
@@ -76,7 +77,10 @@ impl Reader<'_> {
         if is_case || is_else {
             // what the branch before wrote is not there in this one
             self.known.branch();
-            self.builder.next_branch(is_else);
+            self.builder.next_branch(true);
+            if is_case && !is_else {
+                self.builder.pass_cases(case(text).as_slice());
+            }
             self.behind_comma(text, 0);
         } else if let Some((letter, at)) = motion(text) {
             self.go(line, letter, at);
@@ -125,9 +129,10 @@ impl Reader<'_> {
             (b"JMP" | b"SPRUNG", _) => self.jump(&rest[word_length(rest)..], false),
             (b"IF" | b"WENN", _) if depth == 0 && ends_with_then(rest) => {
                 let inside = self.known.open();
-                self.known
-                    .check(inside, before_then(rest).unwrap_or_default());
-                self.builder.begin_if(None);
+                let condition = before_then(rest).unwrap_or_default();
+                self.known.check(inside, condition);
+                let test = self.test(condition);
+                self.builder.begin_if(test);
             }
             (b"ENDIF", _) => {
                 self.known.close();
@@ -148,8 +153,11 @@ impl Reader<'_> {
                 self.state.selects = true;
                 self.known.clear();
                 self.known.open();
-                self.builder.begin_choice();
-                self.builder.next_branch(false);
+                let of = self.selected(rest);
+                self.builder.begin_switch(of);
+                self.builder.next_branch(true);
+                let first = memchr::memchr(b'=', rest).and_then(|at| case(&rest[at..]));
+                self.builder.pass_cases(first.as_slice());
                 self.behind_comma(rest, 0);
             }
             (b"CALL" | b"AUFRUF", _) => self.call(rest),
@@ -227,10 +235,13 @@ impl Reader<'_> {
             } else {
                 self.known.open()
             };
+            let mut test = None;
             if matches!(name, b"IF" | b"WENN") {
-                self.known.check(inside, &known[name.len()..]);
+                let condition = &known[name.len()..];
+                self.known.check(inside, condition);
+                test = self.test(condition);
             }
-            self.builder.begin_if(None);
+            self.builder.begin_if(test);
             self.behind_comma(text, depth);
             self.builder.end_choice();
             if is_jump {

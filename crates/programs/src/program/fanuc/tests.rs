@@ -1,5 +1,6 @@
 //! What the language reads, by behaviour.
 
+mod asked;
 mod compensated;
 mod deciding;
 mod flow;

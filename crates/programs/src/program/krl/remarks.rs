@@ -108,8 +108,9 @@ pub(super) fn fdat_missing(name: &str) -> Remark {
     Remark::error_about(
         "frame-chosen-at-run-time",
         format!("{name} is not in the files: the numbers of its tool and base are not known"),
-        "give the file that declares it by --with: the $config.dat of the controller, or the .dat \
-         of the same name as the program",
+        "give the file that declares it by --with: the $config.dat of the controller, the .dat of the \
+         same name as the program, or a $config.dat with a line of your own: DECL FDAT NAME={TOOL_NO \
+         1,BASE_NO 0,IPO_FRAME #BASE}",
     )
 }
 

@@ -211,12 +211,7 @@ pub(in crate::program) fn question(condition: &[u8]) -> Option<Question<'_>> {
             holds,
         });
     }
-    let (before, relation, behind) = comparison(condition)?;
-    let is_equal = match relation {
-        Relation::Equal => true,
-        Relation::NotEqual => false,
-        _ => return None,
-    };
+    let (before, behind, is_equal) = equality(condition)?;
     let (name, of) = if is_name(before) && !is_truth(before) {
         (before, behind)
     } else {
@@ -229,6 +224,16 @@ pub(in crate::program) fn question(condition: &[u8]) -> Option<Question<'_>> {
         of: Some(of),
         holds: holds == is_equal,
     })
+}
+
+/// The sides of a condition that is one comparison, of equal (true) or not equal.
+pub(in crate::program) fn equality(condition: &[u8]) -> Option<(&[u8], &[u8], bool)> {
+    let (before, relation, behind) = comparison(condition)?;
+    match relation {
+        Relation::Equal => Some((before, behind, true)),
+        Relation::NotEqual => Some((before, behind, false)),
+        _ => None,
+    }
 }
 
 fn is_truth(name: &[u8]) -> bool {

@@ -1,0 +1,43 @@
+//! What branches ask of the arguments of programs: `IF AR[1]=2,JMP LBL[2]`, `SELECT AR[1]=1,…`. Where a
+//! call gives a number, it runs the branch that it is given: a program cannot write its arguments.
+
+use super::content::canonical;
+use super::reader::Reader;
+use super::words::{comma, indexed, whole};
+use crate::program::numbers::equality;
+use crate::program::script::{Test, VariableId, Wanted};
+
+/// The number of the argument that a text is.
+fn argument(text: &[u8]) -> Option<u32> {
+    text.strip_prefix(b"AR").and_then(indexed).flatten()
+}
+
+impl Reader<'_> {
+    /// What a condition asks of an argument.
+    pub(super) fn test(&mut self, condition: &[u8]) -> Option<Test> {
+        let text = canonical(condition.trim_ascii());
+        let (before, behind, is_equal) = equality(&text)?;
+        let mut sides = [(before, behind), (behind, before)].into_iter();
+        let (of, number) = sides.find_map(|(of, number)| argument(of).zip(whole(number)))?;
+        let wanted = if is_equal {
+            Wanted::Number
+        } else {
+            Wanted::NotNumber
+        };
+        let of = self.argument(self.listing.routine, of);
+        Some((of, wanted(number.into())))
+    }
+
+    /// The argument that `SELECT AR[1]=1,…` asks about.
+    pub(super) fn selected(&mut self, text: &[u8]) -> Option<VariableId> {
+        let text = canonical(&text[..memchr::memchr(b'=', text)?]);
+        let of = argument(text.trim_ascii())?;
+        Some(self.argument(self.listing.routine, of))
+    }
+}
+
+/// The number of a case, from its sign on: `=2,CALL A`.
+pub(super) fn case(text: &[u8]) -> Option<i64> {
+    let behind = text[..comma(text)?].strip_prefix(b"=")?;
+    whole(behind.trim_ascii()).map(i64::from)
+}
