@@ -3,6 +3,7 @@
 mod command;
 mod findings;
 mod insert;
+mod kept;
 mod laws;
 mod meshes;
 mod mutated;

@@ -7,6 +7,7 @@ mod bounds;
 mod calls;
 mod decided;
 mod displaced;
+mod displaced_alone;
 mod followed;
 mod foreign;
 mod given;

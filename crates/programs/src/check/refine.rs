@@ -206,7 +206,7 @@ impl Job<'_> {
         let arrived = self.walk.conditions(&self.walk.stops.all[begin]?);
         let ends = gap(&first, &arrived).max(gap(&last, &leg.conditions));
         if ends > self.limit_m {
-            return change(None, Some(self.off_at_an_end(motion, ends)));
+            return change(None, Some(self.off_at_an_end(motion, ends, whole)));
         }
         if !is_pose {
             return failed("its target is given in joints");
@@ -285,7 +285,7 @@ impl Job<'_> {
             file: motion.file as usize,
             whole_m: off_m,
             insertion: None,
-            finding: Some(self.off_at_an_end(motion, off_m)),
+            finding: Some(self.off_at_an_end(motion, off_m, off_m)),
         })
     }
 

@@ -8,8 +8,9 @@ use crate::inverse::{Branch, Outcome};
 use crate::model::Conditions;
 use crate::motion::walk::{Arrival, Arrivals, NOWHERE};
 use crate::program::script::short;
-use crate::program::{Displacement, Move, Shape, TargetId, Value};
+use crate::program::{Displacement, Move, Program, Shape, Shift, TargetId, Value};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Joints that differ by less are the same, radians.
@@ -35,6 +36,8 @@ pub(super) struct Approach {
     pub honoured: bool,
     /// As [`crate::motion::walk::Arrival::middle`].
     pub middle: Option<Arc<Rotation>>,
+    /// The program goes to no other place of the target than that, displaced by this.
+    pub shift: Option<Arc<Shift>>,
 }
 
 impl Approach {
@@ -48,9 +51,12 @@ impl Approach {
         job.ground.placed(self.frame as usize).meant * self.in_frame(job)
     }
 
-    /// Where the controller has the tool at a pose that the target's numbers give: in the middle of
-    /// an arc it looks at the position alone.
+    /// Where the controller has the tool at a pose that the target's numbers give: displaced, and in
+    /// the middle of an arc it looks at the position alone.
     pub(super) fn taken(&self, mut numbers: Pose) -> Pose {
+        if let Some(shift) = self.shift.as_deref() {
+            numbers = shift.apply(&numbers);
+        }
         if let Some(middle) = self.middle.as_deref() {
             numbers.rotation = numbers.rotation * *middle;
         }
@@ -61,6 +67,9 @@ impl Approach {
     pub(super) fn numbers_for(&self, mut taken: Pose) -> Pose {
         if let Some(middle) = self.middle.as_deref() {
             taken.rotation = taken.rotation * middle.transpose();
+        }
+        if let Some(shift) = self.shift.as_deref() {
+            taken = shift.undo(&taken);
         }
         taken
     }
@@ -141,11 +150,7 @@ pub(super) fn stays(job: &Job, target: TargetId) -> bool {
 }
 
 /// Whether a move's tool and work frame must be known.
-pub(super) fn needs(
-    program: &crate::program::Program,
-    correct_joint_targets: bool,
-    motion: &Move,
-) -> bool {
+pub(super) fn needs(program: &Program, correct_joint_targets: bool, motion: &Move) -> bool {
     program.target_of(motion).is_some_and(|target| {
         !target.blocked && (target.layout.shape == Shape::Pose || correct_joint_targets)
     })
@@ -179,6 +184,7 @@ pub(super) fn gather(job: &Job, arrivals: &Arrivals, findings: &mut Vec<Finding>
             direction: arrival.direction,
             honoured: arrival.honoured,
             middle: arrival.middle.clone(),
+            shift: None,
         })
     };
     let all = arrivals.all.par_iter().enumerate().map(of);
@@ -323,26 +329,54 @@ fn has_same_posture(job: &Job, a: &Approach, b: &Approach) -> bool {
         && setting.same_frame(a.frame as usize, b.frame as usize)
 }
 
-/// Targets that moves only go near: as if the robot went there itself, in the posture that it has
-/// nearby.
-fn add_derived(job: &Job, derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
+/// The displacement of targets to which no move goes otherwise than displaced by the same.
+fn displaced_alike(program: &Program) -> BTreeMap<u32, Shift> {
+    let mut alike: BTreeMap<u32, Option<Shift>> = BTreeMap::new();
+    for motion in &program.moves {
+        let Some(target) = motion.target else {
+            continue;
+        };
+        let own = match &motion.displacement {
+            Displacement::By(shift) => Some(**shift),
+            _ => None,
+        };
+        let known = alike.entry(short(target)).or_insert(own);
+        *known = known.filter(|known| own == Some(*known));
+    }
+    let alike = alike.into_iter();
+    alike
+        .filter_map(|(target, shift)| Some((target, shift?)))
+        .collect()
+}
+
+/// Targets that moves only go near. Those that all moves displace alike are such that the robot comes
+/// to the point there; others as if it went to the target itself, in the posture that it has nearby.
+fn add_derived(job: &Job, mut derived: Vec<Approach>, approaches: &mut Vec<Approach>) {
+    if derived.is_empty() {
+        return;
+    }
+    let alike = displaced_alike(job.ground.program);
     let direct = approaches.len();
-    for mut approach in derived {
+    derived.sort_by_key(|approach| approach.target);
+    for of_target in derived.chunk_by(|a, b| a.target == b.target) {
+        let mut approach = of_target[0].clone();
         let known = approaches[..direct]
             .binary_search_by_key(&approach.target, |other| other.target)
             .is_ok();
         if known {
             continue;
         }
-        let mut others = approaches[direct..].iter();
-        if others.any(|other| other.target == approach.target) {
-            continue;
-        }
-        let wanted = approach.meant(job);
-        let arm = &job.ground.arm_with(approach.tool as usize).arm;
-        let near = arm.solve_branch(&wanted, approach.branch, &approach.nominal_q);
-        if near.beyond == 0.0 {
-            approach.nominal_q = near.q;
+        let are_same = of_target.iter().all(|of| is_same(job, of, &approach));
+        let shift = alike.get(&approach.target).filter(|_| are_same);
+        if let Some(shift) = shift {
+            approach.shift = Some(Arc::new(*shift));
+        } else {
+            let wanted = approach.meant(job);
+            let arm = &job.ground.arm_with(approach.tool as usize).arm;
+            let near = arm.solve_branch(&wanted, approach.branch, &approach.nominal_q);
+            if near.beyond == 0.0 {
+                approach.nominal_q = near.q;
+            }
         }
         approaches.push(approach);
     }
@@ -395,6 +429,7 @@ fn add_unused(
                 direction: [0; 6],
                 honoured: true,
                 middle: None,
+                shift: None,
             });
         }
     }

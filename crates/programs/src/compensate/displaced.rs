@@ -473,6 +473,7 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
         tool: short(motion.tool),
         frame: short(job.ground.frame_of(motion)),
         direction: [0; 6],
+        shift: None,
         ..approach.clone()
     };
     if arrivals.is_empty() {
@@ -484,7 +485,7 @@ fn uses(job: &Job, arrivals: &[Arrival], at: usize, approach: &Approach) -> Vec<
         branch: arrival.branch,
         direction: if is_known { arrival.direction } else { [0; 6] },
         middle: arrival.middle.clone(),
-        ..there
+        ..there.clone()
     };
     arrivals.iter().map(of).collect()
 }

@@ -101,6 +101,12 @@ impl Shift {
     pub fn apply(&self, frame_from_tool: &Pose) -> Pose {
         self.in_frame * *frame_from_tool * self.in_tool
     }
+
+    /// What is shifted to a pose.
+    #[must_use]
+    pub fn undo(&self, shifted: &Pose) -> Pose {
+        self.in_frame.inverse() * *shifted * self.in_tool.inverse()
+    }
 }
 
 impl Move {

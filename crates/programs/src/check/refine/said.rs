@@ -45,15 +45,21 @@ pub(super) fn stops<'a>(
 }
 
 impl Job<'_> {
-    /// No targets between help where a target itself is off.
-    pub(super) fn off_at_an_end(&self, motion: &Move, ends_m: f64) -> Finding {
-        self.kept_at_an_end(motion, &format!("{:.3} mm", mm_from_m(ends_m)))
+    /// No targets between help where a target itself is off; between its ends the path may be
+    /// farther off.
+    pub(super) fn off_at_an_end(&self, motion: &Move, ends_m: f64, whole_m: f64) -> Finding {
+        let [ends, whole] = [ends_m, whole_m].map(|off_m| format!("{:.3} mm", mm_from_m(off_m)));
+        if whole_m > ends_m && whole != ends {
+            self.kept_at_an_end(motion, &ends, &format!(", and between up to {whole}"))
+        } else {
+            self.kept_at_an_end(motion, &ends, "")
+        }
     }
 
-    fn kept_at_an_end(&self, motion: &Move, how_far: &str) -> Finding {
+    fn kept_at_an_end(&self, motion: &Move, how_far: &str, between: &str) -> Finding {
         let message = format!(
-            "this move begins or ends {how_far} off its wanted path (limit {:.3} mm), at a target \
-             that stays as it is or is off itself: no targets are inserted",
+            "this move begins or ends {how_far} off its wanted path{between} (limit {:.3} mm), at a \
+             target that stays as it is or is off itself: no targets are inserted",
             mm_from_m(self.limit_m)
         );
         let hint = "--joint-targets correct shifts joint targets, too; give a point that is \
@@ -109,9 +115,9 @@ impl Job<'_> {
         worst
             .map(|(ends_m, motion)| {
                 if ends_m.is_finite() {
-                    self.kept_at_an_end(motion, &format!("up to {:.3} mm", mm_from_m(ends_m)))
+                    self.kept_at_an_end(motion, &format!("up to {:.3} mm", mm_from_m(ends_m)), "")
                 } else {
-                    self.kept_at_an_end(motion, "by what the text does not bound")
+                    self.kept_at_an_end(motion, "by what the text does not bound", "")
                 }
             })
             .collect()

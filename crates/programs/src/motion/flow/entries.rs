@@ -133,6 +133,7 @@ impl Flow<'_> {
         self.chosen.clear();
         self.instructions.clear();
         self.at_any_time.clear();
+        self.perhaps.clear();
         self.size = 0;
     }
 
@@ -171,12 +172,17 @@ impl Flow<'_> {
         }
         let state = self.declared_state(START);
         let mut instances = Vec::with_capacity(entries.len());
+        let mut are_started = true;
         while !entries.is_empty() {
             for &routine in &entries {
                 let instance = self.instance(routine, 0, NO_INSTANCE);
+                if !are_started {
+                    self.perhaps.insert(instance);
+                }
                 self.enter(instance, &state);
                 instances.push(instance);
             }
+            are_started = false;
             for _ in 0..MOST_ROUNDS {
                 self.run_work();
                 let mut changed = false;
@@ -216,6 +222,17 @@ impl Flow<'_> {
             unreached.retain(|at| !inner.contains(at));
         }
         unreached
+    }
+
+    /// Whether an instance is of a routine that only text calls that nothing reaches, or runs in one.
+    pub(super) fn is_perhaps(&self, mut instance: u32) -> bool {
+        if self.perhaps.is_empty() {
+            return false;
+        }
+        while self.instances[instance as usize].caller != NO_INSTANCE {
+            instance = self.instances[instance as usize].caller;
+        }
+        self.perhaps.contains(&instance)
     }
 
     /// What the controller keeps from run to run is there when the routine starts again; whether

@@ -21,6 +21,24 @@ const OPERATORS: [&[u8]; 10] = [
     b"NOT", b"AND", b"OR", b"EXOR", b"B_NOT", b"B_AND", b"B_OR", b"B_EXOR", b"DIV", b"THEN",
 ];
 
+/// Routines of the controller that tell by an argument what came of them: a handle, a state, an
+/// offset, an error.
+///
+/// # Source
+/// KUKA, CREAD/CWRITE; KUKA System Software, Operating and Programming Instructions for System
+/// Integrators, `FORWARD`, `INVERSE`.
+const TELLING: [&[u8]; 9] = [
+    b"FORWARD",
+    b"INVERSE",
+    b"INV_POS",
+    b"COPEN",
+    b"CCLOSE",
+    b"CWRITE",
+    b"CIOCTL",
+    b"SWRITE",
+    b"VARSTATE",
+];
+
 /// What is known of parameters that branches ask about, all as variables of their routines.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
@@ -121,7 +139,8 @@ impl Names {
 /// reads.
 fn is_reading(word: &[u8]) -> bool {
     let is = |of: &&[u8]| of.eq_ignore_ascii_case(word);
-    only_reads(word) || CONDITIONS.iter().chain(&OPERATORS).any(is)
+    let is_word = CONDITIONS.iter().chain(&OPERATORS).any(is);
+    is_word || only_reads(word) && !TELLING.iter().any(is)
 }
 
 /// Adds to a set what it leads to, until nothing is new.

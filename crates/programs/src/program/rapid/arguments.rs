@@ -103,10 +103,12 @@ impl Reader<'_> {
     }
 
     fn argument_ends(&self) -> bool {
-        matches!(
-            self.token.kind,
-            Kind::End | Kind::Name | Kind::Sign(b',' | b';' | b'\\' | b')' | b']' | b'}')
-        )
+        match self.token.kind {
+            // a semicolon is forgotten
+            Kind::Name => !self.is_operator(),
+            Kind::End | Kind::Sign(b',' | b';' | b'\\' | b')' | b']' | b'}') => true,
+            _ => false,
+        }
     }
 
     /// A name, a target, or Offs and `RelTool` of one. `None` where it is something else; then the

@@ -168,12 +168,21 @@ impl Translator<'_> {
     /// The variable of a parameter of the present routine that branches ask about.
     fn asked_value(&mut self, name: &[u8]) -> Option<VariableId> {
         let resolved = self.resolved;
-        let name = resolved.parsed.symbols.find(name)?;
-        let Meaning::One(datum) = resolved.meaning(name, self.context) else {
-            return None;
-        };
+        let datum = self.named_here(name)?;
         let is_own = resolved.datum(datum).context.routine == self.context.routine;
         (is_own && resolved.is_value_asked(datum)).then(|| self.choice(datum))
+    }
+
+    /// The declaration that a name means; none where a loop counts with it, which hides others.
+    fn named_here(&self, name: &[u8]) -> Option<u32> {
+        let name = self.resolved.parsed.symbols.find(name)?;
+        if self.resolved.parsed.counting(name, self.here).is_some() {
+            return None;
+        }
+        match self.resolved.meaning(name, self.context) {
+            Meaning::One(datum) => Some(datum),
+            _ => None,
+        }
     }
 
     fn choice(&mut self, parameter: u32) -> VariableId {
@@ -195,12 +204,7 @@ impl Translator<'_> {
             return Some(Held::Flag(text.len() == 4));
         }
         let constant = || {
-            let resolved = self.resolved;
-            let name = resolved.parsed.symbols.find(text)?;
-            let Meaning::One(datum) = resolved.meaning(name, self.context) else {
-                return None;
-            };
-            let of = resolved.datum(datum);
+            let of = self.resolved.datum(self.named_here(text)?);
             match (of.storage, of.value) {
                 (Storage::Constant, Stored::Number(value)) => Some(value),
                 _ => None,

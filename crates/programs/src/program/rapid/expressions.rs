@@ -207,8 +207,7 @@ impl Reader<'_> {
                     operand = true;
                 }
                 Kind::Name => {
-                    let mut buffer = [0; KEYWORD];
-                    if OPERATORS.contains(&keyword(self.text(token), &mut buffer)) {
+                    if self.is_operator() {
                         self.given_sign(token);
                         operand = false;
                     } else if operand && self.brackets.is_empty() {
@@ -232,6 +231,12 @@ impl Reader<'_> {
             self.advance()?;
         }
         Ok((start, short(self.parsed.mentions.len())))
+    }
+
+    /// Whether the present name is a word between operands.
+    pub(super) fn is_operator(&self) -> bool {
+        let mut buffer = [0; KEYWORD];
+        OPERATORS.contains(&keyword(self.text(self.token), &mut buffer))
     }
 
     // ---- functions in an expression

@@ -91,7 +91,14 @@ impl Variables<'_, '_> {
             return Some(Held::Flag(text.len() == 4));
         }
         let fixed = || {
-            let variable = self.meaning(self.parsed.known_symbol(text)?, function)?;
+            let name = self.parsed.known_symbol(text)?;
+            let variable = self.meaning(name, function)?;
+            // of a variable of a function around this one and of a global one either may be meant
+            let unit = self.parsed.functions[function as usize].unit;
+            let global = self.meaning(name, unit);
+            if global.is_some_and(|global| global != variable) {
+                return None;
+            }
             match self.parsed.expression(self.fixed(variable)?.value) {
                 Expr::Number(value) => Some(value),
                 _ => None,

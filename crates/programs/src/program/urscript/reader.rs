@@ -472,6 +472,10 @@ impl<'a> Reader<'a> {
             deep: is_deep,
             element,
             is_number: alone.is_some(),
+            in_block: self
+                .blocks
+                .last()
+                .is_some_and(|block| block.kind != BlockKind::Function),
         });
         let number = short(self.parsed.assignments.len() - 1);
         self.event(Event::Assign(number));

@@ -157,6 +157,8 @@ pub(super) struct Assignment {
     pub element: At,
     /// Nothing but a number is.
     pub is_number: bool,
+    /// It stands in a branch or loop.
+    pub in_block: bool,
 }
 
 /// A move as the text has it.

@@ -8,8 +8,10 @@ use super::syntax::{
 };
 use super::verbs;
 use crate::geometry::Pose;
+use crate::program::quantity::is_letter;
 use crate::program::script::short;
-use foldhash::{HashMap, HashMapExt, HashSet};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use std::collections::BTreeMap;
 
 /// Names that stand for each other in turn, and calls inside each other, that are followed.
 pub(super) const MOST_STEPS: u32 = 12;
@@ -235,16 +237,24 @@ impl<'n, 'a> Variables<'n, 'a> {
         let globals: HashSet<Symbol> = all.iter().filter(global).map(|a| a.name).collect();
         let plain: HashSet<(FunctionId, Symbol)> = all
             .iter()
-            .filter(|a| a.reach == Reach::Plain)
+            .filter(|a| a.reach != Reach::Global)
             .map(|a| (a.function, a.name))
             .collect();
-        for assignment in all {
+        let hiding = self.hiding(&globals, &plain);
+        for (number, assignment) in (0..).zip(all) {
             let name = assignment.name;
             let mut owner = assignment.function;
-            let is_parameter = self.names.get(&(owner, name)).is_some_and(|known| {
-                self.list[*known as usize].parameter == Some(assignment.function)
-            });
-            if assignment.reach != Reach::Local && !is_parameter {
+            let parameter =
+                self.names.get(&(owner, name)).copied().filter(|known| {
+                    self.list[*known as usize].parameter == Some(assignment.function)
+                });
+            let is_global = assignment.reach == Reach::Global;
+            if is_global && let Some(parameter) = parameter {
+                // which of both the function then names is not known
+                self.source(parameter, assignment.value, owner, Assigned::Whole);
+            }
+            let is_own = assignment.reach == Reach::Local && !hiding.contains(&number);
+            if !is_own && (is_global || parameter.is_none()) {
                 if globals.contains(&name) {
                     owner = 0;
                 }
@@ -277,6 +287,55 @@ impl<'n, 'a> Variables<'n, 'a> {
         }
     }
 
+    /// Assignments of `local` variables that may not be all that their names mean in the function,
+    /// where one around it has a variable of the name: it is named before them, or they stand in a
+    /// branch or loop.
+    fn hiding(
+        &self,
+        globals: &HashSet<Symbol>,
+        plain: &HashSet<(FunctionId, Symbol)>,
+    ) -> HashSet<u32> {
+        let parsed = self.parsed;
+        let is_around = |assignment: &Assignment| {
+            let mut around = assignment.function;
+            globals.contains(&assignment.name) || {
+                std::iter::from_fn(|| {
+                    around = parsed.functions.get(around as usize)?.parent;
+                    (around != 0).then_some(around)
+                })
+                .any(|around| plain.contains(&(around, assignment.name)))
+            }
+        };
+        let all = (0..).zip(&parsed.assignments);
+        let hiding = all.filter(|(_, a)| a.reach == Reach::Local && is_around(a));
+        let mut by_function: BTreeMap<FunctionId, Vec<(u32, &Assignment)>> = BTreeMap::new();
+        for (number, assignment) in hiding {
+            let own = by_function.entry(assignment.function).or_default();
+            own.push((number, assignment));
+        }
+        let mut found = HashSet::new();
+        for (function, own) in by_function {
+            let start = parsed.functions[function as usize].offset as usize;
+            let end = own.iter().map(|(_, a)| a.offset as usize).max();
+            let text = parsed
+                .text
+                .get(start..end.unwrap_or(start))
+                .unwrap_or_default();
+            let mut first: HashMap<&[u8], usize> = HashMap::new();
+            let mut at = start;
+            for word in text.split(|b| !is_letter(*b)) {
+                first.entry(word).or_insert(at);
+                at += word.len() + 1;
+            }
+            found.extend(own.iter().filter_map(|(number, assignment)| {
+                let first = first.get(parsed.bytes(assignment.name));
+                let is_named = first.is_some_and(|at| *at < assignment.offset as usize);
+                (assignment.in_block || is_named).then_some(*number)
+            }));
+        }
+        found
+    }
+
     /// Whether an assignment may be of a variable of its own function, not of one around it.
     ///
     /// # Source
@@ -284,11 +343,17 @@ impl<'n, 'a> Variables<'n, 'a> {
     /// `local` or `global` is looked for among the global ones, else it is local.
     pub(super) fn may_be_local(&self, number: u32) -> bool {
         let assignment = &self.parsed.assignments[number as usize];
+        if assignment.reach == Reach::Global {
+            return false;
+        }
         let is = |function| {
             let known = self.names.get(&(function, assignment.name));
             known == Some(&self.assigned[number as usize])
         };
         let unit = self.parsed.functions[assignment.function as usize].unit;
+        if assignment.reach == Reach::Local {
+            return !is(assignment.function);
+        }
         ![0, unit, assignment.function].into_iter().any(is)
     }
 

@@ -112,6 +112,8 @@ fn branches_that_calls_do_not_choose_are_both_taken() {
         ("setup(1)", setup("setup(n:IN)", "n=n+1\n")),
         ("setup(1)", setup("setup(n:IN)", "FOR n=1 TO 2\nENDFOR\n")),
         ("setup(1)", setup("setup(n:IN)", "outside(n)\n")),
+        ("setup(1)", setup("setup(n:IN)", "COPEN(:SER_1,n)\n")),
+        ("setup(1)", setup("setup(n:IN)", "k=INVERSE(XP1,XHOME,n)\n")),
         (
             "setup(1)",
             format!("{}{written}", setup("setup(n:IN)", "other(n)\n")),

@@ -60,6 +60,22 @@ fn flags_and_optional_numbers_choose_their_branch() {
     assert_eq!(tools, ["td", "tg"]);
 }
 
+/// An operator that is a word belongs to the argument, and what a loop counts hides other names.
+#[test]
+fn flags_that_are_worked_out_choose_no_branch() {
+    let flag = "PROC setup(bool grips)\nIF grips THEN\nt:=tg;\nELSE\nt:=td;\nENDIF\nENDPROC";
+    for call in [
+        "setup TRUE AND b;",
+        "setup FALSE OR DInput(di1)=1;",
+        "setup (TRUE) XOR b;",
+    ] {
+        let (tools, _) = set_up(call, flag);
+        assert_eq!(tools, ["td", "tg"], "{call}");
+    }
+    let (tools, _) = set_up("FOR GRIP FROM 1 TO 2 DO\nsetup GRIP;\nENDFOR", BY_TEST);
+    assert!(tools.len() > 1, "{tools:?}");
+}
+
 #[test]
 fn what_chooses_may_be_handed_on() {
     let text = format!("PROC cell(num m)\nsetup m;\nENDPROC\n{BY_TEST}");
@@ -71,6 +87,7 @@ fn what_chooses_may_be_handed_on() {
 #[test]
 fn branches_that_calls_do_not_choose_are_all_taken() {
     let before = |statements: &str| BY_TEST.replace("TEST n", &format!("{statements}\nTEST n"));
+    let counted = before("FOR n FROM 1 TO 3 DO").replace("ENDTEST", "ENDTEST\nENDFOR");
     let by_reference = "PROC other(INOUT num m)\nm:=m+1;\nENDPROC";
     for (call, text) in [
         ("setup k;", BY_TEST.to_owned()),
@@ -79,6 +96,9 @@ fn branches_that_calls_do_not_choose_are_all_taken() {
             "IF di1=1 THEN\nsetup 1;\nELSE\nsetup 2;\nENDIF",
             BY_TEST.to_owned(),
         ),
+        ("setup k MOD 2;", BY_TEST.to_owned()),
+        ("setup GRIP DIV k;", BY_TEST.to_owned()),
+        ("setup 1;", counted),
         ("setup 1;", before("n:=2;")),
         ("setup 1;", before("Incr n;")),
         ("setup 1;", before("outside n;")),

@@ -75,3 +75,23 @@ fn branches_that_calls_do_not_choose_are_all_taken() {
         assert!(tools.len() > 1, "{call} {text}: {tools:?}");
     }
 }
+
+/// What a name means where a function and what is around it have one is either.
+#[test]
+fn local_and_global_variables_of_one_name_are_both_meant() {
+    let go =
+        "def go(n):\nif n==1:\nset_tcp(p[.1,0,0,0,0,0])\nelse:\nset_tcp(p[.2,0,0,0,0,0])\nend\nend";
+    let global = format!("global m=1\ndef f(m):\nglobal m=2\nend\nf(1)\n{go}");
+    assert_eq!(set_up("go(m)", &global), ["100", "200"]);
+    let written = format!("local A=1\ndef out():\nA=2\nend\n{go}\nout()");
+    assert_eq!(set_up("go(A)", &written), ["100", "200"]);
+    let around = format!("global A=1\n{go}\ndef o():\nlocal A=2\ndef a():\ngo(A)\nend\na()\nend");
+    assert_eq!(set_up("o()", &around), ["100", "200"]);
+    let later = format!("global A=1\n{go}\ndef f():\ngo(A)\nlocal A=2\nend");
+    assert_eq!(set_up("f()", &later), ["100", "200"]);
+    let branch = format!("global A=1\n{go}\ndef f():\nif k>1:\nlocal A=2\nend\ngo(A)\nend");
+    assert_eq!(set_up("f()", &branch), ["100", "200"]);
+    // one that is assigned first hides the global one, which stays as it is
+    let hides = format!("global A=1\n{go}\ndef f():\nlocal A=2\nsleep(A)\nend\nf()");
+    assert_eq!(set_up("go(A)", &hides), ["100"]);
+}

@@ -1,0 +1,83 @@
+//! Targets to which no move goes but displaced, always by the same: they are corrected for the point
+//! that the robot comes to.
+
+use super::displaced::misses;
+use super::{BACKLASH, P, PLAIN, done, errors, fakes, rapid};
+use poseshift::geometry::{Pose, Vector, add, norm, sub};
+
+const START: &str = "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
+
+/// Millimetres.
+const SAME: f64 = 1e-6;
+
+fn program(z: f64, body: &str) -> String {
+    let data = format!("CONST robtarget p := [[430,0,{z}],{P};");
+    rapid(&data, &format!("{START}{body}"))
+}
+
+/// What is written for the target, and how far off it lands, millimetres.
+fn written(z: f64, body: &str, effects: &[&str]) -> (Pose, f64) {
+    let done = done(effects, &[("t.mod", &program(z, body))]);
+    let misses = misses(&done);
+    assert!(misses.iter().all(|off| *off == 0.0), "{misses:?}");
+    let off = done.targets[0].rounding.expect("it is corrected");
+    (fakes(&done)[0], 1e3 * off.distance_m)
+}
+
+/// What is written for a point that is displaced is what is written for that point, displaced back:
+/// in the work frame, or along the tool as it stands then.
+#[test]
+fn a_target_that_is_gone_to_displaced_alone_is_exact_there() {
+    let along_frame = |_: &Pose| [0.0, 0.0, 0.3];
+    let along_tool = |fake: &Pose| fake.rotation * [0.0, 0.0, -0.3];
+    let cases: [(&str, &dyn Fn(&Pose) -> Vector); 4] = [
+        ("MoveL Offs(p,0,0,300),v100,fine,tool0;", &along_frame),
+        // its z points down
+        ("MoveL RelTool(p,0,0,-300),v100,fine,tool0;", &along_tool),
+        (
+            "VAR robtarget q;\nq:=p;\nq.trans.z:=q.trans.z+300;\nMoveL q,v100,fine,tool0;",
+            &along_frame,
+        ),
+        (
+            "MoveL Offs(p,0,0,300),v100,fine,tool0;\nMoveL Offs(p,0,0,300),v50,fine,tool0;",
+            &along_frame,
+        ),
+    ];
+    for effects in [&[PLAIN][..], &[PLAIN, BACKLASH]] {
+        let (there, _) = written(600.0, "MoveL p,v100,fine,tool0;", effects);
+        for (body, by) in cases {
+            let (fake, off) = written(300.0, body, effects);
+            let displaced = add(fake.translation, by(&fake));
+            let apart = 1e3 * norm(sub(displaced, there.translation));
+            assert!(apart < SAME, "{body}: {displaced:?} {there:?}");
+            assert!(off < 0.001, "{body}: {off}");
+        }
+    }
+}
+
+/// Where one correction serves not all that is made of a target, it is that of the target itself.
+#[test]
+fn other_targets_have_their_own_correction() {
+    let own = done(
+        &[PLAIN],
+        &[("t.mod", &program(300.0, "MoveL p,v100,fine,tool0;"))],
+    );
+    let own = fakes(&own)[0].translation;
+    for body in [
+        "MoveL p,v100,fine,tool0;\nMoveL Offs(p,0,0,300),v100,fine,tool0;",
+        "MoveL Offs(p,0,0,300),v100,fine,tool0;\nMoveL Offs(p,0,0,200),v100,fine,tool0;",
+        "FOR i FROM 1 TO 2 DO\nMoveL Offs(p,0,0,i),v100,fine,tool0;\nENDFOR\n\
+            MoveL Offs(p,0,0,300),v100,fine,tool0;",
+    ] {
+        let found = done(&[PLAIN], &[("t.mod", &program(300.0, body))]);
+        assert_eq!(errors(&found), [""; 0], "{:?}", found.findings);
+        let fake = fakes(&found)[0].translation;
+        let off = (0..3).map(|k| (fake[k] - own[k]).abs()).fold(0.0, f64::max);
+        assert!(1e3 * off < SAME, "{body}: {fake:?} {own:?}");
+        assert!(
+            found.findings.iter().any(|f| f.id == "displaced-target"),
+            "{:?}",
+            found.findings
+        );
+    }
+}
