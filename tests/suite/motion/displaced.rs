@@ -433,3 +433,25 @@ fn what_is_worked_out_from_coordinates_of_a_target_loses_their_correction() {
         "{said} for {change} mm"
     );
 }
+
+/// However many calls a routine has, each goes with its own numbers.
+#[test]
+fn many_calls_each_displace_by_what_they_give() {
+    const CALLS: u16 = 400;
+    let point = |i: u16| {
+        format!(
+            "CONST robtarget p{i} := [[430,{},400],{P};\n",
+            f64::from(i) * 1e-3
+        )
+    };
+    let call = |i: u16| format!("go p{i},{};\n", i % 100);
+    let data: String = (0..CALLS).map(point).collect();
+    let calls: String = (0..CALLS).map(call).collect();
+    let go = "PROC go(robtarget p,num h)\nMoveL Offs(p,0,0,h),v100,fine,tool0;\nMoveL \
+        p,v100,fine,tool0;\nENDPROC";
+    let start = "MoveAbsJ [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
+    let text = rapid(&format!("{data}{go}"), &format!("{start}{calls}"));
+    let found = done(&[PLAIN], &[("t.mod", &text)]);
+    assert_eq!(errors(&found), [""; 0], "{:?}", found.findings.first());
+    assert_eq!(fakes(&found).len(), usize::from(CALLS));
+}

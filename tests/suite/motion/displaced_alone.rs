@@ -15,6 +15,9 @@ fn program(z: f64, body: &str) -> String {
     rapid(&data, &format!("{START}{body}"))
 }
 
+/// A displacement in the work frame, where the tool is so, metres.
+type By<'a> = &'a dyn Fn(&Pose) -> Vector;
+
 /// What is written for the target, and how far off it lands, millimetres.
 fn written(z: f64, body: &str, effects: &[&str]) -> (Pose, f64) {
     let done = done(effects, &[("t.mod", &program(z, body))]);
@@ -30,7 +33,7 @@ fn written(z: f64, body: &str, effects: &[&str]) -> (Pose, f64) {
 fn a_target_that_is_gone_to_displaced_alone_is_exact_there() {
     let along_frame = |_: &Pose| [0.0, 0.0, 0.3];
     let along_tool = |fake: &Pose| fake.rotation * [0.0, 0.0, -0.3];
-    let cases: [(&str, &dyn Fn(&Pose) -> Vector); 4] = [
+    let cases: [(&str, By); 4] = [
         ("MoveL Offs(p,0,0,300),v100,fine,tool0;", &along_frame),
         // its z points down
         ("MoveL RelTool(p,0,0,-300),v100,fine,tool0;", &along_tool),

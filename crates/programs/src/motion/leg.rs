@@ -239,6 +239,12 @@ impl Leg<'_> {
         let exact = self.equipped.calibrated_controller.is_none();
         let is_fine = steady && (piece.certified || !exact);
         if (is_fine && (is_one_sided || long <= SHORTEST_TURN)) || long <= SHORTEST {
+            // where nothing bounds the rates, samples say from where joints come
+            let sides = if piece.certified || long > SHORTEST {
+                sides
+            } else {
+                self.sampled_sides([near, &middle, &end], sides)
+            };
             *near = end;
             each_side(&piece, &sides, out);
         } else {
@@ -270,6 +276,21 @@ impl Leg<'_> {
                 vec![-1.0, 1.0]
             }
         })
+    }
+
+    /// From which of its sides each joint comes between three samples.
+    fn sampled_sides(&self, samples: [&[f64; 6]; 3], sides: [Vec<f64>; 6]) -> [Vec<f64>; 6] {
+        let [a, b, c] = samples.map(|q| self.equipped.mechanism.commanded(q));
+        let mut sides = sides;
+        for (i, sides) in sides.iter_mut().enumerate() {
+            let steps = [b[i] - a[i], c[i] - b[i]];
+            if sides.len() > 1 && steps.iter().all(|step| *step > 0.0) {
+                *sides = vec![1.0];
+            } else if sides.len() > 1 && steps.iter().all(|step| *step < 0.0) {
+                *sides = vec![-1.0];
+            }
+        }
+        sides
     }
 
     /// Joints that keep their side on the whole move: those without backlash, and those that stand.

@@ -14,7 +14,9 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Calls of a routine that are distinguished, each in all calls of its caller.
-const MOST_CONTEXTS: usize = 128;
+const MOST_CONTEXTS: usize = 16_384;
+/// Displacements that are worked out for calls apart, in a program.
+const MOST_APART: usize = 200_000;
 
 /// Which call a routine runs in that is none of the files'.
 const UNKNOWN: Remark = kit::computed("computed-target", "give the file that calls it too");
@@ -73,6 +75,8 @@ pub(super) struct Given<W> {
     times: HashMap<u32, usize>,
     /// The calls of routines, once a position in one asks.
     contexts: RefCell<HashMap<u32, Rc<[Context]>>>,
+    /// What has been worked out for calls apart.
+    apart: Cell<usize>,
 }
 
 impl<W> Default for Given<W> {
@@ -81,6 +85,7 @@ impl<W> Default for Given<W> {
             calls: HashMap::default(),
             times: HashMap::default(),
             contexts: RefCell::default(),
+            apart: Cell::default(),
         }
     }
 }
@@ -96,6 +101,16 @@ impl<W> Given<W> {
     /// How often calls give a number.
     pub(super) fn times(&self, own: u32) -> usize {
         self.times.get(&own).copied().unwrap_or_default()
+    }
+
+    /// Whether so much more may be worked out for calls apart.
+    fn affords(&self, more: usize) -> bool {
+        let apart = self.apart.get() + more;
+        let affords = apart <= MOST_APART;
+        if affords {
+            self.apart.set(apart);
+        }
+        affords
     }
 
     fn known_contexts(&self, routine: RoutineId) -> Option<Rc<[Context]>> {
@@ -203,6 +218,9 @@ pub(super) fn varied<N: Numbered, T>(
         return Varied::one(all);
     }
     let contexts = numbers.contexts(at.0);
+    if !numbers.given().affords(contexts.len()) {
+        return Varied::one(all);
+    }
     let each = contexts.iter().map(|context| {
         evaluate(&mut |number| {
             let of = &mut |number| numbers.value_in(number, context);

@@ -6,7 +6,8 @@ use super::statements::{action, is_kept};
 use super::tokens::{Cursor, Read, Token};
 use crate::program::names::{Context, Symbol};
 use crate::program::number::whole;
-use crate::program::script::{Call, RoutineId, Start};
+use crate::program::script::{Call, Place, RoutineId, Start};
+use foldhash::HashMap;
 
 /// A routine of an interrupt or trigger.
 #[derive(Debug)]
@@ -15,8 +16,8 @@ pub(super) struct Concurrent {
     context: Context,
     /// The number of the interrupt, as it is declared; `None` of a trigger.
     interrupt: Option<Box<[u8]>>,
-    /// What it does is read at the end of the file: it has arguments, or assigns.
-    is_kept: bool,
+    /// What it does is read at the end of the file: it has arguments, or assigns. It stands there.
+    kept: Option<Place>,
     /// It is a routine, and no variable that is assigned.
     is_routine: bool,
     /// Once all are declared.
@@ -31,8 +32,17 @@ pub(super) struct Action {
     /// Their bytes.
     pub at: usize,
     pub end: usize,
-    /// The call that starts it.
-    pub starts: usize,
+    /// The call that starts it, of a trigger.
+    pub starts: Option<usize>,
+}
+
+/// What interrupts do whose action is read at the end of their file.
+#[derive(Debug, Default)]
+pub(super) struct Switched {
+    /// The routines that do it.
+    made: HashMap<Place, Option<RoutineId>>,
+    /// The calls that start them.
+    starts: Vec<(Place, usize)>,
 }
 
 impl Reader {
@@ -61,14 +71,29 @@ impl Reader {
             self.builder.close();
             let routines = &mut self.builder.script.routines;
             // no move depends on it
-            if routines[made as usize].statements.is_empty() {
+            let is_idle = routines[made as usize].statements.is_empty();
+            if is_idle {
                 routines.pop();
-                self.builder.script.calls[starts].leads = false;
-            } else {
-                self.builder.script.calls[starts].callees = [made].into();
             }
+            let made = (!is_idle).then_some(made);
+            self.switched.made.insert(place, made);
+            self.switched
+                .starts
+                .extend(starts.map(|call| (place, call)));
         }
         Ok(())
+    }
+
+    /// Puts in their place what is read at the ends of files.
+    pub(super) fn link_actions(&mut self) {
+        let Switched { made, starts } = std::mem::take(&mut self.switched);
+        for (place, call) in starts {
+            let call = &mut self.builder.script.calls[call];
+            match made.get(&place).copied().flatten() {
+                Some(made) => call.callees = [made].into(),
+                None => call.leads = false,
+            }
+        }
     }
 
     /// `INTERRUPT DECL n WHEN ... DO routine()`, `TRIGGER WHEN ... DO n=1`: the routine runs, or the
@@ -77,8 +102,8 @@ impl Reader {
         let Some((name, mut rest)) = action(cursor) else {
             return;
         };
-        let is_kept = is_kept(rest);
-        if is_kept {
+        let kept = is_kept(rest).then(|| self.place(name));
+        if kept.is_some() {
             self.note_assignment(name, rest);
         }
         let declares = cursor.next();
@@ -88,7 +113,7 @@ impl Reader {
             name,
             context: self.context(),
             interrupt: declares.then(|| cursor.text(cursor.peek()).into()),
-            is_kept,
+            kept,
             is_routine: rest.blanks() == b'(',
             routine: None,
         });
@@ -118,11 +143,13 @@ impl Reader {
             // a number stands for the interrupt that this module declares, where it does
             let is_own = |of: &Concurrent| of.context.module == self.module;
             let has_own = meant().any(is_own);
+            let mut kept = Vec::new();
             for of in meant() {
                 let name = self.names.symbols.spelling(of.name);
+                kept.extend(of.kept);
                 match of.routine {
                     _ if !of.is_routine => {}
-                    Some(_) if of.is_kept => {}
+                    Some(_) if of.kept.is_some() => {}
                     Some(routine) => started.push(routine),
                     None if only_reads(name.as_bytes()) || has_own && !is_own(of) => {}
                     None => foreign.push(name.to_owned()),
@@ -130,6 +157,13 @@ impl Reader {
             }
             if let Some(number) = wanted.filter(|_| meant().next().is_none()) {
                 foreign.push(format!("INTERRUPT {number}"));
+            }
+            for place in kept {
+                // what it does is put in its place later
+                let starts = self.builder.script.calls.len();
+                self.switched.starts.push((place, starts));
+                let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
+                self.builder.start(call, true);
             }
             for name in foreign {
                 let call = Call::of(self.here, Box::default(), name, 0..0);
@@ -149,7 +183,7 @@ impl Reader {
                 continue;
             }
             of.routine = self.names.routine(of.name, of.context);
-            if let Some(routine) = of.routine.filter(|_| !of.is_kept) {
+            if let Some(routine) = of.routine.filter(|_| of.kept.is_none()) {
                 self.builder.script.routines[routine as usize].start = Start::Concurrent;
             }
         }

@@ -209,6 +209,7 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
         let read = reader.statements(source, short(file));
         read.map_err(|fault| fault.in_source(source))?;
     }
+    reader.link_actions();
     Ok(reader.finish(sources, settings))
 }
 

@@ -54,6 +54,7 @@ pub(super) struct Reader {
     pub(super) concurrent: Vec<Concurrent>,
     /// What interrupts and triggers assign or hand to routines.
     pub(super) actions: Vec<Action>,
+    pub(super) switched: super::interrupts::Switched,
     /// Calls that are given an array whose elements are not followed.
     pub(super) unfollowed: Vec<Place>,
     /// Moves to the pose where the robot is.
@@ -139,6 +140,7 @@ impl Reader {
             missing: HashMap::new(),
             concurrent: Vec::new(),
             actions: Vec::new(),
+            switched: super::interrupts::Switched::default(),
             unfollowed: Vec::new(),
             stays: Vec::new(),
             every_axis_off: None,

@@ -393,10 +393,13 @@ impl Reader {
                 self.is_referred |= word == b"TRIGGER" && refers_to_end(cursor);
                 match action(cursor) {
                     Some((name, rest)) if is_kept(rest) => {
-                        let starts = self.builder.script.calls.len();
-                        // what it does is put in its place later
-                        let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
-                        self.builder.start(call, word == b"INTERRUPT");
+                        // an interrupt is started where it is switched on
+                        let starts = (word == b"TRIGGER").then(|| {
+                            let starts = self.builder.script.calls.len();
+                            let call = Call::of(self.here, Box::default(), "INTERRUPT", 0..0);
+                            self.builder.start(call, false);
+                            starts
+                        });
                         self.actions.push(Action {
                             routine: self.context().routine,
                             at: name.start as usize,

@@ -514,3 +514,24 @@ fn a_frame_displaced_by_numbers_is_a_position() {
     assert_eq!(there.target, near.target);
     assert!(matches!(near.displacement, Displacement::By(_)));
 }
+
+/// What an interrupt calls with arguments has the tool and base of where it is switched on.
+#[test]
+fn interrupts_with_arguments_begin_where_they_are_switched_on() {
+    use super::frames::{CONFIG, used};
+    let text = "DEF M()\nINTERRUPT DECL 3 WHEN $IN[1]==TRUE DO isr(XP1)\nINTERRUPT DECL 4 WHEN \
+        $IN[2]==TRUE DO n=1\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nINTERRUPT ON 3\nINTERRUPT ON \
+        4\nLIN XP2\nEND\nDEF isr(p:IN)\nE6POS p\nLIN p\nEND\n";
+    let files = [
+        ("System/$config.dat", CONFIG),
+        ("m.src", text),
+        ("m.dat", DATA),
+    ];
+    let program = read_files(&files);
+    let used = used(&program);
+    assert_eq!(to(&program).len(), used.len());
+    assert!(used.len() >= 2, "{used:?}");
+    let wanted = ("TOOL_DATA[1]", "BASE_DATA[1]");
+    assert!(used.iter().all(|of| *of == wanted), "{used:?}");
+    assert_eq!(reported(&program), [""; 0]);
+}
