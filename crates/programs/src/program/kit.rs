@@ -4,6 +4,8 @@ use super::script::{Place, Remark, Script, short};
 use super::{About, MOST_ANGLE_DEG, Marker, ReadError, Settings, Source};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, MM, mm_from_m};
+use foldhash::{HashMap, HashSet};
+use std::hash::Hash;
 use std::ops::Range;
 use std::path::Path;
 
@@ -264,4 +266,26 @@ pub(super) fn label_key(name: &[u8]) -> u64 {
     name.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
+}
+
+/// Adds to a set all that it leads to: of each pair the second, where the first is in it.
+pub(super) fn spread<T: Copy + Eq + Hash>(
+    set: &mut HashSet<T>,
+    pairs: impl IntoIterator<Item = (T, T)>,
+) {
+    if set.is_empty() {
+        return;
+    }
+    let mut behind: HashMap<T, Vec<T>> = HashMap::default();
+    for (from, to) in pairs {
+        behind.entry(from).or_default().push(to);
+    }
+    let mut open: Vec<T> = set.iter().copied().collect();
+    while let Some(from) = open.pop() {
+        for &to in behind.get(&from).into_iter().flatten() {
+            if set.insert(to) {
+                open.push(to);
+            }
+        }
+    }
 }

@@ -7,6 +7,7 @@ use super::numbers::OF_ROUTINE;
 use super::reader::Reader;
 use super::statements::CONDITIONS;
 use super::tokens::{Cursor, Kind};
+use crate::program::kit::spread;
 use crate::program::names::{Context, Symbol};
 use crate::program::number;
 use crate::program::numbers::{Question, question, word};
@@ -113,16 +114,10 @@ impl Names {
             let parameter = self.heads[callee as usize].parameters.get(at);
             pairs.extend(parameter.map(|parameter| (own, *parameter)));
         }
-        grow(&mut written, |written| {
-            let back = pairs.iter().filter(|(_, (_, by_reference))| *by_reference);
-            let back = back.filter(|(_, (parameter, _))| written.contains(parameter));
-            back.map(|(own, _)| *own).collect()
-        });
+        let back = pairs.iter().filter(|(_, (_, by_reference))| *by_reference);
+        spread(&mut written, back.map(|&(own, (to, _))| (to, own)));
         let mut asked = std::mem::take(&mut self.asked.parameters);
-        grow(&mut asked, |asked| {
-            let given = pairs.iter().filter(|(_, (to, _))| asked.contains(to));
-            given.map(|(own, _)| *own).collect()
-        });
+        spread(&mut asked, pairs.iter().map(|&(own, (to, _))| (to, own)));
         let all = self.heads.iter().flat_map(|head| &head.parameters);
         let parameters: HashSet<u32> = all.map(|(parameter, _)| *parameter).collect();
         asked.retain(|own| parameters.contains(own) && !written.contains(own));
@@ -141,16 +136,6 @@ fn is_reading(word: &[u8]) -> bool {
     let is = |of: &&[u8]| of.eq_ignore_ascii_case(word);
     let is_word = CONDITIONS.iter().chain(&OPERATORS).any(is);
     is_word || only_reads(word) && !TELLING.iter().any(is)
-}
-
-/// Adds to a set what it leads to, until nothing is new.
-fn grow(set: &mut HashSet<u32>, more: impl Fn(&HashSet<u32>) -> Vec<u32>) {
-    let mut before = usize::MAX;
-    while before != set.len() {
-        before = set.len();
-        let more = more(set);
-        set.extend(more);
-    }
 }
 
 /// The text of a line, without its comment.

@@ -6,6 +6,7 @@ use super::resolved::{Entity, Given, Resolved, named};
 use super::syntax::{Argument, Part, Storage, Stored, indices};
 use super::translate::Translator;
 use crate::program::contexts::Numbered;
+use crate::program::kit::spread;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::number;
 use crate::program::numbers::{inside_brackets, question};
@@ -56,28 +57,22 @@ impl Resolved<'_> {
         if self.parsed.values_asked.is_empty() {
             return;
         }
-        let mut changed = true;
-        while std::mem::take(&mut changed) {
-            for given in calls {
-                let Some(caller) = given.context.routine else {
-                    continue;
-                };
-                let arguments = &self.list(given.of_function)[indices(given.arguments)];
-                let callees =
-                    self.callees(given.callee, given.arguments, given.context, given.file);
-                let mut names = Vec::new();
-                for &routine in &callees.routines {
-                    for (datum, argument) in self.parameters(routine, arguments) {
-                        let key = (routine, self.datum(datum).name);
-                        let argument = argument.filter(|_| self.parsed.values_asked.contains(&key));
-                        names.extend(argument.and_then(|of| named(&of.expression)));
-                    }
-                }
-                for name in names {
-                    changed |= self.parsed.values_asked.insert((caller, name));
+        let mut pairs = Vec::new();
+        for given in calls {
+            let Some(caller) = given.context.routine else {
+                continue;
+            };
+            let arguments = &self.list(given.of_function)[indices(given.arguments)];
+            let callees = self.callees(given.callee, given.arguments, given.context, given.file);
+            for &routine in &callees.routines {
+                for (datum, argument) in self.parameters(routine, arguments) {
+                    let name = argument.and_then(|of| named(&of.expression));
+                    let parameter = (routine, self.datum(datum).name);
+                    pairs.extend(name.map(|name| (parameter, (caller, name))));
                 }
             }
         }
+        spread(&mut self.parsed.values_asked, pairs);
     }
 
     /// Whether branches ask for what a parameter is, and nothing but calls gives it a value.

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::syntax::{Event, Expr, FunctionId};
 use super::translate::Translator;
 use super::variables::{Assigned, VarId, Variables};
+use crate::program::kit::spread;
 use crate::program::number;
 use crate::program::numbers::{inside_brackets, question};
 use crate::program::script::{self, Held, Test, Variable, VariableId, Wanted, short};
@@ -51,24 +52,24 @@ impl Variables<'_, '_> {
                 }
             }
         }
-        let mut before = usize::MAX;
-        while !asked.is_empty() && before != asked.len() {
-            before = asked.len();
-            for call in &parsed.calls {
-                for &callee in self.callees(call) {
-                    for position in 0..parsed.functions[callee as usize].parameters.len() {
-                        let (parameter, given) = self.given(call, callee, position);
-                        if let Some((value, function)) = given
-                            && asked.contains(&parameter)
-                            && let Expr::Name(name, _) = parsed.expression(value)
-                        {
-                            let of = self.parameter(parsed.bytes(name), function);
-                            asked.extend(of);
-                        }
+        if asked.is_empty() {
+            return;
+        }
+        let mut pairs = Vec::new();
+        for call in &parsed.calls {
+            for &callee in self.callees(call) {
+                for position in 0..parsed.functions[callee as usize].parameters.len() {
+                    let (parameter, given) = self.given(call, callee, position);
+                    if let Some((value, function)) = given
+                        && let Expr::Name(name, _) = parsed.expression(value)
+                    {
+                        let own = self.parameter(parsed.bytes(name), function);
+                        pairs.extend(own.map(|own| (parameter, own)));
                     }
                 }
             }
         }
+        spread(&mut asked, pairs);
         let is_given = |of: &VarId| self.sources(*of).all(|one| one.way == Assigned::Given);
         asked.retain(is_given);
         self.asked = asked;
