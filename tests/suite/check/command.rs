@@ -403,28 +403,6 @@ fn where_joints_reverse_the_path_is_off_at_its_beginning_alone() {
 }
 
 #[test]
-fn a_kept_target_at_the_end_of_a_move_from_nowhere_is_a_warning_as_it_is_an_error_of_check() {
-    let folder = scratch();
-    let at = |name: &str| folder.path().join(name).display().to_string();
-    let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
-    let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
-    // 0.3 mm of the upper arm's length, at the tool too
-    let effects = "calibration: {effects: [{effect: link_geometry, link: 3, a_mm: 0.3}]}\n";
-    std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
-    let program = "MODULE t\nPROC main()\nMoveAbsJ \
-        [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n";
-    std::fs::write(at("t.mod"), program).expect("scratch");
-    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
-    let limit = ["--profile", &profile, "--max-path-error", "0.05"];
-    let compensate = ["compensate", &input, "-o", &output];
-    let (status, out, error) = run(&[&compensate[..], &limit].concat());
-    assert_eq!(status, 0, "{out}{error}");
-    assert!(out.contains("warning[path-from-kept-target]"), "{out}");
-    let (status, out, _) = run(&[&["check", &output, "--nominal", &input][..], &limit].concat());
-    assert!(status == 1 && out.contains("path-error"), "{out}");
-}
-
-#[test]
 fn inserted_targets_are_not_shifted_beyond_the_limit() {
     let folder = scratch();
     let at = |name: &str| folder.path().join(name).display().to_string();

@@ -2,30 +2,48 @@
 
 use crate::support::{repository, run, scratch};
 
-/// Between ends that are off, the path may be farther off: what is said has both.
-#[test]
-fn what_is_said_of_a_path_from_a_kept_target_has_all_of_it() {
+/// What `compensate --max-path-error` prints of a program for an IRB 120 with one effect, and the status and
+/// the output of `check` of what it writes.
+fn judged(effect: &str, program: &str, limit_mm: &str) -> (String, i32, String) {
     let folder = scratch();
     let at = |name: &str| folder.path().join(name).display().to_string();
     let plain = std::fs::read_to_string(repository("robots/abb_irb120.yaml")).expect("a profile");
     let plain = &plain[..plain.find("calibration:").expect("a list of effects")];
-    // joint 1 goes through three periods on the move
-    let effects =
-        "calibration: {effects: [{effect: joint_harmonic, joint: 1, order: 9, cos_deg: 0.05}]}\n";
-    std::fs::write(at("robot.yaml"), format!("{plain}{effects}")).expect("scratch");
+    let profile = format!("{plain}calibration: {{effects: [{effect}]}}\n");
+    std::fs::write(at("robot.yaml"), profile).expect("scratch");
+    std::fs::write(at("t.mod"), program).expect("scratch");
+    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
+    let limit = ["--profile", &profile, "--max-path-error", limit_mm];
+    let (status, out, error) = run(&[&["compensate", &input, "-o", &output][..], &limit].concat());
+    assert_eq!(status, 0, "{out}{error}");
+    let (status, checked, _) =
+        run(&[&["check", &output, "--nominal", &input][..], &limit].concat());
+    (out, status, checked)
+}
+
+#[test]
+fn a_kept_target_at_the_end_of_a_move_from_nowhere_is_a_warning_as_it_is_an_error_of_check() {
+    let program = "MODULE t\nPROC main()\nMoveAbsJ \
+        [[0,0,0,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+    // 0.3 mm of the upper arm's length, at the tool too
+    let effect = "{effect: link_geometry, link: 3, a_mm: 0.3}";
+    let (out, status, checked) = judged(effect, program, "0.05");
+    assert!(out.contains("warning[path-from-kept-target]"), "{out}");
+    assert!(status == 1 && checked.contains("path-error"), "{checked}");
+}
+
+/// Between ends that are off, the path may be farther off: what is said has both.
+#[test]
+fn what_is_said_of_a_path_from_a_kept_target_has_all_of_it() {
     let program = "MODULE t\nCONST robtarget p:=[[450,350,250],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n\
         PROC main()\nMoveAbsJ [[-40,30,10,0,50,-40],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n\
         MoveL p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
-    std::fs::write(at("t.mod"), program).expect("scratch");
-    let (profile, input, output) = (at("robot.yaml"), at("t.mod"), at("out.mod"));
-    let limit = ["--profile", &profile, "--max-path-error", "0.02"];
-    let (status, out, error) = run(&[&["compensate", &input, "-o", &output][..], &limit].concat());
-    assert_eq!(status, 0, "{out}{error}");
+    // joint 1 goes through two periods on the move
+    let effect = "{effect: joint_harmonic, joint: 1, order: 9, cos_deg: 0.05}";
+    let (out, _, checked) = judged(effect, program, "0.02");
     let number = |text: &str, before: &str| -> f64 {
-        let behind = text
-            .split(before)
-            .nth(1)
-            .unwrap_or_else(|| panic!("{before}: {text}"));
+        let behind = text.split(before).nth(1);
+        let behind = behind.unwrap_or_else(|| panic!("{before}: {text}"));
         let number = behind.split_whitespace().next().expect("a number");
         number.parse().expect("a number")
     };
@@ -37,7 +55,6 @@ fn what_is_said_of_a_path_from_a_kept_target_has_all_of_it() {
         number(of_path, "begins or ends"),
         number(of_path, "between up to"),
     );
-    let (_, checked, _) = run(&[&["check", &output, "--nominal", &input][..], &limit].concat());
     let path = number(&checked, "along the path never more than");
     assert!((between - path).abs() < 0.002, "{between} {path}");
     assert!(between > 1.5 * ends, "{between} {ends}");

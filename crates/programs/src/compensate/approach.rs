@@ -329,24 +329,24 @@ fn has_same_posture(job: &Job, a: &Approach, b: &Approach) -> bool {
         && setting.same_frame(a.frame as usize, b.frame as usize)
 }
 
-/// The displacement of targets to which no move goes otherwise than displaced by the same.
-fn displaced_alike(program: &Program) -> BTreeMap<u32, Shift> {
-    let mut alike: BTreeMap<u32, Option<Shift>> = BTreeMap::new();
+/// By what every move to some targets displaces them; nothing where moves to one differ.
+fn displaced_alike(
+    program: &Program,
+    targets: impl Iterator<Item = u32>,
+) -> BTreeMap<u32, Option<&Shift>> {
+    let mut alike: BTreeMap<u32, Option<Option<&Shift>>> = targets.map(|of| (of, None)).collect();
     for motion in &program.moves {
-        let Some(target) = motion.target else {
-            continue;
-        };
-        let own = match &motion.displacement {
-            Displacement::By(shift) => Some(**shift),
-            _ => None,
-        };
-        let known = alike.entry(short(target)).or_insert(own);
-        *known = known.filter(|known| own == Some(*known));
+        let target = motion.target.map(short);
+        if let Some(known) = target.and_then(|target| alike.get_mut(&target)) {
+            let own = match &motion.displacement {
+                Displacement::By(shift) => Some(&**shift),
+                _ => None,
+            };
+            *known = Some(known.unwrap_or(own).filter(|known| own == Some(*known)));
+        }
     }
     let alike = alike.into_iter();
-    alike
-        .filter_map(|(target, shift)| Some((target, shift?)))
-        .collect()
+    alike.map(|(target, by)| (target, by.flatten())).collect()
 }
 
 /// Targets that moves only go near. Those that all moves displace alike are such that the robot comes
@@ -355,7 +355,8 @@ fn add_derived(job: &Job, mut derived: Vec<Approach>, approaches: &mut Vec<Appro
     if derived.is_empty() {
         return;
     }
-    let alike = displaced_alike(job.ground.program);
+    let targets = derived.iter().map(|approach| approach.target);
+    let alike = displaced_alike(job.ground.program, targets);
     let direct = approaches.len();
     derived.sort_by_key(|approach| approach.target);
     for of_target in derived.chunk_by(|a, b| a.target == b.target) {
@@ -367,8 +368,8 @@ fn add_derived(job: &Job, mut derived: Vec<Approach>, approaches: &mut Vec<Appro
             continue;
         }
         let are_same = of_target.iter().all(|of| is_same(job, of, &approach));
-        let shift = alike.get(&approach.target).filter(|_| are_same);
-        if let Some(shift) = shift {
+        let shift = alike.get(&approach.target).copied().flatten();
+        if let Some(shift) = shift.filter(|_| are_same) {
             approach.shift = Some(Arc::new(*shift));
         } else {
             let wanted = approach.meant(job);

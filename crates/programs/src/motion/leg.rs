@@ -279,9 +279,8 @@ impl Leg<'_> {
     }
 
     /// From which of its sides each joint comes between three samples.
-    fn sampled_sides(&self, samples: [&[f64; 6]; 3], sides: [Vec<f64>; 6]) -> [Vec<f64>; 6] {
+    fn sampled_sides(&self, samples: [&[f64; 6]; 3], mut sides: [Vec<f64>; 6]) -> [Vec<f64>; 6] {
         let [a, b, c] = samples.map(|q| self.equipped.mechanism.commanded(q));
-        let mut sides = sides;
         for (i, sides) in sides.iter_mut().enumerate() {
             let steps = [b[i] - a[i], c[i] - b[i]];
             if sides.len() > 1 && steps.iter().all(|step| *step > 0.0) {

@@ -7,11 +7,13 @@
 mod blocks;
 mod bounds;
 mod flow;
+mod questions;
 mod rounds;
 
 pub(super) use blocks::{Blocks, Site};
-pub(super) use bounds::{Question, bounds_in, compared_in, equality, inside_brackets, question};
+pub(super) use bounds::{bounds_in, compared_in, inside_brackets};
 use flow::Flow;
+pub(super) use questions::{Literal, cases, equality, question};
 
 use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};

@@ -133,7 +133,7 @@ impl Flow<'_> {
         self.chosen.clear();
         self.instructions.clear();
         self.at_any_time.clear();
-        self.perhaps.clear();
+        self.called_by_dead.clear();
         self.size = 0;
     }
 
@@ -177,7 +177,7 @@ impl Flow<'_> {
             for &routine in &entries {
                 let instance = self.instance(routine, 0, NO_INSTANCE);
                 if !are_started {
-                    self.perhaps.insert(instance);
+                    self.called_by_dead.insert(instance);
                 }
                 self.enter(instance, &state);
                 instances.push(instance);
@@ -225,14 +225,14 @@ impl Flow<'_> {
     }
 
     /// Whether an instance is of a routine that only text calls that nothing reaches, or runs in one.
-    pub(super) fn is_perhaps(&self, mut instance: u32) -> bool {
-        if self.perhaps.is_empty() {
+    pub(super) fn is_called_by_dead(&self, mut instance: u32) -> bool {
+        if self.called_by_dead.is_empty() {
             return false;
         }
         while self.instances[instance as usize].caller != NO_INSTANCE {
             instance = self.instances[instance as usize].caller;
         }
-        self.perhaps.contains(&instance)
+        self.called_by_dead.contains(&instance)
     }
 
     /// What the controller keeps from run to run is there when the routine starts again; whether

@@ -236,8 +236,8 @@ pub(super) struct Flow<'a> {
     started_with: HashMap<RoutineId, Rc<HashSet<RoutineId>>>,
     /// The instance whose text is gone through that nothing reaches.
     dead: Option<u32>,
-    /// Of routines that only text calls that nothing reaches.
-    perhaps: HashSet<u32>,
+    /// Instances of routines that only text calls that nothing reaches.
+    called_by_dead: HashSet<u32>,
 }
 
 impl<'a> Flow<'a> {
@@ -308,7 +308,7 @@ impl<'a> Flow<'a> {
                 .collect(),
             started_with: HashMap::new(),
             dead: None,
-            perhaps: HashSet::new(),
+            called_by_dead: HashSet::new(),
         };
         let mut routines = script.routines.iter();
         flow.has_concurrent = routines.any(|routine| routine.start == Start::Concurrent);

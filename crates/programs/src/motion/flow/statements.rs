@@ -386,7 +386,7 @@ impl<'a> Flow<'a> {
             before: state.before,
             led: state.led.take(),
             is_concurrent: self.is_concurrent,
-            is_dead: (self.dead.is_some() || self.is_perhaps(instance)) && !is_live,
+            is_dead: (self.dead.is_some() || self.is_called_by_dead(instance)) && !is_live,
         });
         state.before = self.sets.one(stop);
     }

@@ -10,10 +10,12 @@ use super::tokens::{Cursor, Kind};
 use crate::program::kit::spread;
 use crate::program::names::{Context, Symbol};
 use crate::program::number;
-use crate::program::numbers::{Question, question, word};
-use crate::program::script::{Expr, Held, Test, VariableId, Wanted};
+use crate::program::numbers::{Literal, cases, question, word};
+use crate::program::script::{Expr, Test, VariableId};
 use foldhash::HashSet;
 
+/// The largest INT.
+const MOST_INT: u32 = i32::MAX.unsigned_abs();
 /// Values of ENUM are numbers from here on, which no INT reaches.
 const OF_ENUM: i64 = 1 << 40;
 
@@ -49,38 +51,15 @@ pub(super) struct Asked {
     written: HashSet<u32>,
 }
 
-/// A value that branches tell from others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Literal {
-    Flag(bool),
-    Number(i64),
-}
-
-impl Literal {
-    fn held(self) -> Held {
-        match self {
-            Self::Flag(flag) => Held::Flag(flag),
-            Self::Number(number) => Held::Number(number),
-        }
-    }
-}
-
 impl Names {
     /// The value that a text is.
     pub(super) fn literal(&mut self, text: &[u8]) -> Option<Literal> {
-        if text.eq_ignore_ascii_case(b"TRUE") || text.eq_ignore_ascii_case(b"FALSE") {
-            return Some(Literal::Flag(text.len() == 4));
-        }
         if let Some(value) = text.strip_prefix(b"#") {
             let value = value.trim_ascii();
             let symbol = self.symbols.intern(value);
             return (!value.is_empty()).then(|| Literal::Number(OF_ENUM + i64::from(symbol.0)));
         }
-        let value = number::parse(text)?;
-        // beyond this INT ends
-        let is_whole = value.fract() == 0.0 && value.abs() <= f64::from(u32::MAX);
-        #[allow(clippy::cast_possible_truncation)]
-        is_whole.then_some(Literal::Number(value as i64))
+        Literal::flag(text).or_else(|| Literal::whole(number::parse(text)?, MOST_INT))
     }
 
     /// The variable of the present routine that a name is.
@@ -173,13 +152,9 @@ impl Reader {
 
     /// What an IF asks of a parameter.
     pub(super) fn test(&mut self, cursor: Cursor) -> Option<Test> {
-        let Question { name, of, holds } = question(condition(cursor))?;
-        let wanted = match of.map_or(Some(Literal::Flag(true)), |of| self.names.literal(of))? {
-            Literal::Flag(flag) => Wanted::Flag(flag == holds),
-            Literal::Number(number) if holds => Wanted::Number(number),
-            Literal::Number(number) => Wanted::NotNumber(number),
-        };
-        Some((self.asked_of(name)?, wanted))
+        let of = question(condition(cursor))?;
+        let wanted = of.wanted(|text| self.names.literal(text))?;
+        Some((self.asked_of(of.name)?, wanted))
     }
 
     /// What a SWITCH asks about.
@@ -189,12 +164,7 @@ impl Reader {
 
     /// The numbers of a CASE; none where it has another value.
     pub(super) fn cases(&mut self, cursor: Cursor) -> Vec<i64> {
-        let parts = text_of(cursor).split(|b| *b == b',');
-        let numbers = parts.map(|part| match self.names.literal(part.trim_ascii()) {
-            Some(Literal::Number(number)) => Some(number),
-            _ => None,
-        });
-        numbers.collect::<Option<_>>().unwrap_or_default()
+        cases(text_of(cursor), &mut |text| self.names.literal(text))
     }
 
     fn asked_of(&mut self, name: &[u8]) -> Option<VariableId> {
@@ -203,8 +173,8 @@ impl Reader {
         self.names.is_asked(own).then(|| self.variable_of(own))
     }
 
-    /// What a call gives a parameter that branches alone ask about, and its variable; the value that is declared
-    /// where the text does not tell.
+    /// What a call gives a parameter that branches alone ask about, and its variable; `None` where the
+    /// text does not tell.
     pub(super) fn choice_given(
         &mut self,
         given: &Given,

@@ -1,8 +1,7 @@
 //! Calls of routines and functions.
 
-use super::asked::Literal;
 use super::frames::{State, Table};
-use super::names::{self, DataKind, Index};
+use super::names::{DataKind, Index, whole};
 use super::reader::Reader;
 use super::remarks::{COMPUTED, FRAME_ASSIGNED, WITHOUT_AXES, carried, conveyor};
 use super::sensors::leads;
@@ -10,6 +9,7 @@ use super::targets::Owner;
 use super::tokens::{Cursor, Kind, Token, capitals};
 use crate::program::names::Symbol;
 use crate::program::number;
+use crate::program::numbers::Literal;
 use crate::program::script::{Argument, Call, Expr, How, Place};
 
 /// Calls in one expression; a line of the controller has no room for more.
@@ -503,9 +503,9 @@ impl Reader {
         if ahead.blanks() == b'{' {
             return self.position_argument(cursor);
         }
-        let mut whole = *cursor;
-        whole.skip();
-        let text = cursor.bytes[ahead.at..whole.at].trim_ascii();
+        let mut behind = *cursor;
+        behind.skip();
+        let text = cursor.bytes[ahead.at..behind.at].trim_ascii();
         let token = ahead.next();
         if !matches!(token.kind, Kind::Number)
             && let Some(literal) = self.names.literal(text)
@@ -515,7 +515,7 @@ impl Reader {
         let alone = |ahead: &mut Cursor| matches!(ahead.blanks(), b',' | b')');
         match token.kind {
             Kind::Number if alone(&mut ahead) => {
-                names::whole(number::parse(ahead.text(token))).map_or(Given::Other, Given::Number)
+                whole(number::parse(ahead.text(token))).map_or(Given::Other, Given::Number)
             }
             Kind::Name => {
                 let Ok(at) = ahead.brackets() else {

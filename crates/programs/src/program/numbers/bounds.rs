@@ -169,7 +169,7 @@ pub(in crate::program) fn inside_brackets(mut text: &[u8]) -> &[u8] {
     text
 }
 
-fn comparison(part: &[u8]) -> Option<(&[u8], Relation, &[u8])> {
+pub(super) fn comparison(part: &[u8]) -> Option<(&[u8], Relation, &[u8])> {
     let part = inside_brackets(part);
     let is_sign = |b: &u8| matches!(b, b'<' | b'>' | b'=' | b'!');
     let at = part.iter().position(is_sign)?;
@@ -182,69 +182,6 @@ fn comparison(part: &[u8]) -> Option<(&[u8], Relation, &[u8])> {
         !text.is_empty() && !text.iter().any(is_sign) && count(b'(') == count(b')')
     };
     (is_one(before) && is_one(behind)).then_some((before, relation, behind))
-}
-
-/// What a condition asks of one name: `n==1`, `(tool<>#A)`, `NOT b`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::program) struct Question<'a> {
-    pub name: &'a [u8],
-    /// With what it is compared; it is a flag where it stands alone.
-    pub of: Option<&'a [u8]>,
-    /// Whether it is to be that, or anything else.
-    pub holds: bool,
-}
-
-/// What a condition asks where that is one name.
-pub(in crate::program) fn question(condition: &[u8]) -> Option<Question<'_>> {
-    let mut condition = inside_brackets(condition);
-    let mut holds = true;
-    while let Some(rest) = behind_not(condition) {
-        (condition, holds) = (inside_brackets(rest), !holds);
-    }
-    let is_name = |text: &[u8]| {
-        text.iter().all(|b| is_letter(*b)) && text.first().is_some_and(|b| !b.is_ascii_digit())
-    };
-    if is_name(condition) {
-        return Some(Question {
-            name: condition,
-            of: None,
-            holds,
-        });
-    }
-    let (before, behind, is_equal) = equality(condition)?;
-    let (name, of) = if is_name(before) && !is_truth(before) {
-        (before, behind)
-    } else {
-        (behind, before)
-    };
-    // what stands between the words of two comparisons is none
-    let is_one = |text: &[u8]| !text.iter().any(u8::is_ascii_whitespace);
-    (is_name(name) && is_one(of)).then_some(Question {
-        name,
-        of: Some(of),
-        holds: holds == is_equal,
-    })
-}
-
-/// The sides of a condition that is one comparison, of equal (true) or not equal.
-pub(in crate::program) fn equality(condition: &[u8]) -> Option<(&[u8], &[u8], bool)> {
-    let (before, relation, behind) = comparison(condition)?;
-    match relation {
-        Relation::Equal => Some((before, behind, true)),
-        Relation::NotEqual => Some((before, behind, false)),
-        _ => None,
-    }
-}
-
-fn is_truth(name: &[u8]) -> bool {
-    name.eq_ignore_ascii_case(b"TRUE") || name.eq_ignore_ascii_case(b"FALSE")
-}
-
-/// What stands behind a NOT in front.
-fn behind_not(condition: &[u8]) -> Option<&[u8]> {
-    let (not, rest) = condition.split_at_checked(3)?;
-    let is_word = rest.first().is_some_and(|b| !is_letter(*b));
-    (is_word && not.eq_ignore_ascii_case(b"NOT")).then_some(rest)
 }
 
 /// What a condition says of the one side of a comparison and the other, where it holds and (`false`) where
@@ -314,36 +251,6 @@ mod tests {
                 .iter()
                 .map(|&(name, relation, limit)| (name.to_owned(), relation, limit.to_owned()))
                 .collect();
-            assert_eq!(found, wanted, "{condition}");
-        }
-    }
-
-    #[test]
-    fn conditions_ask_of_one_name() {
-        for (condition, wanted) in [
-            ("n==1", Some(("n", "1", true))),
-            (" ( tool <> #Cutter ) ", Some(("tool", "#Cutter", false))),
-            ("#Cutter==tool", Some(("tool", "#Cutter", true))),
-            ("b", Some(("b", "", true))),
-            ("NOT(b)", Some(("b", "", false))),
-            ("NOT b==FALSE", Some(("b", "FALSE", false))),
-            ("TRUE==b", Some(("b", "TRUE", true))),
-            ("NOT NOT n==2", Some(("n", "2", true))),
-            ("notice", Some(("notice", "", true))),
-            ("n<1", None),
-            ("n==1 AND b", None),
-            ("n==1 OR n==2", None),
-            ("b AND n==1", None),
-            ("NOT b AND n==1", None),
-            ("a b", None),
-            ("f(n)==1", None),
-            ("n[1]==1", None),
-            ("", None),
-            ("NOT", Some(("NOT", "", true))),
-        ] {
-            let found = question(condition.as_bytes());
-            let found = found.map(|of| (text(of.name), text(of.of.unwrap_or_default()), of.holds));
-            let wanted = wanted.map(|(name, of, holds)| (name.to_owned(), of.to_owned(), holds));
             assert_eq!(found, wanted, "{condition}");
         }
     }

@@ -3,14 +3,18 @@
 
 use super::reader::Reader;
 use super::resolved::{Entity, Given, Resolved, named};
-use super::syntax::{Argument, Part, Storage, Stored, indices};
+use super::syntax::{Argument, Part, Storage, Stored, Type, indices};
 use super::translate::Translator;
 use crate::program::contexts::Numbered;
 use crate::program::kit::spread;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::number;
-use crate::program::numbers::{inside_brackets, question};
-use crate::program::script::{Expr, Held, Test, Variable, VariableId, Wanted};
+use crate::program::numbers::{Literal, cases, inside_brackets, question};
+use crate::program::quantity::is_letter;
+use crate::program::script::{Expr, Test, Variable, VariableId, Wanted};
+
+/// The largest whole number that a num has with all its digits.
+const MOST_WHOLE: u32 = 1 << 23;
 
 /// What a condition asks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +29,8 @@ pub(super) enum Asked {
 fn without_end(text: &[u8]) -> &[u8] {
     let text = text.strip_suffix(b":").unwrap_or(text);
     let (rest, end) = text.split_at(text.len().saturating_sub(4));
-    let is_end = end.eq_ignore_ascii_case(b"THEN");
+    let is_word = rest.last().is_none_or(|b| !is_letter(*b));
+    let is_end = is_word && end.eq_ignore_ascii_case(b"THEN");
     if is_end { rest } else { text }.trim_ascii()
 }
 
@@ -75,6 +80,10 @@ impl Resolved<'_> {
         spread(&mut self.parsed.values_asked, pairs);
     }
 
+    fn condition_of(&self, file: u32, part: Part) -> &[u8] {
+        without_end(&self.sources[file as usize].bytes[indices(part)])
+    }
+
     /// Whether branches ask for what a parameter is, and nothing but calls gives it a value.
     fn is_value_asked(&self, parameter: u32) -> bool {
         let of = self.datum(parameter);
@@ -82,13 +91,7 @@ impl Resolved<'_> {
         matches!(of.storage, Storage::Parameter { .. })
             && of.context.routine.is_some_and(is_asked)
             && !self.is_written(Entity::Declared(parameter))
-            && (of.kind != super::syntax::Type::Num || self.is_only_given(self.number(parameter)))
-    }
-}
-
-impl Resolved<'_> {
-    fn condition_of(&self, file: u32, part: Part) -> &[u8] {
-        without_end(&self.sources[file as usize].bytes[indices(part)])
+            && (of.kind != Type::Num || self.is_only_given(self.number(parameter)))
     }
 }
 
@@ -103,15 +106,7 @@ impl Translator<'_> {
             Asked::Value(part) => {
                 let resolved = self.resolved;
                 let of = question(resolved.condition_of(self.here.file, part))?;
-                let held = of
-                    .of
-                    .map_or(Some(Held::Flag(true)), |of| self.literal(of))?;
-                let wanted = match held {
-                    Held::Flag(flag) => Wanted::Flag(flag == of.holds),
-                    Held::Number(number) if of.holds => Wanted::Number(number),
-                    Held::Number(number) => Wanted::NotNumber(number),
-                    _ => return None,
-                };
+                let wanted = of.wanted(|text| self.literal(text))?;
                 Some((self.asked_value(of.name)?, wanted))
             }
         }
@@ -134,15 +129,11 @@ impl Translator<'_> {
             return Vec::new();
         };
         let text = self.resolved.condition_of(self.here.file, part);
-        let parts = text.split(|b| *b == b',');
-        let numbers = parts.map(|part| match self.literal(part.trim_ascii()) {
-            Some(Held::Number(number)) => Some(number),
-            _ => None,
-        });
-        numbers.collect::<Option<_>>().unwrap_or_default()
+        cases(text, &mut |text| self.literal(text))
     }
 
-    /// What a call gives a parameter for what branches ask, and its variable; `None` where the text does not tell.
+    /// What a call gives a parameter about which branches ask, and its variable; `None` where the text
+    /// does not tell.
     pub(super) fn choice_given(
         &mut self,
         parameter: u32,
@@ -154,7 +145,7 @@ impl Translator<'_> {
         let bytes = indices(resolved.value_bytes(file, argument));
         let text = inside_brackets(&resolved.sources[file as usize].bytes[bytes]);
         let value = match self.literal(text) {
-            Some(held) => self.builder.script.held(held),
+            Some(literal) => self.builder.script.held(literal.held()),
             None => Expr::Variable(self.asked_value(text)?),
         };
         Some((self.choice(parameter), value))
@@ -194,10 +185,7 @@ impl Translator<'_> {
     }
 
     /// The value that a text is: TRUE, FALSE, a whole number or a constant that is one.
-    fn literal(&self, text: &[u8]) -> Option<Held> {
-        if text.eq_ignore_ascii_case(b"TRUE") || text.eq_ignore_ascii_case(b"FALSE") {
-            return Some(Held::Flag(text.len() == 4));
-        }
+    fn literal(&self, text: &[u8]) -> Option<Literal> {
         let constant = || {
             let of = self.resolved.datum(self.named_here(text)?);
             match (of.storage, of.value) {
@@ -205,10 +193,7 @@ impl Translator<'_> {
                 _ => None,
             }
         };
-        let value = number::parse(text).or_else(constant)?;
-        // beyond this num has no other digits
-        let is_whole = value.fract() == 0.0 && value.abs() <= f64::from(1 << 23);
-        #[allow(clippy::cast_possible_truncation)]
-        is_whole.then_some(Held::Number(value as i64))
+        let value = || number::parse(text).or_else(constant);
+        Literal::flag(text).or_else(|| Literal::whole(value()?, MOST_WHOLE))
     }
 }

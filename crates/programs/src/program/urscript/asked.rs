@@ -8,9 +8,12 @@ use super::translate::Translator;
 use super::variables::{Assigned, VarId, Variables};
 use crate::program::kit::spread;
 use crate::program::number;
-use crate::program::numbers::{inside_brackets, question};
-use crate::program::script::{self, Held, Test, Variable, VariableId, Wanted, short};
+use crate::program::numbers::{Literal, inside_brackets, question};
+use crate::program::script::{self, Test, Variable, VariableId, short};
 use foldhash::HashSet;
+
+/// The largest int.
+const MOST_INT: u32 = i32::MAX.unsigned_abs();
 
 /// The bytes of a condition, without the colon behind it.
 fn condition(text: &[u8]) -> &[u8] {
@@ -87,10 +90,7 @@ impl Variables<'_, '_> {
     }
 
     /// The value that a text is: `True`, `False`, a whole number, or a variable that has one.
-    fn literal(&self, text: &[u8], function: FunctionId) -> Option<Held> {
-        if text.eq_ignore_ascii_case(b"True") || text.eq_ignore_ascii_case(b"False") {
-            return Some(Held::Flag(text.len() == 4));
-        }
+    fn literal(&self, text: &[u8], function: FunctionId) -> Option<Literal> {
         let fixed = || {
             let name = self.parsed.known_symbol(text)?;
             let variable = self.meaning(name, function)?;
@@ -105,11 +105,8 @@ impl Variables<'_, '_> {
                 _ => None,
             }
         };
-        let value = number::parse(text).or_else(fixed)?;
-        // beyond this int ends
-        let is_whole = value.fract() == 0.0 && value.abs() <= f64::from(i32::MAX);
-        #[allow(clippy::cast_possible_truncation)]
-        is_whole.then_some(Held::Number(value as i64))
+        let value = || number::parse(text).or_else(fixed);
+        Literal::flag(text).or_else(|| Literal::whole(value()?, MOST_INT))
     }
 }
 
@@ -118,16 +115,7 @@ impl Translator<'_, '_, '_> {
     pub(super) fn test_of(&mut self, part: (u32, u32), function: FunctionId) -> Option<Test> {
         let variables = self.goals.variables;
         let of = question(variables.condition_of(part))?;
-        let held = match of.of {
-            Some(text) => variables.literal(text, function)?,
-            None => Held::Flag(true),
-        };
-        let wanted = match held {
-            Held::Flag(flag) => Wanted::Flag(flag == of.holds),
-            Held::Number(number) if of.holds => Wanted::Number(number),
-            Held::Number(number) => Wanted::NotNumber(number),
-            _ => return None,
-        };
+        let wanted = of.wanted(|text| variables.literal(text, function))?;
         Some((self.asked(of.name, function)?, wanted))
     }
 
@@ -144,10 +132,8 @@ impl Translator<'_, '_, '_> {
     /// The number of a `case`.
     pub(super) fn case(&self, part: (u32, u32), function: FunctionId) -> Option<i64> {
         let variables = self.goals.variables;
-        match variables.literal(variables.condition_of(part), function) {
-            Some(Held::Number(number)) => Some(number),
-            _ => None,
-        }
+        let literal = variables.literal(variables.condition_of(part), function);
+        literal.and_then(Literal::number)
     }
 
     /// What a call gives a parameter about which branches ask, and its variable; `None` where the
@@ -173,7 +159,7 @@ impl Translator<'_, '_, '_> {
         let (text, function) = variables.text_of(given)?;
         let text = inside_brackets(text);
         let value = match variables.literal(text, function) {
-            Some(held) => self.goals.builder.script.held(held),
+            Some(literal) => self.goals.builder.script.held(literal.held()),
             None => script::Expr::Variable(self.asked(text, function)?),
         };
         let choice = self.choice(parameter);

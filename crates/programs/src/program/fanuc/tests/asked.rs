@@ -1,23 +1,16 @@
 //! Branches that calls choose.
 
+use super::flow::tools_of;
 use super::*;
+
+const ACTIVE: &str = "UF : F, UT : F,\t\tCONFIG : 'N U T, 0, 0, 0',";
 
 /// The tools of the move behind these lines, which call a program with these.
 fn tools(lines: &str, setup: &str) -> Vec<String> {
-    let active = "UF : F, UT : F,\t\tCONFIG : 'N U T, 0, 0, 0',";
-    let main = listing(
-        &format!("UTOOL_NUM=9 ;\n{lines}\nJ P[1] 1% FINE ;"),
-        &pose("1", active),
-    );
+    let lines = format!("UTOOL_NUM=9 ;\n{lines}\nJ P[1] 1% FINE ;");
+    let main = listing(&lines, &pose("1", ACTIVE));
     let setup = listing(setup, "").replace("TEST", "SETUP");
-    let program = read_files(&[("test.ls", &main), ("setup.ls", &setup)]).expect("programs");
-    let moves = program.moves.iter();
-    let mut names: Vec<String> = moves
-        .map(|motion| program.tools[motion.tool].name.clone())
-        .collect();
-    names.sort();
-    names.dedup();
-    names
+    tools_of(&[("test.ls", &main), ("setup.ls", &setup)])
 }
 
 const BY_IF: &str = "IF (AR[1:which]=1) THEN ;\nUTOOL_NUM=4 ;\nELSE ;\n\
@@ -45,17 +38,11 @@ fn arguments_choose_their_branch() {
 
 #[test]
 fn what_chooses_may_be_handed_on() {
-    let active = "UF : F, UT : F,\t\tCONFIG : 'N U T, 0, 0, 0',";
-    let main = listing("CALL CELL(2) ;\nJ P[1] 1% FINE ;", &pose("1", active));
+    let main = listing("CALL CELL(2) ;\nJ P[1] 1% FINE ;", &pose("1", ACTIVE));
     let cell = listing("CALL SETUP(AR[1]) ;", "").replace("TEST", "CELL");
     let setup = listing(BY_JUMP, "").replace("TEST", "SETUP");
     let files = [("a.ls", &*main), ("b.ls", &*cell), ("c.ls", &*setup)];
-    let program = read_files(&files).expect("programs");
-    let tools = program
-        .moves
-        .iter()
-        .map(|of| program.tools[of.tool].name.as_str());
-    assert_eq!(tools.collect::<Vec<_>>(), ["5"]);
+    assert_eq!(tools_of(&files), ["5"]);
 }
 
 /// What the text does not tell is not decided.

@@ -10,7 +10,7 @@ fn tools(lines: &str) -> Vec<String> {
     tools_of(&[("a.ls", &listing(lines, &pose("1", ACTIVE)))])
 }
 
-fn tools_of(files: &[(&str, &str)]) -> Vec<String> {
+pub(super) fn tools_of(files: &[(&str, &str)]) -> Vec<String> {
     let program = read_files(files).expect("a program");
     assert!(blocked(&program).is_empty(), "{files:?}");
     let moves = program

@@ -63,6 +63,7 @@ fn a_number_that_a_call_gives_chooses_the_branch() {
         "IF SIG(1) THEN\nTOOL grip\nELSEIF .n==2 THEN\nTOOL off\nELSE\nTOOL grip\nEND",
         "CASE .n OF\nVALUE 1:\nTOOL grip\nVALUE 2:\nTOOL off\nEND",
         "CASE .n OF\nVALUE 2:\nTOOL off\nANY :\nTOOL grip\nEND",
+        "CASE .n OF\nVALUE 3, 2:\nTOOL off\nVALUE 7,1:\nTOOL grip\nEND",
     ] {
         let found = placed(code, &format!("take(.n)\n{take}"));
         if take.contains("SIG") {

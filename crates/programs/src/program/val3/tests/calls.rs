@@ -89,12 +89,13 @@ fn a_point_keeps_its_frame_wherever_it_is_handed() {
     assert_eq!(blocked, ["pA"]);
 }
 
-const ALTERNATIVES: [&str; 5] = [
+const ALTERNATIVES: [&str; 6] = [
     "if x_n==1\ntNow=tA\nelse\ntNow=tB\nendIf",
     "if (x_n!=1)\ntNow=tB\nelse\ntNow=tA\nendIf",
     "if x_n==7\nelseIf x_n==1\ntNow=tA\nelseIf x_n==2\ntNow=tB\nendIf",
     "switch x_n\ncase 1\ntNow=tA\nbreak\ncase 2\ntNow=tB\nbreak\nendSwitch",
     "switch x_n\ncase 1\ntNow=tA\nbreak\ndefault\ntNow=tB\nbreak\nendSwitch",
+    "switch x_n\ncase 3, 2\ntNow=tB\nbreak\ncase 7, 1\ntNow=tA\nbreak\nendSwitch",
 ];
 
 #[test]
