@@ -7,13 +7,15 @@
 mod blocks;
 mod bounds;
 mod flow;
+mod joins;
 mod questions;
 mod rounds;
 
 pub(super) use blocks::{Blocks, Site};
 pub(super) use bounds::{bounds_in, compared_in, inside_brackets};
 use flow::Flow;
-pub(super) use questions::{Literal, cases, equality, question};
+pub(super) use joins::logic;
+pub(super) use questions::{Literal, Question, cases, equality, names_asked, questions};
 
 use super::functions;
 use super::quantity::{Arithmetic, Quantity, evaluate_in, is_letter};

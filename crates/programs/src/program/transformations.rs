@@ -475,8 +475,8 @@ impl<'a> Entries<'a> {
             }
         }
         for (number, site) in std::mem::take(&mut self.blank) {
-            // where nothing writes them nothing is meant by that
-            if self.numbers.is_written(number) {
+            // what the files do not say, and nothing writes, nobody knows
+            if site.is_some() || self.numbers.is_written(number) {
                 let zero = (Written::Exactly(0.0), self.here());
                 self.numbers.write(number, zero, site);
             }

@@ -1,6 +1,7 @@
 //! Words of statements: names, numbers, texts and signs, and lists of them in brackets.
 
-use super::script::{Wanted, short};
+use super::numbers::logic;
+use super::script::{Logic, Wanted, short};
 use super::{Number, number};
 use std::ops::Range;
 
@@ -292,23 +293,40 @@ impl<'a> Words<'a, '_> {
         all.collect::<Option<_>>().unwrap_or_default()
     }
 
-    /// What these words compare with a whole number, `n==1`, `(n<>1)`, and what it is to be.
-    pub(super) fn compared(&self) -> Option<(Self, Wanted)> {
-        if self.is(0, b'(') && self.closing(0) + 1 == self.len() {
-            return self.inside(0).0.compared();
-        }
+    /// What the parts of a condition compare with a whole number, `n==1 AND (m<>1)`, and what that is
+    /// to be.
+    pub(super) fn compared(&self) -> Logic<Option<(Self, Wanted)>> {
+        let whole = self.whole();
+        let first = self.span().start;
+        logic(whole, true).map(&mut |part| {
+            let start = first + (part.text.as_ptr() as usize - whole.as_ptr() as usize);
+            let end = start + part.text.len();
+            self.between(start..end).comparison(part.holds)
+        })
+    }
+
+    /// The words between these bytes.
+    fn between(&self, bytes: Range<usize>) -> Self {
+        let before = |end: usize| self.all.partition_point(|word| (word.start as usize) < end);
+        self.part(before(bytes.start)..before(bytes.end))
+    }
+
+    fn comparison(&self, holds: bool) -> Option<(Self, Wanted)> {
         let is_sign = |at: &usize| matches!(self.kind(*at), Some(Kind::Sign(b'~' | b'<')));
         let at = (0..self.len()).find(is_sign)?;
-        let (wanted, behind): (fn(i64) -> Wanted, usize) = match self.text(at) {
-            b"==" => (Wanted::Number, at + 1),
-            b"!=" => (Wanted::NotNumber, at + 1),
-            _ if self.is(at, b'<') && self.is(at + 1, b'>') => (Wanted::NotNumber, at + 2),
+        let (is_equal, behind) = match self.text(at) {
+            b"==" => (true, at + 1),
+            b"!=" => (false, at + 1),
+            _ if self.is(at, b'<') && self.is(at + 1, b'>') => (false, at + 2),
             _ => return None,
         };
-        Some((
-            self.part(0..at),
-            wanted(self.behind(behind).whole_number()?),
-        ))
+        let number = self.behind(behind).whole_number()?;
+        let wanted = if is_equal == holds {
+            Wanted::Number(number)
+        } else {
+            Wanted::NotNumber(number)
+        };
+        Some((self.part(0..at), wanted))
     }
 
     /// The number that these words are; `None` also where blanks stand behind its sign.
@@ -460,20 +478,35 @@ mod tests {
             (".n==2", Some((".n", Wanted::Number(2)))),
             ("(n <> -1)", Some(("n", Wanted::NotNumber(-1)))),
             ("n!=1.0", Some(("n", Wanted::NotNumber(1)))),
-            ("NOT n==1", Some(("NOT n", Wanted::Number(1)))),
+            ("NOT n==1", Some(("n", Wanted::NotNumber(1)))),
             ("n==1.5", None),
-            ("n==1 AND m==2", None),
             ("n<1", None),
             ("n>=1", None),
             ("n==m", None),
         ] {
             with_words(text, |words| {
-                let found = words.compared();
+                let compared = words.compared();
+                let [found] = compared.parts()[..] else {
+                    panic!("{text}: {compared:?}");
+                };
                 let found = found.map(|(name, wanted)| (name.whole().to_vec(), wanted));
                 let expected = expected.map(|(name, wanted)| (name.as_bytes().to_vec(), wanted));
                 assert_eq!(found, expected, "{text}");
             });
         }
+    }
+
+    #[test]
+    fn comparisons_that_words_join_are_each_one() {
+        with_words(" ( .n==2 AND (m<>1 OR x) )", |words| {
+            let named = words
+                .compared()
+                .map(&mut |of| of.map(|(name, wanted)| (name.whole().to_vec(), wanted)));
+            let one = |name: &[u8], wanted| Logic::One(Some((name.to_vec(), wanted)));
+            let either = Logic::Any(vec![one(b"m", Wanted::NotNumber(1)), Logic::One(None)]);
+            let all = Logic::All(vec![one(b".n", Wanted::Number(2)), either]);
+            assert_eq!(named, all);
+        });
     }
 
     #[test]

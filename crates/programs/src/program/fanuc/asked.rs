@@ -4,8 +4,8 @@
 use super::content::canonical;
 use super::reader::Reader;
 use super::words::{comma, indexed, whole};
-use crate::program::numbers::equality;
-use crate::program::script::{Test, VariableId, Wanted};
+use crate::program::numbers::{equality, logic};
+use crate::program::script::{Test, Tests, VariableId, Wanted};
 
 /// The number of the argument that a text is.
 fn argument(text: &[u8]) -> Option<u32> {
@@ -13,13 +13,17 @@ fn argument(text: &[u8]) -> Option<u32> {
 }
 
 impl Reader<'_> {
-    /// What a condition asks of an argument.
-    pub(super) fn test(&mut self, condition: &[u8]) -> Option<Test> {
+    /// What a condition asks of arguments.
+    pub(super) fn tests(&mut self, condition: &[u8]) -> Tests {
         let text = canonical(condition.trim_ascii());
-        let (before, behind, is_equal) = equality(&text)?;
+        logic(&text, true).map(&mut |part| self.test(part.text, part.holds))
+    }
+
+    fn test(&mut self, comparison: &[u8], holds: bool) -> Option<Test> {
+        let (before, behind, is_equal) = equality(comparison)?;
         let mut sides = [(before, behind), (behind, before)].into_iter();
         let (of, number) = sides.find_map(|(of, number)| argument(of).zip(whole(number)))?;
-        let wanted = if is_equal {
+        let wanted = if is_equal == holds {
             Wanted::Number
         } else {
             Wanted::NotNumber

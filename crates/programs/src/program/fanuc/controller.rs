@@ -140,8 +140,9 @@ impl Why {
             ),
             Self::Uninitialised => (
                 "target-uninitialised",
-                "this point was never taught (********), and a move goes there",
-                "teach the point, or take the move out",
+                "this point was never taught (********), and a move goes there: the controller stops \
+                 at it",
+                "teach the point at the robot, where it is exact as it is, or take the move out",
             ),
             Self::Axes => (
                 "target-not-six-axes",
@@ -161,7 +162,9 @@ impl Why {
             ),
         };
         let severity = match self {
-            Self::Computed | Self::Written | Self::Corrected => Severity::Warning,
+            Self::Computed | Self::Written | Self::Corrected | Self::Uninitialised => {
+                Severity::Warning
+            }
             _ => Severity::Error,
         };
         let text = text.into();

@@ -358,7 +358,7 @@ pub(super) fn ends(range: &[u8]) -> Option<(&[u8], &[u8], bool)> {
 /// The counter and range of `R[1]=1 TO 4`.
 pub(super) fn counter(text: &[u8]) -> Option<(u32, &[u8])> {
     let inside = text.strip_prefix(b"R[")?;
-    let end = memchr::memchr(b']', inside)?;
+    let end = bracket_end(inside)?;
     let number = whole(&inside[..end]).filter(|number| *number < MOST_NUMBER)?;
     let range = inside[end + 1..].trim_ascii_start().strip_prefix(b"=")?;
     Some((number, range))

@@ -1,7 +1,7 @@
 //! `/MN`: the instructions of a program, each with its place.
 
 use super::sections::line_end;
-use super::words::motion;
+use super::words::{motion, outside};
 use std::ops::Range;
 
 /// Bytes of an instruction; what is longer is none.
@@ -135,18 +135,17 @@ impl Iterator for Lines<'_> {
     }
 }
 
-/// The `;` that ends an instruction: not one in a string.
+/// The `;` that ends an instruction: not one in a string or a name.
 fn semicolon(line: &[u8]) -> Option<usize> {
     let found = memchr::memchr(b';', line)?;
-    if memchr::memchr(b'\'', &line[..found]).is_none() {
+    let before = &line[..found];
+    let count = |bracket| memchr::memchr_iter(bracket, before).count();
+    if memchr::memchr(b'\'', before).is_none() && count(b'[') == count(b']') {
         return Some(found);
     }
-    let mut inside = false;
-    let outside = line.iter().position(|&b| {
-        inside ^= b == b'\'';
-        b == b';' && !inside
-    });
-    outside.or(Some(found))
+    let mut all = outside(line);
+    let end = all.find(|(_, byte)| *byte == b';').map(|(at, _)| at);
+    end.or(Some(found))
 }
 
 #[cfg(test)]
@@ -172,6 +171,15 @@ mod tests {
             ["C P[23] \n    :  P[24:end] 250mm/sec CNT2 "]
         );
         assert_eq!(of("1:X('a;b') ; Y ;"), ["X('a;b') ", "Y "]);
+        let named = "1:PR[9,1:off;]=5 ;\n2:L P[2:Pick;Pt] 9mm/sec FINE Offset,PR[9:a[] ; X ;";
+        assert_eq!(
+            of(named),
+            [
+                "PR[9,1:off;]=5 ",
+                "L P[2:Pick;Pt] 9mm/sec FINE Offset,PR[9:a[] ",
+                "X "
+            ]
+        );
         assert_eq!(of("1: --eg:L P[1] ;\n2: !L P[1] ;").len(), 0);
         let long = "4:--eg:old tool\r\n  : UTOOL_NUM=2 ; and\r\n  : L P[1] ;\r\n  5:X ;";
         assert_eq!(of(long), ["X "]);

@@ -4,7 +4,7 @@ use super::controller::{Kind, Why, kinds};
 use super::lines::Line;
 use super::offsets::Axes;
 use super::reader::Reader;
-use super::words::{Named, position, word_length};
+use super::words::{Named, outside, position, word_length};
 use crate::geometry::units::MM;
 use crate::program::script::{Expr, Instruction, Modal, Remark, Span, short};
 use crate::program::{Motion, SpeedZone, number};
@@ -479,15 +479,16 @@ fn token(text: &[u8], from: usize) -> Option<Range<usize>> {
     let is_gap = |b: &u8| b.is_ascii_whitespace() || matches!(b, b',' | b':');
     let start = from + text[from..].iter().position(|b| !is_gap(b))?;
     let mut depth = 0_u32;
-    let length = text[start..].iter().position(|b| {
-        match b {
-            b'[' | b'(' => depth += 1,
-            b']' | b')' => depth = depth.saturating_sub(1),
-            _ => return depth == 0 && is_gap(b),
+    let ends = |&(_, byte): &(usize, u8)| {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth = depth.saturating_sub(1),
+            _ => return depth == 0 && is_gap(&byte),
         }
         false
-    });
-    Some(start..length.map_or(text.len(), |length| start + length))
+    };
+    let end = outside(&text[start..]).find(ends);
+    Some(start..end.map_or(text.len(), |(length, _)| start + length))
 }
 
 /// Whether a word behind the position says no more than how fast and how near to go.

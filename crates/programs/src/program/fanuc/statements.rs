@@ -131,8 +131,8 @@ impl Reader<'_> {
                 let inside = self.known.open();
                 let condition = before_then(rest).unwrap_or_default();
                 self.known.check(inside, condition);
-                let test = self.test(condition);
-                self.builder.begin_if(test);
+                let tests = self.tests(condition);
+                self.builder.begin_if(tests);
             }
             (b"ENDIF", _) => {
                 self.known.close();
@@ -235,13 +235,13 @@ impl Reader<'_> {
             } else {
                 self.known.open()
             };
-            let mut test = None;
+            let mut tests = None.into();
             if matches!(name, b"IF" | b"WENN") {
                 let condition = &known[name.len()..];
                 self.known.check(inside, condition);
-                test = self.test(condition);
+                tests = self.tests(condition);
             }
-            self.builder.begin_if(test);
+            self.builder.begin_if(tests);
             self.behind_comma(text, depth);
             self.builder.end_choice();
             if is_jump {

@@ -111,23 +111,31 @@ pub(super) fn element(index: &[u8]) -> Option<u32> {
 
 /// The comma behind the number of a register: one may be a part of the name, too.
 fn comma_of_element(index: &[u8]) -> Option<usize> {
-    let mut open = 0_u32;
-    let ends = |b: &u8| {
-        match b {
-            b'[' => open += 1,
-            b']' => open = open.saturating_sub(1),
-            _ => return open == 0 && matches!(b, b',' | b':'),
-        }
-        false
-    };
-    let at = index.iter().position(ends)?;
-    (index[at] == b',').then_some(at)
+    let (at, ends) = outside(index).find(|(_, byte)| matches!(byte, b',' | b':'))?;
+    (ends == b',').then_some(at)
 }
 
-/// The length of what stands before the `]` that closes a bracket.
+/// The length of what stands before the `]` that closes a bracket: `4,2:name`, `GP1:R[1:name]`.
 pub(super) fn bracket_end(inside: &[u8]) -> Option<usize> {
+    let inside = &inside[..inside.len().min(MOST_INDEX)];
+    let mut at = 0;
+    loop {
+        match inside.get(at)? {
+            b'[' => at += bracket_end(&inside[at + 1..])? + 2,
+            b']' => return Some(at),
+            b':' if !is_group(&inside[..at]) => {
+                return name_end(&inside[at..]).map(|length| at + length);
+            }
+            _ => at += 1,
+        }
+    }
+}
+
+/// The length of a name, which may have any letters: to the `]` up to which its brackets are in
+/// pairs, else to the first.
+fn name_end(name: &[u8]) -> Option<usize> {
     let mut depth = 0_u32;
-    inside.iter().take(MOST_INDEX).position(|&b| {
+    let paired = name.iter().position(|&b| {
         match b {
             b'[' => depth += 1,
             b']' if depth == 0 => return true,
@@ -135,7 +143,16 @@ pub(super) fn bracket_end(inside: &[u8]) -> Option<usize> {
             _ => {}
         }
         false
-    })
+    });
+    paired.or_else(|| memchr::memchr(b']', name))
+}
+
+/// Whether a text is `GP1`, `GP2`.
+fn is_group(text: &[u8]) -> bool {
+    let text = text.trim_ascii();
+    text.len() > 2
+        && text[..2].eq_ignore_ascii_case(b"GP")
+        && text[2..].iter().all(u8::is_ascii_digit)
 }
 
 /// A whole number, and nothing else but the name behind its colon.
@@ -182,37 +199,52 @@ pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|&b| !is_word(b)).filter(|word| !word.is_empty())
 }
 
-/// Where a text stands that is read byte by byte.
-#[derive(Default)]
-struct Inside {
-    /// Indices that are open.
-    indices: u32,
-    /// A string is open.
-    string: bool,
+/// The bytes of a text outside strings and names, each with where it stands and in how many
+/// brackets. In a name an apostrophe or a semicolon is a letter: `DI[1:FIN D'USINAGE;]`.
+fn letters(text: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
+    let mut at = 0;
+    let mut is_string = false;
+    let mut open = Vec::new();
+    std::iter::from_fn(move || {
+        loop {
+            let byte = *text.get(at)?;
+            let here = at;
+            at += 1;
+            match byte {
+                b'\'' => is_string = !is_string,
+                _ if is_string => {}
+                b'[' if bracket_end(&text[at..]).is_some() => {
+                    open.push(at);
+                    return Some((here, byte, open.len() - 1));
+                }
+                b']' => {
+                    open.pop();
+                    return Some((here, byte, open.len()));
+                }
+                b':' if open
+                    .last()
+                    .is_some_and(|start| !is_group(&text[*start..here])) =>
+                {
+                    at += name_end(&text[at..]).unwrap_or(0);
+                    return Some((here, byte, open.len()));
+                }
+                _ => return Some((here, byte, open.len())),
+            }
+        }
+    })
 }
 
-impl Inside {
-    /// The next byte. In an index an apostrophe is a letter of a name: `DI[1:FIN D'USINAGE]`.
-    fn follow(&mut self, byte: u8) {
-        match byte {
-            b'[' if !self.string => self.indices += 1,
-            b']' if !self.string => self.indices = self.indices.saturating_sub(1),
-            b'\'' if self.indices == 0 => self.string = !self.string,
-            _ => {}
-        }
-    }
+/// The bytes of a text outside strings and brackets, each with where it stands.
+pub(super) fn outside(text: &[u8]) -> impl Iterator<Item = (usize, u8)> {
+    let outside = letters(text).filter(|(.., depth)| *depth == 0);
+    outside.map(|(at, byte, _)| (at, byte))
 }
 
 /// Hands over the positions of a text that stand outside strings.
 pub(super) fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
-    let mut inside = Inside::default();
-    for (at, &byte) in text.iter().enumerate() {
-        inside.follow(byte);
+    for (at, ..) in letters(text) {
         let alone = at == 0 || !is_word(text[at - 1]);
-        if alone
-            && !inside.string
-            && let Some((named, _)) = position(&text[at..])
-        {
+        if alone && let Some((named, _)) = position(&text[at..]) {
             take(named);
         }
     }
@@ -220,17 +252,16 @@ pub(super) fn each_position(text: &[u8], mut take: impl FnMut(Named)) {
 
 /// The first comma that stands outside brackets and strings.
 pub(super) fn comma(text: &[u8]) -> Option<usize> {
-    let (mut inside, mut open) = (Inside::default(), 0_u32);
-    text.iter().position(|&b| {
-        inside.follow(b);
-        match b {
-            _ if inside.string || inside.indices > 0 => {}
+    let mut open = 0_u32;
+    let ends = |&(_, byte): &(usize, u8)| {
+        match byte {
             b'(' => open += 1,
             b')' => open = open.saturating_sub(1),
-            _ => return open == 0 && b == b',',
+            _ => return open == 0 && byte == b',',
         }
         false
-    })
+    };
+    outside(text).find(ends).map(|(at, _)| at)
 }
 
 /// The parts of a text between its commas.
@@ -266,6 +297,18 @@ mod tests {
         ] {
             let found = position(text.as_bytes());
             assert_eq!(found, Some((wanted, text.len())), "{text}");
+        }
+        // any letter may be part of a name
+        for name in ["a;b", "off[", "a[b]", "it's", "a,b", "GP2:x", ":"] {
+            for (text, wanted) in [
+                (format!("P[3:{name}]"), Named::Point(3)),
+                (format!("PR[4,2:{name}]"), register(Some(4), true)),
+                (format!("PR[R[1:{name}],2:{name}]"), register(None, true)),
+            ] {
+                let behind = format!("{text}=LPOS ;");
+                let found = position(behind.as_bytes());
+                assert_eq!(found, Some((wanted, text.len())), "{text}");
+            }
         }
         for text in ["", "P", "P[1", "PX[1]", "R[1]", "PAL"] {
             assert_eq!(position(text.as_bytes()), None, "{text}");
@@ -313,5 +356,9 @@ mod tests {
         };
         assert_eq!(of(b"PR[1:l'axe]+PR[2]"), [register(1), register(2)]);
         assert_eq!(of(b"LOG('P[1]',P[2])"), [Named::Point(2)]);
+        assert_eq!(
+            of(b"PR[1:P[9]]=MATRIX[P[1:a],PR[GP1:2:b;P[7]]"),
+            [register(1), Named::Point(1), register(2)]
+        );
     }
 }

@@ -16,7 +16,7 @@ use crate::program::contexts::Calls;
 use crate::program::kit::label_key;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, Test, UNBOUNDED, ValueId,
+    Builder, Expr, Held, How, Place, Remark, RoutineId, Script, Start, Tests, UNBOUNDED, ValueId,
     Variable, VariableId, Written, short,
 };
 use crate::program::words::Words;
@@ -332,14 +332,14 @@ impl<'a> Reader<'a> {
         let has = |word: &[u8]| part.find(word).is_some();
         match statement.keyword {
             "IF" if has(b"THEN") => {
-                let test = self.test(part);
-                self.builder.begin_if(test);
+                let tests = self.tests(part);
+                self.builder.begin_if(tests);
             }
             "IF" => self.jump(part, true),
             "ELSEIF" => {
                 self.builder.next_branch(true);
-                let test = self.test(part);
-                self.builder.pass_branch(test);
+                let tests = self.tests(part);
+                self.builder.pass_branch(tests);
             }
             "VALUE" => {
                 self.builder.next_branch(true);
@@ -367,11 +367,13 @@ impl<'a> Reader<'a> {
         true
     }
 
-    /// What `IF .n==1 THEN` asks of a number that calls give.
-    fn test(&mut self, part: Words) -> Option<Test> {
+    /// What `IF .n==1 THEN` asks of numbers that calls give.
+    fn tests(&mut self, part: Words) -> Tests {
         let end = part.find(b"THEN").unwrap_or(part.len());
-        let (name, wanted) = part.part(1..end.max(1)).compared()?;
-        Some((self.given_number(name)?, wanted))
+        part.part(1..end.max(1)).compared().map(&mut |compared| {
+            let (name, wanted) = (*compared)?;
+            Some((self.given_number(name)?, wanted))
+        })
     }
 
     /// `GOTO label`

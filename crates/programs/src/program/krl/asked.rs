@@ -10,8 +10,8 @@ use super::tokens::{Cursor, Kind};
 use crate::program::kit::spread;
 use crate::program::names::{Context, Symbol};
 use crate::program::number;
-use crate::program::numbers::{Literal, cases, question, word};
-use crate::program::script::{Expr, Test, VariableId};
+use crate::program::numbers::{Literal, Question, cases, names_asked, questions, word};
+use crate::program::script::{Expr, Test, Tests, VariableId};
 use foldhash::HashSet;
 
 /// The largest INT.
@@ -140,19 +140,25 @@ fn condition(cursor: Cursor<'_>) -> &[u8] {
 impl Reader {
     /// Notes what an IF or SWITCH asks about.
     pub(super) fn note_asked(&mut self, word: &[u8], cursor: Cursor) {
-        let name = match word {
-            b"IF" => question(condition(cursor)).map(|of| of.name),
-            b"SWITCH" => Some(text_of(cursor)),
-            _ => None,
+        let names = match word {
+            b"IF" => names_asked(condition(cursor)),
+            b"SWITCH" => vec![text_of(cursor)],
+            _ => Vec::new(),
         };
-        let name = name.and_then(|name| self.names.symbols.find(name));
-        let own = name.and_then(|name| self.names.own(name, self.context()));
+        let names = names
+            .into_iter()
+            .filter_map(|name| self.names.symbols.find(name));
+        let own = names.filter_map(|name| self.names.own(name, self.context()));
+        let own: Vec<u32> = own.collect();
         self.names.asked.parameters.extend(own);
     }
 
-    /// What an IF asks of a parameter.
-    pub(super) fn test(&mut self, cursor: Cursor) -> Option<Test> {
-        let of = question(condition(cursor))?;
+    /// What an IF asks of parameters.
+    pub(super) fn tests(&mut self, cursor: Cursor) -> Tests {
+        questions(condition(cursor)).map(&mut |of| self.test(of.as_ref()?))
+    }
+
+    fn test(&mut self, of: &Question) -> Option<Test> {
         let wanted = of.wanted(|text| self.names.literal(text))?;
         Some((self.asked_of(of.name)?, wanted))
     }

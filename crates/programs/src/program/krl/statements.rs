@@ -526,8 +526,8 @@ impl Reader {
     fn flow(&mut self, word: &[u8], mut cursor: Cursor) -> bool {
         match word {
             b"IF" => {
-                let test = self.test(cursor);
-                self.builder.begin_if(test);
+                let tests = self.tests(cursor);
+                self.builder.begin_if(tests);
             }
             b"ELSE" | b"DEFAULT" => self.builder.next_branch(true),
             b"ENDIF" | b"ENDSWITCH" => self.builder.end_choice(),

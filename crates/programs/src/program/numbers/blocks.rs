@@ -17,7 +17,7 @@ pub(in crate::program) struct Site {
     pub(super) order: u32,
     /// Outermost first.
     pub(super) blocks: Vec<Block>,
-    /// In [`Flow`]; `None` before the routine begins.
+    /// In [`Flow`]; `None` where the routine begins.
     pub(super) step: Option<u32>,
 }
 

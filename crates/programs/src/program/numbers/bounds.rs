@@ -1,8 +1,9 @@
 //! What conditions say of numbers, and counters of loops that they bound: `WHILE n<10`.
 
 use super::super::quantity::{Quantity, is_letter};
+use super::joins::logic;
 use super::rounds::growths;
-use super::{Numbers, Site, word};
+use super::{Numbers, Site};
 
 /// Where each round of a block begins, a number is to a limit as given.
 #[derive(Debug)]
@@ -117,32 +118,19 @@ impl Relation {
     }
 }
 
-/// The comparisons of a condition that all are as they stand where it holds, or all the contrary
-/// where it does not: those that `AND` joins, or `OR`.
+/// The comparisons of a condition that all are as they are here where it holds, or where it does not.
 fn comparisons(condition: &[u8], holds: bool) -> Vec<(&[u8], Relation, &[u8])> {
-    let condition = inside_brackets(condition);
-    let capitals = condition.to_ascii_uppercase();
-    let (joins, other) = if holds { ("AND", "OR") } else { ("OR", "AND") };
-    let names = [other, "NOT", "XOR"];
-    let is_negated = capitals
-        .windows(2)
-        .any(|two| two[0] == b'!' && two[1] != b'=');
-    if is_negated || names.iter().any(|name| word(&capitals, name).is_some()) {
-        return Vec::new();
-    }
-    let (mut all, mut from) = (Vec::new(), 0);
-    loop {
-        let join = word(&capitals[from..], joins);
-        let part = &condition[from..join.map_or(condition.len(), |at| from + at)];
-        all.extend(comparison(part).map(|(before, relation, behind)| {
-            let relation = if holds { relation } else { relation.negated() };
-            (before, relation, behind)
-        }));
-        match join {
-            Some(at) => from += at + joins.len(),
-            None => return all,
-        }
-    }
+    let parts = logic(condition, holds);
+    let compared = parts.conjuncts().into_iter().filter_map(|part| {
+        let (before, relation, behind) = comparison(part.text)?;
+        let relation = if part.holds {
+            relation
+        } else {
+            relation.negated()
+        };
+        Some((before, relation, behind))
+    });
+    compared.collect()
 }
 
 /// Brackets around brackets that are looked into.
@@ -233,7 +221,10 @@ mod tests {
             ("n<>10", &[("n", Relation::NotEqual, "10")]),
             ("n<m", &[("n", below(true), "m"), ("m", above(true), "n")]),
             ("n<10 OR x", &[]),
-            ("NOT n<10", &[]),
+            ("NOT n<10", &[("n", above(false), "10")]),
+            ("NOT n<10 AND m<1", &[]),
+            ("n<10 AND m<1 OR di1", &[]),
+            ("n<10 AND (m<1 OR di1)", &[("n", below(true), "10")]),
             ("!(di1 AND n<10 AND di2)", &[]),
             ("TRUE", &[]),
             ("(n<10", &[]),

@@ -45,6 +45,8 @@ pub(super) enum Passed {
     Step(u32),
     /// From a step to the next one (`true`), or to another.
     Edge(u32, bool),
+    /// Where the routine begins, before its first step.
+    Start,
 }
 
 /// The steps of a routine: those at which numbers are written, and those from which it goes elsewhere than to
@@ -197,14 +199,16 @@ impl Flow {
                 Step::Other(to) | Step::Either(to) => Some((to, false)),
             };
             for (to, is_next) in next.into_iter().chain(other) {
-                let to = if (to as usize) < self.steps.len() {
-                    to
-                } else {
-                    0
-                };
-                let Some(state) = pass(Passed::Edge(at, is_next), state) else {
+                let Some(mut state) = pass(Passed::Edge(at, is_next), state) else {
                     continue;
                 };
+                let mut to = to;
+                if to as usize >= self.steps.len() {
+                    let Some(anew) = pass(Passed::Start, state) else {
+                        continue;
+                    };
+                    (to, state) = (0, anew);
+                }
                 if to == step {
                     found |= 1 << state;
                     continue;

@@ -1,9 +1,10 @@
-//! What conditions ask of one name, and the values that branches tell apart: `n==1`, `(tool<>#A)`,
+//! What conditions ask of names, and the values that branches tell apart: `n==1`, `(tool<>#A) AND b`,
 //! `NOT b`.
 
 use super::super::quantity::is_letter;
-use super::bounds::{Relation, comparison, inside_brackets};
-use crate::program::script::{Held, Wanted};
+use super::bounds::{Relation, comparison};
+use super::joins::{Part, logic};
+use crate::program::script::{Held, Logic, Wanted};
 
 /// A value that branches tell from others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,24 +62,23 @@ pub(in crate::program) struct Question<'a> {
     pub holds: bool,
 }
 
-/// What a condition asks where that is one name.
-pub(in crate::program) fn question(condition: &[u8]) -> Option<Question<'_>> {
-    let mut condition = inside_brackets(condition);
-    let mut holds = true;
-    while let Some(rest) = behind_not(condition) {
-        (condition, holds) = (inside_brackets(rest), !holds);
-    }
+/// What the parts of a condition ask that are about one name.
+pub(in crate::program) fn questions(condition: &[u8]) -> Logic<Option<Question<'_>>> {
+    logic(condition, true).map(&mut |part| question(*part))
+}
+
+fn question(Part { text, holds }: Part<'_>) -> Option<Question<'_>> {
     let is_name = |text: &[u8]| {
         text.iter().all(|b| is_letter(*b)) && text.first().is_some_and(|b| !b.is_ascii_digit())
     };
-    if is_name(condition) {
+    if is_name(text) {
         return Some(Question {
-            name: condition,
+            name: text,
             of: None,
             holds,
         });
     }
-    let (before, behind, is_equal) = equality(condition)?;
+    let (before, behind, is_equal) = equality(text)?;
     let (name, of) = if is_name(before) && Literal::flag(before).is_none() {
         (before, behind)
     } else {
@@ -91,6 +91,13 @@ pub(in crate::program) fn question(condition: &[u8]) -> Option<Question<'_>> {
         of: Some(of),
         holds: holds == is_equal,
     })
+}
+
+/// The names that a condition asks about.
+pub(in crate::program) fn names_asked(condition: &[u8]) -> Vec<&[u8]> {
+    let questions = questions(condition);
+    let asked = questions.parts().into_iter().flatten();
+    asked.map(|question| question.name).collect()
 }
 
 impl Question<'_> {
@@ -117,13 +124,6 @@ pub(in crate::program) fn equality(condition: &[u8]) -> Option<(&[u8], &[u8], bo
     }
 }
 
-/// What stands behind a NOT in front.
-fn behind_not(condition: &[u8]) -> Option<&[u8]> {
-    let (not, rest) = condition.split_at_checked(3)?;
-    let is_word = rest.first().is_some_and(|b| !is_letter(*b));
-    (is_word && not.eq_ignore_ascii_case(b"NOT")).then_some(rest)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,18 +145,21 @@ mod tests {
             ("NOT NOT n==2", Some(("n", "2", true))),
             ("notice", Some(("notice", "", true))),
             ("n<1", None),
-            ("n==1 AND b", None),
-            ("n==1 OR n==2", None),
-            ("b AND n==1", None),
             ("NOT b AND n==1", None),
+            ("b==TRUE AND n==1", None),
             ("a b", None),
             ("f(n)==1", None),
             ("n[1]==1", None),
             ("", None),
             ("NOT", Some(("NOT", "", true))),
         ] {
-            let found = question(condition.as_bytes());
-            let found = found.map(|of| (text(of.name), text(of.of.unwrap_or_default()), of.holds));
+            let asked = questions(condition.as_bytes());
+            let [found] = asked.parts()[..] else {
+                panic!("{condition}: {asked:?}");
+            };
+            let found = found
+                .as_ref()
+                .map(|of| (text(of.name), text(of.of.unwrap_or_default()), of.holds));
             let wanted = wanted.map(|(name, of, holds)| (name.to_owned(), of.to_owned(), holds));
             assert_eq!(found, wanted, "{condition}");
         }

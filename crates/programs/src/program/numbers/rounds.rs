@@ -38,8 +38,8 @@ pub(super) struct Bounded {
     routine: u32,
     /// The step at which it grows.
     grows: u32,
-    /// Those at which the routine sets it anew, in order; `None` where something else does, too.
-    resets: Option<Vec<u32>>,
+    /// Where the routine sets it anew; `None` where something else does, too.
+    resets: Option<Resets>,
 }
 
 impl<W> Numbers<W> {
@@ -77,8 +77,8 @@ impl<W> Numbers<W> {
         if gathered.is_elsewhere || self.runs_inside_itself(site.routine) {
             return None;
         }
-        let resets = steps_of(&gathered.resets, site.routine);
-        let anew = |passed: Passed| is_at(passed, &resets);
+        let resets = Resets::of(&gathered.resets, site.routine);
+        let anew = |passed: Passed| resets.are_at(passed);
         if self.again(flow, step, &|passed, _| (!anew(passed)).then_some(0))? == 0 {
             return Some(1);
         }
@@ -142,9 +142,9 @@ impl<W> Numbers<W> {
                 })
             })
             .collect();
-        let resets = steps_of(&gathered.resets, site.routine);
+        let resets = Resets::of(&gathered.resets, site.routine);
         let is_bounded = |edges: &[Passed]| {
-            let is_wall = |passed: Passed| is_at(passed, &resets) || edges.contains(&passed);
+            let is_wall = |passed: Passed| resets.are_at(passed) || edges.contains(&passed);
             self.again(flow, grows, &|passed, _| (!is_wall(passed)).then_some(0)) == Some(0)
         };
         // between two limits it may pass one that it never equals where that is looked at
@@ -157,7 +157,7 @@ impl<W> Numbers<W> {
             is_bounded(&edges).then_some((most, edges))
         });
         let (most, edges) = each.min_by_key(|(most, _)| *most)?;
-        let is_here = |reset: &&Site| reset.routine == site.routine && reset.step.is_some();
+        let is_here = |reset: &&Site| reset.routine == site.routine;
         Some(Rc::new(Bounded {
             most,
             edges,
@@ -179,7 +179,7 @@ impl<W> Numbers<W> {
         // the other number begins anew on the way
         let restarts = self.again(flow, step, &|passed, state| match passed {
             _ if anew(passed) => None,
-            _ if is_at(passed, resets) => Some(1),
+            _ if resets.are_at(passed) => Some(1),
             _ => Some(state),
         })?;
         if restarts & 2 != 0 {
@@ -214,17 +214,34 @@ impl<W> Numbers<W> {
     }
 }
 
-/// Whether that is one of the steps, which are in order.
-fn is_at(passed: Passed, steps: &[u32]) -> bool {
-    matches!(passed, Passed::Step(at) if steps.binary_search(&at).is_ok())
+/// Where a routine sets a number anew.
+#[derive(Clone, Debug, Default)]
+struct Resets {
+    /// In order.
+    steps: Vec<u32>,
+    /// Where the routine begins.
+    at_start: bool,
 }
 
-/// The steps at which a routine sets a number anew, in order.
-fn steps_of(resets: &[&Site], routine: u32) -> Vec<u32> {
-    let here = resets.iter().filter(|reset| reset.routine == routine);
-    let mut steps: Vec<u32> = here.filter_map(|reset| reset.step).collect();
-    steps.sort_unstable();
-    steps
+impl Resets {
+    fn of(resets: &[&Site], routine: u32) -> Self {
+        let here = || resets.iter().filter(|reset| reset.routine == routine);
+        let mut steps: Vec<u32> = here().filter_map(|reset| reset.step).collect();
+        steps.sort_unstable();
+        Self {
+            steps,
+            at_start: here().any(|reset| reset.step.is_none()),
+        }
+    }
+
+    /// Whether that is one of them.
+    fn are_at(&self, passed: Passed) -> bool {
+        match passed {
+            Passed::Step(at) => self.steps.binary_search(&at).is_ok(),
+            Passed::Edge(..) => false,
+            Passed::Start => self.at_start,
+        }
+    }
 }
 
 /// How often a number grows at most that is one of these at first, where each time but the first it

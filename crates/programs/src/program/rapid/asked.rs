@@ -9,9 +9,9 @@ use crate::program::contexts::Numbered;
 use crate::program::kit::spread;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::number;
-use crate::program::numbers::{Literal, cases, inside_brackets, question};
+use crate::program::numbers::{Literal, Question, cases, inside_brackets, names_asked, questions};
 use crate::program::quantity::is_letter;
-use crate::program::script::{Expr, Test, Variable, VariableId, Wanted};
+use crate::program::script::{Expr, Test, Tests, Variable, VariableId, Wanted};
 
 /// The largest whole number that a num has with all its digits.
 const MOST_WHOLE: u32 = 1 << 23;
@@ -21,12 +21,16 @@ const MOST_WHOLE: u32 = 1 << 23;
 pub(super) enum Asked {
     /// Whether an optional parameter is given: `Present(name)` (true) or `NOT Present(name)`.
     Presence(Symbol, bool),
-    /// What a parameter is: the bytes of the condition.
+    /// What parameters are: the bytes of the condition.
     Value(Part),
 }
 
-/// What stands in front of the word or sign that ends a condition.
+/// What stands in front of the word or sign that ends a condition; nothing where a comment stands in
+/// it.
 fn without_end(text: &[u8]) -> &[u8] {
+    if text.contains(&b'!') {
+        return b"";
+    }
     let text = text.strip_suffix(b":").unwrap_or(text);
     let (rest, end) = text.split_at(text.len().saturating_sub(4));
     let is_word = rest.last().is_none_or(|b| !is_letter(*b));
@@ -40,19 +44,21 @@ impl Reader<'_> {
         let routine = self.context.routine?;
         let part = (start, self.behind.max(start));
         let text = without_end(&self.bytes[indices(part)]);
-        let name = match word {
+        let names = match word {
             b"case" => return Some(Asked::Value(part)),
-            b"test" => text,
-            _ => question(text)?.name,
+            b"test" => vec![text],
+            _ => names_asked(text),
         };
-        let name = self.parsed.symbols.find(name)?;
         let (first, end) = self.parsed.routines.get(routine as usize)?.parameters;
         let own = &self.parsed.data[indices((first, end))];
-        if own.iter().all(|datum| datum.name != name) {
-            return None;
-        }
-        self.parsed.values_asked.insert((routine, name));
-        Some(Asked::Value(part))
+        let names = names
+            .into_iter()
+            .filter_map(|name| self.parsed.symbols.find(name));
+        let of_parameters = names.filter(|name| own.iter().any(|datum| datum.name == *name));
+        let of_parameters: Vec<Symbol> = of_parameters.collect();
+        let asked = of_parameters.iter().map(|name| (routine, *name));
+        self.parsed.values_asked.extend(asked);
+        (!of_parameters.is_empty()).then_some(Asked::Value(part))
     }
 }
 
@@ -97,19 +103,25 @@ impl Resolved<'_> {
 
 impl Translator<'_> {
     /// On what a condition depends.
-    pub(super) fn test_of(&mut self, asked: Asked) -> Option<Test> {
+    pub(super) fn tests_of(&mut self, asked: Option<Asked>) -> Tests {
         match asked {
-            Asked::Presence(name, wanted) => {
-                let routine = self.context.routine?;
-                Some((self.presence(routine, name)?, Wanted::Flag(wanted)))
+            Some(Asked::Presence(name, wanted)) => {
+                let routine = self.context.routine;
+                let of = routine.and_then(|routine| self.presence(routine, name));
+                of.map(|of| (of, Wanted::Flag(wanted))).into()
             }
-            Asked::Value(part) => {
+            Some(Asked::Value(part)) => {
                 let resolved = self.resolved;
-                let of = question(resolved.condition_of(self.here.file, part))?;
-                let wanted = of.wanted(|text| self.literal(text))?;
-                Some((self.asked_value(of.name)?, wanted))
+                questions(resolved.condition_of(self.here.file, part))
+                    .map(&mut |of| self.test(of.as_ref()?))
             }
+            None => None.into(),
         }
+    }
+
+    fn test(&mut self, of: &Question) -> Option<Test> {
+        let wanted = of.wanted(|text| self.literal(text))?;
+        Some((self.asked_value(of.name)?, wanted))
     }
 
     /// About what a TEST asks.

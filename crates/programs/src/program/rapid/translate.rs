@@ -312,13 +312,13 @@ impl Translator<'_> {
                 self.function(function, is_last);
             }
             StatementKind::If(asked) => {
-                let test = asked.and_then(|asked| self.test_of(asked));
-                self.builder.begin_if(test);
+                let tests = self.tests_of(asked);
+                self.builder.begin_if(tests);
             }
             StatementKind::ElseIf(asked) => {
-                let test = asked.and_then(|asked| self.test_of(asked));
+                let tests = self.tests_of(asked);
                 self.builder.next_branch(true);
-                self.builder.pass_branch(test);
+                self.builder.pass_branch(tests);
             }
             StatementKind::Case(asked) => {
                 let numbers = asked.map_or(Vec::new(), |asked| self.cases(asked));

@@ -2,7 +2,7 @@
 
 use super::{
     Call, Condition, How, Instruction, Label, Loop, Modal, Place, Routine, RoutineId, Script,
-    Start, Statement, Test, VariableId, Wanted, Write, Written, short,
+    Start, Statement, Tests, VariableId, Wanted, Write, Written, short,
 };
 use crate::program::Displacement;
 use foldhash::HashMap;
@@ -188,20 +188,43 @@ impl Builder {
         self.script.statements.push(Statement::Branch(label));
     }
 
-    fn branch_unless(&mut self, test: Option<Test>, otherwise: Label) {
-        let Some(test) = test else {
-            return self.branch(otherwise);
-        };
-        let at = short(self.script.conditions.len());
-        self.script.conditions.push(Condition { test, otherwise });
-        self.script.statements.push(Statement::BranchUnless(at));
+    fn branch_unless(&mut self, tests: &Tests, otherwise: Label) {
+        match tests {
+            Tests::One(Some(test)) => {
+                let at = short(self.script.conditions.len());
+                let test = *test;
+                self.script.conditions.push(Condition { test, otherwise });
+                self.script.statements.push(Statement::BranchUnless(at));
+            }
+            _ if tests.parts().into_iter().all(Option::is_none) => self.branch(otherwise),
+            Tests::All(all) => {
+                for tests in all {
+                    self.branch_unless(tests, otherwise);
+                }
+            }
+            Tests::Any(all) => {
+                let inside = self.new_label();
+                for (at, tests) in all.iter().enumerate() {
+                    if at + 1 == all.len() {
+                        self.branch_unless(tests, otherwise);
+                    } else {
+                        let next = self.new_label();
+                        self.branch_unless(tests, next);
+                        self.jump(inside);
+                        self.put(next);
+                    }
+                }
+                self.put(inside);
+            }
+            Tests::One(None) => {}
+        }
     }
 
-    /// `IF … THEN`: the statements that follow may be passed over; where a variable tells, they are
-    /// run as it does.
-    pub fn begin_if(&mut self, test: Option<Test>) {
+    /// `IF … THEN`: the statements that follow may be passed over; where variables tell, they are
+    /// run as these do.
+    pub fn begin_if(&mut self, tests: impl Into<Tests>) {
         let (next, end) = (self.new_label(), self.new_label());
-        self.branch_unless(test, next);
+        self.branch_unless(&tests.into(), next);
         self.open.push(Block::Choice {
             next: Some(next),
             end,
@@ -244,9 +267,9 @@ impl Builder {
 
     /// What follows in the last branch may be passed over, unlike what stands before in it: the
     /// calls of its condition.
-    pub fn pass_branch(&mut self, test: Option<Test>) {
+    pub fn pass_branch(&mut self, tests: impl Into<Tests>) {
         let following = self.new_label();
-        self.branch_unless(test, following);
+        self.branch_unless(&tests.into(), following);
         if let Some(Block::Choice { next, .. }) = self.open.last_mut() {
             *next = Some(following);
         }
@@ -258,18 +281,11 @@ impl Builder {
             Some(Block::Choice { of, .. }) => *of,
             _ => None,
         };
-        let (Some(of), Some((last, others))) = (of, numbers.split_last()) else {
+        let Some(of) = of.filter(|_| !numbers.is_empty()) else {
             return self.pass_branch(None);
         };
-        let inside = self.new_label();
-        for number in others {
-            let next = self.new_label();
-            self.branch_unless(Some((of, Wanted::Number(*number))), next);
-            self.jump(inside);
-            self.put(next);
-        }
-        self.pass_branch(Some((of, Wanted::Number(*last))));
-        self.put(inside);
+        let test = |number: &i64| Tests::One(Some((of, Wanted::Number(*number))));
+        self.pass_branch(Tests::Any(numbers.iter().map(test).collect()));
     }
 
     /// `ENDIF`, `ENDTEST`, `ENDSWITCH`.

@@ -8,11 +8,13 @@
 
 mod adding;
 mod builder;
+mod logic;
 mod order;
 mod reach;
 mod statement;
 
 pub use builder::Builder;
+pub use logic::{Logic, Tests};
 pub use statement::{
     Argument, Call, Condition, Expected, How, Instruction, Loop, Modal, Routine, Span, Start,
     Statement, Test, Turn, Wanted, Write, Written,

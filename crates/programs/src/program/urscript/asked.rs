@@ -8,15 +8,18 @@ use super::translate::Translator;
 use super::variables::{Assigned, VarId, Variables};
 use crate::program::kit::spread;
 use crate::program::number;
-use crate::program::numbers::{Literal, inside_brackets, question};
-use crate::program::script::{self, Test, Variable, VariableId, short};
+use crate::program::numbers::{Literal, Question, inside_brackets, names_asked, questions};
+use crate::program::script::{self, Test, Tests, Variable, VariableId, short};
 use foldhash::HashSet;
 
 /// The largest int.
 const MOST_INT: u32 = i32::MAX.unsigned_abs();
 
-/// The bytes of a condition, without the colon behind it.
+/// The bytes of a condition, without the colon behind it; nothing where a comment stands in it.
 fn condition(text: &[u8]) -> &[u8] {
+    if text.contains(&b'#') {
+        return b"";
+    }
     let text = text.trim_ascii_end();
     inside_brackets(text.strip_suffix(b":").unwrap_or(text))
 }
@@ -27,14 +30,16 @@ impl Reader<'_> {
     pub(super) fn note_question(&mut self, word: &[u8], start: usize) {
         let text = &self.scanner.bytes[start..self.scanner.at];
         let text = condition(text);
-        let name = match word {
-            b"switch" => Some(text),
-            b"case" => None,
-            _ => question(text).map(|of| of.name),
+        let names = match word {
+            b"switch" => vec![text],
+            b"case" => Vec::new(),
+            _ => names_asked(text),
         };
-        let symbol = name.and_then(|name| self.parsed.known_symbol(name));
         let own = &self.parsed.functions[self.function as usize].parameters;
-        let is_own = symbol.is_some_and(|symbol| own.iter().any(|(of, _)| *of == symbol));
+        let mut symbols = names
+            .into_iter()
+            .filter_map(|name| self.parsed.known_symbol(name));
+        let is_own = symbols.any(|symbol| own.iter().any(|(of, _)| *of == symbol));
         if is_own || word == b"case" && !own.is_empty() {
             self.event(Event::Question(short(start), short(self.scanner.at)));
         }
@@ -50,8 +55,8 @@ impl Variables<'_, '_> {
         for (at, function) in (0..).zip(&parsed.functions) {
             for event in &function.events {
                 if let Event::Question(start, end) = *event {
-                    let name = question(self.condition_of((start, end))).map(|of| of.name);
-                    asked.extend(name.and_then(|name| self.parameter(name, at)));
+                    let names = names_asked(self.condition_of((start, end))).into_iter();
+                    asked.extend(names.filter_map(|name| self.parameter(name, at)));
                 }
             }
         }
@@ -112,9 +117,14 @@ impl Variables<'_, '_> {
 
 impl Translator<'_, '_, '_> {
     /// On what the condition between these bytes depends.
-    pub(super) fn test_of(&mut self, part: (u32, u32), function: FunctionId) -> Option<Test> {
+    pub(super) fn tests_of(&mut self, part: (u32, u32), function: FunctionId) -> Tests {
         let variables = self.goals.variables;
-        let of = question(variables.condition_of(part))?;
+        let questions = questions(variables.condition_of(part));
+        questions.map(&mut |of| self.test(of.as_ref()?, function))
+    }
+
+    fn test(&mut self, of: &Question, function: FunctionId) -> Option<Test> {
+        let variables = self.goals.variables;
         let wanted = of.wanted(|text| variables.literal(text, function))?;
         Some((self.asked(of.name, function)?, wanted))
     }

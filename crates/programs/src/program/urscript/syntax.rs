@@ -75,6 +75,11 @@ impl At {
             Self::Any | Self::Member(_) => None,
         }
     }
+
+    /// Whether both may name the same.
+    pub(super) fn may_be(self, other: Self) -> bool {
+        self == other || self == Self::Any || other == Self::Any
+    }
 }
 
 /// What stands between the brackets of a literal.

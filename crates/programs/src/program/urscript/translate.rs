@@ -382,10 +382,11 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
                 Event::Question(start, end) => self.question = Some((start, end)),
                 Event::If | Event::ElseIf => {
                     let question = self.question.take();
-                    let test = question.and_then(|part| self.test_of(part, function));
+                    let tests = question.map(|part| self.tests_of(part, function));
+                    let tests = tests.unwrap_or(None.into());
                     match event {
-                        Event::If => self.goals.builder.begin_if(test),
-                        _ => self.goals.builder.pass_branch(test),
+                        Event::If => self.goals.builder.begin_if(tests),
+                        _ => self.goals.builder.pass_branch(tests),
                     }
                 }
                 Event::Switch => {

@@ -24,6 +24,63 @@ pub(super) struct Elements {
     pub changed: Option<DisplacementId>,
 }
 
+/// Elements of one list that are kept apart by their numbers.
+const MOST_NUMBERS: usize = 16;
+
+/// The places in lists and structures from which an element may come, each once.
+#[derive(Default)]
+struct Places {
+    all: Vec<(VarId, At)>,
+    looked_into: usize,
+}
+
+impl Places {
+    /// `None` where it is not looked into.
+    fn add(
+        &mut self,
+        variables: &Variables,
+        (name, at): (Symbol, At),
+        function: FunctionId,
+    ) -> Option<()> {
+        if variables.is_deep(at) {
+            return None;
+        }
+        let variable = variables.meaning(name, function)?;
+        let of_it = self.all.iter().filter(|(of, _)| *of == variable);
+        if at.number().is_some() && of_it.count() >= MOST_NUMBERS {
+            self.add_all(variable);
+        } else {
+            self.add_one(variable, at);
+        }
+        (self.all.len() <= MOST_STEPS as usize).then_some(())
+    }
+
+    /// Every element of a list.
+    fn add_all(&mut self, variable: VarId) {
+        self.add_one(variable, At::Any);
+    }
+
+    fn add_one(&mut self, variable: VarId, at: At) {
+        if !self.all.contains(&(variable, at)) {
+            self.all.push((variable, at));
+        }
+    }
+
+    fn next(&mut self) -> Option<(VarId, At)> {
+        let next = self.all.get(self.looked_into).copied();
+        self.looked_into += usize::from(next.is_some());
+        next
+    }
+
+    fn is_at_end(&self) -> bool {
+        self.looked_into == self.all.len()
+    }
+
+    fn have(&self, variable: VarId) -> bool {
+        self.all.iter().any(|(of, _)| *of == variable)
+    }
+}
+
 impl Variables<'_, '_> {
     /// Whether a variable may hold the joints that a position has, or others.
     pub(super) fn holds_joints(&self, variable: VarId) -> bool {
@@ -138,116 +195,115 @@ impl Variables<'_, '_> {
         (list.elements.len() == 6 && list.elements.iter().all(is_plain)).then_some(list.literal)
     }
 
-    /// What an element of a list may be: by its number where the list is written out once, else
-    /// any. `None` where the text does not tell them all.
+    /// What an element of a list, or a member of a structure, may be; of elements with a number only
+    /// what is put there. `None` where the text does not tell them all.
     pub(super) fn elements(&self, name: Symbol, at: At, function: FunctionId) -> Option<Elements> {
-        // structures in structures are not looked into
-        let is_deep = |at: At| match at {
-            At::Member(member) => self.parsed.bytes(member).contains(&b'.'),
-            _ => false,
-        };
-        if is_deep(at) {
-            return None;
-        }
         let mut changed = None;
         let mut found = Vec::new();
-        let mut seen = vec![(self.meaning(name, function)?, at)];
-        let mut is_one = true;
-        let mut next = 0;
-        while let Some(&(variable, at)) = seen.get(next) {
-            next += 1;
-            let mut given = Vec::new();
-            for (number, source) in self.sources(variable).enumerate() {
-                is_one &= number == 0 && !source.way.is_part();
-                if source.way == Assigned::Deep {
-                    changed = Some(OVERWRITTEN);
-                    continue;
-                }
-                if let Assigned::Part(part) = source.way {
-                    if is_deep(part) && matches!(at, At::Member(_)) {
-                        return None;
-                    }
-                    // lists have no members, structures no numbers
-                    if part == at || !matches!((part, at), (At::Member(_), _) | (_, At::Member(_)))
-                    {
-                        given.push((source.value, source.function));
-                    }
-                    continue;
-                }
-                match self.parsed.expression(source.value) {
-                    Expr::Call(call) if self.is_structure(call) => {
-                        let At::Member(member) = at else { return None };
-                        let parts = self.parsed.arguments_of(&self.parsed.calls[call as usize]);
-                        let own = parts.iter().find(|(name, _)| *name == Some(member));
-                        given.extend(own.map(|(_, value)| (*value, source.function)));
-                    }
-                    Expr::List(list) if !matches!(at, At::Member(_)) => {
-                        let elements = &self.parsed.lists[list as usize].elements;
-                        given.extend(elements.iter().map(|value| (*value, source.function)));
-                    }
-                    Expr::Name(name, _) => {
-                        let of = (self.meaning(name, source.function)?, at);
-                        if !seen.contains(&of) {
-                            seen.push(of);
+        let mut places = Places::default();
+        places.add(self, (name, at), function)?;
+        let mut is_looked_into = 0;
+        while let Some((variable, at)) = places.next() {
+            if self.put_into(variable, at, &mut places, &mut found)? {
+                changed = Some(OVERWRITTEN);
+            }
+            if places.is_at_end() {
+                // one that is made of elements of these lists is made of what it is itself, any
+                // number of times; of other lists one is looked into
+                while let Some(&(value, function)) = found.get(is_looked_into) {
+                    let mut inside = Vec::new();
+                    self.lists_in(value, function, MOST_STEPS, &mut inside);
+                    let is_again = |of: &VarId| places.have(*of) || self.has_composed_elements(*of);
+                    if inside.iter().any(is_again) {
+                        changed = changed.or(Some(UNBOUNDED));
+                        found.swap_remove(is_looked_into);
+                        for of in inside {
+                            places.add_all(of);
                         }
+                    } else {
+                        is_looked_into += 1;
                     }
-                    // an empty list is filled by its elements
-                    Expr::Literal(id) if self.parsed.literal(id).elements <= 1 => {}
-                    _ => return None,
-                }
-                if seen.len() > MOST_STEPS as usize {
-                    return None;
-                }
-            }
-            for (value, function) in given {
-                // a member of a structure may be what another member is
-                let expression = self.parsed.expression(value);
-                if let (At::Member(_), Expr::Element(name, other @ At::Member(_))) =
-                    (at, expression)
-                {
-                    if is_deep(other) {
-                        return None;
-                    }
-                    let of = (self.meaning(name, function)?, other);
-                    if !seen.contains(&of) {
-                        seen.push(of);
-                    }
-                } else {
-                    found.push((value, function));
                 }
             }
         }
-        let seen: Vec<VarId> = seen.into_iter().map(|(variable, _)| variable).collect();
-        if let Some(at) = at.number().filter(|_| is_one) {
-            found = vec![*found.get(at as usize)?];
-        }
-        // an element of this list is one of the others; lists of lists are not looked into
-        let again = |(value, function): &(ExprId, FunctionId)| match self.parsed.expression(*value)
-        {
-            Expr::Element(name, _) => self.meaning(name, *function),
-            _ => None,
+        // a pose of zeros holds the place of one that is put there: no robot reaches it
+        let is_blank = |(value, _): &(ExprId, _)| match self.parsed.expression(*value) {
+            Expr::Literal(id) => {
+                let literal = self.parsed.literal(id);
+                literal.pose && self.parsed.values(literal) == Some([0.0; 6])
+            }
+            _ => false,
         };
-        found.retain(|one| !again(one).is_some_and(|variable| seen.contains(&variable)));
-        let is_plain = found
-            .iter()
-            .all(|(value, _)| !matches!(self.parsed.expression(*value), Expr::Element(..)));
-        // one that is made of elements of this list is made of what it is itself, any number of
-        // times; of other lists one is looked into
-        found.retain(|&(value, function)| {
-            let mut inside = Vec::new();
-            self.lists_in(value, function, MOST_STEPS, &mut inside);
-            let again = inside
-                .iter()
-                .any(|of| seen.contains(of) || self.has_composed_elements(*of));
-            if again {
-                changed = changed.or(Some(UNBOUNDED));
-            }
-            !again
-        });
-        is_plain.then_some(Elements {
+        if !found.iter().all(is_blank) {
+            found.retain(|one| !is_blank(one));
+        }
+        Some(Elements {
             values: found,
             changed,
         })
+    }
+
+    /// Adds what is put into a place; whether something within it is written. `None` where the text
+    /// does not tell all.
+    fn put_into(
+        &self,
+        variable: VarId,
+        at: At,
+        places: &mut Places,
+        found: &mut Vec<(ExprId, FunctionId)>,
+    ) -> Option<bool> {
+        let mut is_written = false;
+        for source in self.sources(variable) {
+            let function = source.function;
+            let mut put = |value| {
+                if let (Expr::Element(name, at), function) = self.follow(value, function) {
+                    return places.add(self, (name, at), function);
+                }
+                found.push((value, function));
+                Some(())
+            };
+            match source.way {
+                Assigned::Deep => is_written = true,
+                Assigned::Part(part) => {
+                    if self.is_deep(part) && matches!(at, At::Member(_)) {
+                        return None;
+                    }
+                    if part.may_be(at) {
+                        put(source.value)?;
+                    }
+                }
+                Assigned::Whole | Assigned::Given => match self.parsed.expression(source.value) {
+                    Expr::Call(call) if self.is_structure(call) => {
+                        let members = self.parsed.arguments_of(&self.parsed.calls[call as usize]);
+                        for (_, value) in members.iter().filter(|(member, _)| {
+                            member.is_some_and(|member| At::Member(member).may_be(at))
+                        }) {
+                            put(*value)?;
+                        }
+                    }
+                    Expr::List(list) if !matches!(at, At::Member(_)) => {
+                        let elements = &self.parsed.lists[list as usize].elements;
+                        let numbered = (0..).zip(elements);
+                        for (_, value) in numbered.filter(|(n, _)| At::Number(*n).may_be(at)) {
+                            put(*value)?;
+                        }
+                    }
+                    Expr::Name(name, _) => places.add(self, (name, at), function)?,
+                    // an empty list is filled by its elements
+                    Expr::Literal(id) if self.parsed.literal(id).elements <= 1 => {}
+                    _ => return None,
+                },
+            }
+        }
+        Some(is_written)
+    }
+
+    /// Structures in structures are not looked into.
+    fn is_deep(&self, at: At) -> bool {
+        match at {
+            At::Member(member) => self.parsed.bytes(member).contains(&b'.'),
+            At::Any | At::Number(_) => false,
+        }
     }
 
     /// Whether a call makes a structure of its arguments: `struct(a=…, b=…)`.

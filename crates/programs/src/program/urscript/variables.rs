@@ -241,7 +241,12 @@ impl<'n, 'a> Variables<'n, 'a> {
             .map(|a| (a.function, a.name))
             .collect();
         let hiding = self.hiding(&globals, &plain);
-        for (number, assignment) in (0..).zip(all) {
+        let own_local = |(number, a): (u32, &Assignment)| {
+            let is_own = a.reach == Reach::Local && !hiding.contains(&number);
+            is_own.then_some((a.function, a.name))
+        };
+        let locals: HashSet<_> = (0..).zip(all).filter_map(own_local).collect();
+        for assignment in all {
             let name = assignment.name;
             let mut owner = assignment.function;
             let parameter =
@@ -253,7 +258,8 @@ impl<'n, 'a> Variables<'n, 'a> {
                 // which of both the function then names is not known
                 self.source(parameter, assignment.value, owner, Assigned::Whole);
             }
-            let is_own = assignment.reach == Reach::Local && !hiding.contains(&number);
+            // behind `local`, the name means that variable
+            let is_own = !is_global && locals.contains(&(owner, name));
             if !is_own && (is_global || parameter.is_none()) {
                 if globals.contains(&name) {
                     owner = 0;

@@ -14,7 +14,7 @@ use crate::program::contexts::Calls;
 use crate::program::displacing::grown_by_any;
 use crate::program::notation::mentions;
 use crate::program::script::{
-    Argument, Builder, Call, Expr, Held, How, Place, RoutineId, Script, Start, Test, UNBOUNDED,
+    Argument, Builder, Call, Expr, Held, How, Place, RoutineId, Script, Start, Tests, UNBOUNDED,
     VariableId, Written, short,
 };
 use crate::program::transformations::{EACH, Entries};
@@ -246,8 +246,8 @@ impl<'a> Reader<'a> {
             b"begin" | b"end" => {}
             b"if" => {
                 self.uses(line);
-                let test = self.test(line.behind(1));
-                self.builder.begin_if(test);
+                let tests = self.tests(line.behind(1));
+                self.builder.begin_if(tests);
             }
             b"switch" => {
                 self.uses(line);
@@ -258,8 +258,8 @@ impl<'a> Reader<'a> {
             b"elseIf" => {
                 self.builder.next_branch(true);
                 self.uses(line);
-                let test = self.test(line.behind(1));
-                self.builder.pass_branch(test);
+                let tests = self.tests(line.behind(1));
+                self.builder.pass_branch(tests);
             }
             b"case" => {
                 self.builder.next_branch(true);
@@ -298,10 +298,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What a condition asks of a number that calls give.
-    fn test(&mut self, words: Words<'a, '_>) -> Option<Test> {
-        let (name, wanted) = words.compared()?;
-        Some((self.given_number(name)?, wanted))
+    /// What a condition asks of numbers that calls give.
+    fn tests(&mut self, words: Words<'a, '_>) -> Tests {
+        words.compared().map(&mut |compared| {
+            let (name, wanted) = (*compared)?;
+            Some((self.given_number(name)?, wanted))
+        })
     }
 
     /// The parameter that words are where it is a number that nothing but calls writes.

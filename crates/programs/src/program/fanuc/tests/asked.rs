@@ -37,6 +37,23 @@ fn arguments_choose_their_branch() {
 }
 
 #[test]
+fn what_words_join_chooses_the_branch_as_far_as_it_is_known() {
+    let setup = "IF (AR[1]=1 OR AR[1]=2) THEN ;\nUTOOL_NUM=4 ;\nENDIF ;\n\
+        IF AR[1]=3 AND AR[2]<>1,UTOOL_NUM=5 ;\nIF AR[1]=3 AND DI[1]=ON,UTOOL_NUM=6 ;";
+    for (call, expected) in [
+        ("CALL SETUP(1,1) ;", &["4"][..]),
+        ("CALL SETUP(2,2) ;", &["4"]),
+        ("CALL SETUP(3,2) ;", &["5", "6"]),
+        ("CALL SETUP(3,1) ;", &["6", "9"]),
+        ("CALL SETUP(4,2) ;", &["9"]),
+    ] {
+        let mut found = tools(call, setup);
+        found.sort();
+        assert_eq!(found, expected, "{call}");
+    }
+}
+
+#[test]
 fn what_chooses_may_be_handed_on() {
     let main = listing("CALL CELL(2) ;\nJ P[1] 1% FINE ;", &pose("1", ACTIVE));
     let cell = listing("CALL SETUP(AR[1]) ;", "").replace("TEST", "CELL");

@@ -52,6 +52,17 @@ fn what_was_written_last_counts() {
 }
 
 #[test]
+fn names_of_registers_and_points_may_have_any_letters() {
+    for name in ["z;", "z[", "z[1]", "it's", "z,1", "a;b[c"] {
+        let lines = format!(
+            "PR[7:{name}]=LPOS-LPOS ;\nR[1:{name}]=100 ;\nPR[7,3:{name}]=R[1:{name}] ;\n\
+             L P[1:{name}] R[2:{name}]mm/sec FINE Offset,PR[7:{name}] ;\n"
+        );
+        assert_eq!(of(&lines), up(0.1), "{lines}");
+    }
+}
+
+#[test]
 fn registers_of_one_program_count_like_others() {
     for lines in [
         "LPR[7]=LPR[7]-LPR[7] ;\nLPR[7,3:z]=100 ;\nPR[7,3]=300 ;\nL P[1] 9mm/sec FINE \

@@ -61,6 +61,7 @@ fn a_number_that_a_call_gives_chooses_the_branch() {
         "IF .n==1 THEN\nTOOL grip\nELSE\nTOOL off\nEND",
         "IF .n<>1 THEN\nTOOL off\nELSE\nTOOL grip\nEND",
         "IF SIG(1) THEN\nTOOL grip\nELSEIF .n==2 THEN\nTOOL off\nELSE\nTOOL grip\nEND",
+        "IF .n==3 OR .n==1 THEN\nTOOL grip\nELSEIF .n==2 AND .n<>1 THEN\nTOOL off\nEND",
         "CASE .n OF\nVALUE 1:\nTOOL grip\nVALUE 2:\nTOOL off\nEND",
         "CASE .n OF\nVALUE 2:\nTOOL off\nANY :\nTOOL grip\nEND",
         "CASE .n OF\nVALUE 3, 2:\nTOOL off\nVALUE 7,1:\nTOOL grip\nEND",

@@ -73,6 +73,22 @@ fn numbers_and_flags_choose_their_branch() {
 }
 
 #[test]
+fn what_words_join_chooses_the_branch() {
+    let setup = "DEF setup(n:IN,far:IN)\nINT n\nBOOL far\n$TOOL=TOOL_DATA[1]\n\
+        IF (n==2) OR ((n==3) AND far) THEN\n$TOOL=TOOL_DATA[2]\nENDIF\n\
+        IF NOT (far AND (n==2)) THEN\n$BASE=BASE_DATA[1]\nELSE\n$BASE=BASE_DATA[2]\nENDIF\nEND\n";
+    for (given, tool, base) in [
+        ("2,TRUE", "TOOL_DATA[2]", "BASE_DATA[2]"),
+        ("2,FALSE", "TOOL_DATA[2]", "BASE_DATA[1]"),
+        ("3,TRUE", "TOOL_DATA[2]", "BASE_DATA[1]"),
+        ("3,FALSE", "TOOL_DATA[1]", "BASE_DATA[1]"),
+    ] {
+        let found = set_up(&format!("setup({given})\nPTP XP1"), setup);
+        assert_eq!(found, with(tool, base), "{given}");
+    }
+}
+
+#[test]
 fn what_chooses_may_be_handed_on() {
     let text = format!(
         "DEF cell(b:IN)\nDECL BASETYPE b\nsetup(b,#Cutter8)\nEND\n\

@@ -60,6 +60,21 @@ fn flags_and_optional_numbers_choose_their_branch() {
     assert_eq!(tools, ["td", "tg"]);
 }
 
+#[test]
+fn what_words_join_chooses_the_branch_as_far_as_it_is_known() {
+    let text = "PROC setup(num n,bool b)\nIF n=1 AND (b OR di1=1) THEN\nt:=tg;\n\
+        ELSEIF n=2 OR n=DRILL+1 OR NOT (n<>5) THEN\nt:=td;\nENDIF\nENDPROC";
+    for (call, tools) in [
+        ("setup 1,TRUE;", &["tg"][..]),
+        ("setup 1,FALSE;", &["t", "td", "tg"]),
+        ("setup 2,TRUE;", &["td"]),
+        ("setup 5,TRUE;", &["td"]),
+        ("setup 4,TRUE;", &["t", "td"]),
+    ] {
+        assert_eq!(set_up(call, text).0, tools, "{call}");
+    }
+}
+
 /// An operator that is a word belongs to the argument, and what a loop counts hides other names.
 #[test]
 fn flags_that_are_worked_out_choose_no_branch() {
@@ -97,6 +112,10 @@ fn branches_that_calls_do_not_choose_are_all_taken() {
             BY_TEST.to_owned(),
         ),
         ("setup k MOD 2;", BY_TEST.to_owned()),
+        (
+            "setup 1;",
+            BY_TEST.replace("TEST n", "IF di1=1 ! and n=2\nRETURN;\nTEST n"),
+        ),
         ("setup GRIP DIV k;", BY_TEST.to_owned()),
         ("setup 1;", counted),
         ("setup 1;", before("n:=2;")),

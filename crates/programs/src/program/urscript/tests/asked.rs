@@ -40,6 +40,24 @@ fn numbers_and_constants_choose_their_branch() {
 }
 
 #[test]
+fn what_words_join_chooses_the_branch() {
+    let text = "def setup(n, far):\nif n==1 or n==GRIP+1 or (n==3 and not far):\n\
+        set_tcp(p[.1,0,0,0,0,0])\nelif n!=1 and n!=3:\nset_tcp(p[.2,0,0,0,0,0])\nend\nend";
+    for (call, tool) in [("setup(1, True)", "100"), ("setup(3, False)", "100")] {
+        assert_eq!(set_up(call, text), [tool], "{call}");
+    }
+    // of the sum nothing is known
+    for (call, tools) in [
+        ("setup(3, True)", ["0", "100"]),
+        ("setup(5, True)", ["100", "200"]),
+    ] {
+        let mut found = set_up(call, text);
+        found.sort();
+        assert_eq!(found, tools, "{call}");
+    }
+}
+
+#[test]
 fn flags_and_defaults_choose_their_branch() {
     let text = "def setup(far=True):\nif not far:\nset_tcp(p[.1,0,0,0,0,0])\nelse:\n\
         set_tcp(p[.2,0,0,0,0,0])\nend\nend";
@@ -94,4 +112,7 @@ fn local_and_global_variables_of_one_name_are_both_meant() {
     // one that is assigned first hides the global one, which stays as it is
     let hides = format!("global A=1\n{go}\ndef f():\nlocal A=2\nsleep(A)\nend\nf()");
     assert_eq!(set_up("go(A)", &hides), ["100"]);
+    // behind its declaration, an assignment without a word is of the local one
+    let again = format!("global A=1\n{go}\ndef f():\nlocal A=3\nA=2\ngo(A)\nend");
+    assert_eq!(set_up("f()\ngo(A)", &again), ["100"]);
 }

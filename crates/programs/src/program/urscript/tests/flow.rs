@@ -78,6 +78,30 @@ fn elements_of_lists_are_any_of_them() {
     let mut found = to(&program);
     found.sort_unstable();
     assert_eq!(found, ["-", "-", "-", "w"]);
+    // by their numbers: what is put there, and no pose of zeros that holds the place
+    let blank = "p[0,0,0,0,0,0]";
+    for (lines, wanted) in [
+        (
+            format!("l=[{blank},{blank}]\nl[0]=w\nl[1]=v\nmovel(l[1])"),
+            &["v"][..],
+        ),
+        (format!("l=[{blank},w]\nl[0]=v\nmovel(l[i])"), &["w", "v"]),
+        (
+            "l=[w,v]\nt=l[0]\nl[0]=l[1]\nl[1]=t\nmovel(l[0])".to_owned(),
+            &["w", "v"],
+        ),
+        ("l=[w,v]\nm=[]\nm[0]=l[1]\nmovel(m[0])".to_owned(), &["v"]),
+        (format!("l=[{blank}]\nmovel(l[0])"), &["-"]),
+    ] {
+        let program = path(&format!("w=p[1,2,3,0,0,1]\nv=p[1,2,4,0,0,1]\n{lines}"));
+        let mut found = to(&program);
+        found.sort_unstable();
+        let mut wanted = wanted.to_vec();
+        wanted.sort_unstable();
+        assert_eq!(found, wanted, "{lines}");
+        let by = &program.moves[0].displacement;
+        assert_eq!(*by, Displacement::None, "{lines}");
+    }
     // a list that the program fills
     let program = path("way=[]\nway[0]=p[1,2,3,0,0,0]\nway[1]=vision()\nmovel(way[i])");
     assert_eq!(ids(&program), ["computed-target"]);
@@ -88,6 +112,21 @@ fn elements_of_lists_are_any_of_them() {
         severities(&program),
         [("target-has-expressions", Severity::Warning)]
     );
+}
+
+/// An assignment behind `local` in its function is of that variable.
+#[test]
+fn targets_of_local_variables_are_apart_from_the_global_one_of_their_name() {
+    for outside in ["global t", "t", "local t"] {
+        let program = path(&format!(
+            "w=p[1,2,3,0,0,1]\n{outside}=p[1,2,4,0,0,1]\ndef f(x):\nlocal t=pose_add(x,p[0,0,1,0,0,0])\n\
+             movel(t)\nt=p[1,2,5,0,0,1]\nif k:\nt=w\nend\nmovel(t)\nend\nf(p[1,2,6,0,0,1])\nmovel(t)"
+        ));
+        assert_eq!(to(&program), ["-", "w", "t", "t"], "{outside}");
+        let target = |at: usize| program.moves[at].target;
+        assert_ne!(target(2), target(3), "{outside}");
+        assert_eq!(program.targets.iter().filter(|t| t.blocked).count(), 0);
+    }
 }
 
 #[test]

@@ -89,9 +89,11 @@ fn a_point_keeps_its_frame_wherever_it_is_handed() {
     assert_eq!(blocked, ["pA"]);
 }
 
-const ALTERNATIVES: [&str; 6] = [
+const ALTERNATIVES: [&str; 8] = [
     "if x_n==1\ntNow=tA\nelse\ntNow=tB\nendIf",
     "if (x_n!=1)\ntNow=tB\nelse\ntNow=tA\nendIf",
+    "if !(x_n!=1)\ntNow=tA\nelse\ntNow=tB\nendIf",
+    "if x_n==1 or (x_n==3 and nX==2)\ntNow=tA\nelseIf x_n!=1 and x_n!=3\ntNow=tB\nendIf",
     "if x_n==7\nelseIf x_n==1\ntNow=tA\nelseIf x_n==2\ntNow=tB\nendIf",
     "switch x_n\ncase 1\ntNow=tA\nbreak\ncase 2\ntNow=tB\nbreak\nendSwitch",
     "switch x_n\ncase 1\ntNow=tA\nbreak\ndefault\ntNow=tB\nbreak\nendSwitch",
@@ -140,7 +142,12 @@ fn a_number_that_may_be_another_takes_either_branch() {
         let program = programs(&[("start", "", &start), ("take", &given, &take), more]);
         assert_eq!(placed(&program), either, "{number} {before}");
     }
-    for condition in ["x_n==1 and nX==2", "x_n>=1", "!(x_n==1)", "x_n==nX"] {
+    for condition in [
+        "x_n==1 and nX==2",
+        "x_n>=1",
+        "!(x_n==2 or nX==1)",
+        "x_n==nX",
+    ] {
         let take = choice.replace("x_n==1", condition);
         let start = "call take(1)\nmovel(pA,tNow,m)";
         let program = programs(&[("start", "", start), ("take", &given, &take)]);

@@ -265,6 +265,40 @@ fn conditions_of_loops_bound_what_adds_up() {
     }
 }
 
+/// A program's own numbers begin at 0 in each run of it; those of the project are kept.
+#[test]
+fn what_a_program_adds_up_of_its_own_begins_anew_with_it() {
+    let local =
+        "<Locals><Local name=\"tOwn\" type=\"trsf\" xsi:type=\"array\" size=\"1\" /></Locals>";
+    let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
+    let of = |name: &str| {
+        let code = format!(
+            "while true\nif bIn\n{name}.z={name}.z-20\nmovel(appro(pA,{name}),tA,m)\nreturn\nendIf\n\
+             endWhile"
+        );
+        let files = [
+            ("m/m.dtx", dtx(&(all.clone() + &data("tKept", "trsf", &[])))),
+            ("m/start.pgx", pgx("start", local, &code)),
+        ];
+        let program = read_files(&files).expect("a project");
+        program.moves[0].displacement.clone()
+    };
+    assert!(
+        (at_most(&of("tOwn")) - 20.0).abs() < 1e-9,
+        "{:?}",
+        of("tOwn")
+    );
+    let kept = of("tKept");
+    let is_endless = match &kept {
+        Displacement::Within(all) | Displacement::AtLeast(all) => {
+            let is = |stride: &Stride| matches!(stride, Stride::By { most: None, .. });
+            all.iter().any(is)
+        }
+        other => *other == Displacement::Unbounded,
+    };
+    assert!(is_endless, "{kept:?}");
+}
+
 #[test]
 fn a_counter_in_a_program_that_is_given_it_or_in_a_task_counts() {
     let all = data("fA", "frame", &[FRAME]) + &data("tA", "tool", &[TOOL]) + &points();
