@@ -176,6 +176,14 @@ fn endless_angle(part: Words) -> Option<f64> {
     angles.find(|angle| angle.abs() > MOST_ANGLE_DEG)
 }
 
+/// The first six numbers of a target, where the others, of axes besides the arm's, are zero.
+fn of_arm<T>(all: &[T], value: impl Fn(&T) -> Option<f64>) -> &[T] {
+    match all.split_at_checked(6) {
+        Some((arm, others)) if others.iter().all(|other| value(other) == Some(0.0)) => arm,
+        _ => all,
+    }
+}
+
 impl<'a> Reader<'a> {
     pub(super) fn unknown(&mut self, remark: Remark) -> Expr {
         self.builder.script.unknown(remark)
@@ -206,7 +214,8 @@ impl<'a> Reader<'a> {
             Shape::Pose
         };
         let place = entry.place;
-        let declared = if let Ok(numbers) = <[Number; 6]>::try_from(&entry.numbers[..]) {
+        let numbers = of_arm(&entry.numbers, |number| Some(number.value));
+        let declared = if let Ok(numbers) = <[Number; 6]>::try_from(numbers) {
             let target = self.add_target(Some(&name.text()), place, entry.end, shape, numbers);
             Expr::Target(target)
         } else {
@@ -469,10 +478,9 @@ impl<'a> Reader<'a> {
     /// A target that is written out, in the brackets that open at a word.
     fn literal(&mut self, whole: Words<'a, '_>, open: usize, shape: Shape) -> Expr {
         let list = whole.rest_list(open).unwrap_or_default();
-        let partial = (shape == Shape::Pose)
-            .then(|| six_or_fewer(&list))
-            .flatten();
-        if let Some(numbers) = six(&list).or(partial) {
+        let list = of_arm(&list, Words::value);
+        let partial = (shape == Shape::Pose).then(|| six_or_fewer(list)).flatten();
+        if let Some(numbers) = six(list).or(partial) {
             let Range { start, end } = whole.span();
             let place = self.place(start);
             return Expr::Target(self.add_target(None, place, short(end), shape, numbers));

@@ -284,6 +284,7 @@ fn what_is_not_sure_is_refused_or_reported() {
         ("LMOVE TRANS(1,2,3,4,-1e999,6)", "partial-target"),
         ("LMOVE TRANS(1,2,3,4,5,x)", "computed-target"),
         ("LMOVE TRANS(1,2,3,4,5,6,7)", "target-not-six-axes"),
+        ("JMOVE #[1,2,3,4,5,6,0,0.5]", "target-not-six-axes"),
         ("POINT p1 = FRAME(a,b,c,d)\nLMOVE p1", "computed-target"),
         ("POINT/X p1 = dx\nLMOVE p1", "target-assigned-at-run-time"),
         ("HERE p1\nLMOVE p1", "run-time-position"),
@@ -328,6 +329,11 @@ fn what_is_not_sure_is_refused_or_reported() {
     let program =
         read("TOOL NULL\nBASE NULL\nRIGHTY\nJOINT SPEED9 ACCU1 TOOL1 #[1,2,3,4,5,6]\nLMOVE p1");
     assert!(!ids(&program).contains(&"configuration-not-understood"));
+    // an axis besides the arm's that stands at zero
+    let program = read(
+        "TOOL NULL\nBASE NULL\nJMOVE #[1,2,3,4,5,6,0]\nLMOVE p1\nLMOVE TRANS(100,500,300,0,180,0,0.0)",
+    );
+    assert_eq!(ids(&program), [""; 0], "{:?}", program.findings);
     // the same name with other values in two files
     let again = POINTS.replace("100.000000", "101.000000");
     let code = format!(".PROGRAM a()\nTOOL NULL\nBASE NULL\nLMOVE p1\n.END\n{POINTS}");

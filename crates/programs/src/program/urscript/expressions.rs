@@ -269,8 +269,7 @@ impl<'a> Reader<'a> {
         let (Ok(index), Ok(end)) = (ahead.next(), ahead.next()) else {
             return At::Any;
         };
-        let value = number::parse(self.text(index)).filter(|_| end.is(b']'));
-        let number = value.and_then(|value| (0..1000).find(|&index| f64::from(index) == value));
+        let number = number::whole(self.text(index)).filter(|_| end.is(b']'));
         number.map_or(At::Any, At::Number)
     }
 

@@ -92,6 +92,13 @@ fn elements_of_lists_are_any_of_them() {
         ),
         ("l=[w,v]\nm=[]\nm[0]=l[1]\nmovel(m[0])".to_owned(), &["v"]),
         (format!("l=[{blank}]\nmovel(l[0])"), &["-"]),
+        (
+            format!(
+                "l=[{}]\nl[1199]=w\nl[1198]=v\nmovel(l[1199])",
+                [blank; 1200].join(",")
+            ),
+            &["w"],
+        ),
     ] {
         let program = path(&format!("w=p[1,2,3,0,0,1]\nv=p[1,2,4,0,0,1]\n{lines}"));
         let mut found = to(&program);
