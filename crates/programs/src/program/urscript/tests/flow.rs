@@ -95,7 +95,7 @@ fn elements_of_lists_are_any_of_them() {
         (
             format!(
                 "l=[{}]\nl[1199]=w\nl[1198]=v\nmovel(l[1199])",
-                [blank; 1200].join(",")
+                vec![blank; 1200].join(",")
             ),
             &["w"],
         ),
