@@ -8,6 +8,7 @@ mod blocks;
 mod bounds;
 mod flow;
 mod joins;
+mod present;
 mod questions;
 mod rounds;
 
@@ -41,6 +42,8 @@ struct Facts<W> {
     is_endless: bool,
     /// It is also written where no site tells.
     is_elsewhere: bool,
+    /// One of several numbers of this name is written, and which is not followed.
+    is_scattered: bool,
 }
 
 impl<W> Default for Facts<W> {
@@ -50,6 +53,7 @@ impl<W> Default for Facts<W> {
             is_lost: false,
             is_endless: false,
             is_elsewhere: false,
+            is_scattered: false,
         }
     }
 }
@@ -76,6 +80,9 @@ pub(super) struct Numbers<W> {
     /// Numbers that are one with another.
     same: HashMap<u32, u32>,
     known: RefCell<HashMap<u32, Quantity>>,
+    /// Where routines stand behind which writes, in the order of the text.
+    marks: HashMap<u32, Vec<present::Mark>>,
+    owns: RefCell<HashMap<u32, Option<Rc<present::Own>>>>,
 }
 
 impl<W> Default for Numbers<W> {
@@ -93,6 +100,8 @@ impl<W> Default for Numbers<W> {
             concurrent: HashSet::default(),
             same: HashMap::default(),
             known: RefCell::default(),
+            marks: HashMap::default(),
+            owns: RefCell::default(),
         }
     }
 }
@@ -132,6 +141,7 @@ impl<W> Numbers<W> {
             of.is_lost |= facts.is_lost;
             of.is_endless |= facts.is_endless;
             of.is_elsewhere |= facts.is_elsewhere;
+            of.is_scattered |= facts.is_scattered;
         }
     }
 
@@ -196,6 +206,11 @@ impl<W> Numbers<W> {
     /// A number is also written where no site tells: by a loop that counts, or by an index.
     pub(super) fn writes_elsewhere(&mut self, number: u32) {
         self.facts_of(number).is_elsewhere = true;
+    }
+
+    /// A statement writes one of several numbers that this stands for.
+    pub(super) fn scatters(&mut self, number: u32) {
+        self.facts_of(number).is_scattered = true;
     }
 
     /// A block, by its routine and number, runs any number of times.

@@ -90,6 +90,11 @@ impl Blocks {
         )
     }
 
+    /// The routine, how much of it stands before, and the blocks that are open.
+    pub(super) fn here(&self) -> (u32, u32, &[Block]) {
+        (self.routine, self.order, &self.open)
+    }
+
     /// Another branch begins.
     pub(in crate::program) fn branch(&mut self) {
         self.open.pop();

@@ -1,6 +1,6 @@
 //! Numbers that calls give, call by call.
 
-use super::numbers::Written;
+use super::numbers::{COMPONENT, RESULT, SHARED, Written};
 use super::resolved::Resolved;
 use crate::program::contexts::{Given, Numbered, Varied, varied};
 use crate::program::names::Context;
@@ -48,6 +48,17 @@ impl Numbered for Resolved<'_> {
         let written =
             |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(*what, of);
         self.numbers.value(number, &written)
+    }
+
+    fn value_at(&self, number: u32, at: At, of: &mut Of) -> Quantity {
+        // another task may write what is shared
+        if number & (SHARED | RESULT | COMPONENT) != 0 {
+            return of(number);
+        }
+        let written =
+            |what: &Written, of: &mut dyn FnMut(u32) -> Quantity| self.written_value(*what, of);
+        let present = self.numbers.present(number, at, &written, of);
+        present.unwrap_or_else(|| of(number))
     }
 
     fn written(&self, written: Written, _: At, of: &mut Of) -> Quantity {

@@ -116,7 +116,11 @@ impl Reader<'_> {
         if verb == Verb::Harmless {
             // what waits or asks may tell its result in an optional argument
             let given = self.parsed.arguments[start..].iter();
-            let given = given.filter(|argument| argument.option.is_some());
+            let symbols = &self.parsed.symbols;
+            let given = given.filter(|argument| {
+                let option = argument.option.map(|option| symbols.spelling(option));
+                option.is_some_and(|option| !is_shown(option))
+            });
             let names = given.filter_map(|argument| named(&argument.expression));
             let results = names.map(|name| (name, self.context));
             self.parsed.results.extend(results);
@@ -424,6 +428,13 @@ fn index_at(bytes: &[u8], open: u32) -> Index {
         }
     }
     Index::At(place)
+}
+
+/// Whether an optional argument of instructions that show or ask something is what they show:
+/// `TPWrite "h="\Num:=h;`
+fn is_shown(option: &str) -> bool {
+    let shown = ["Num", "Dnum", "Bool", "Pos", "Orient"];
+    shown.iter().any(|name| option.eq_ignore_ascii_case(name))
 }
 
 fn closes(open: u8, close: u8) -> bool {

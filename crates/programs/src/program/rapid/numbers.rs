@@ -14,9 +14,9 @@ use crate::program::quantity::{Arithmetic, Quantity, is_letter};
 use crate::program::script::Place;
 
 /// Data that tasks share have the number of their group, above this.
-const SHARED: u32 = 1 << 31;
+pub(super) const SHARED: u32 = 1 << 31;
 /// What functions give has the number of the routine, above this.
-const RESULT: u32 = 1 << 30;
+pub(super) const RESULT: u32 = 1 << 30;
 /// Coordinates have their number above this.
 pub(super) const COMPONENT: u32 = 1 << 29;
 
@@ -78,6 +78,9 @@ impl Resolved<'_> {
         };
         let mut file = 0;
         for statement in &self.parsed.statements {
+            if !matches!(statement.kind, StatementKind::Text { .. }) {
+                noted.numbers.stands(statement.offset, &blocks);
+            }
             match statement.kind {
                 StatementKind::Text {
                     file: in_file,
@@ -106,6 +109,9 @@ impl Resolved<'_> {
                         };
                         let site = (index == Index::Whole).then(|| blocks.site());
                         for datum in data {
+                            if site.is_none() {
+                                noted.numbers.scatters(datum);
+                            }
                             noted.numbers.write(datum, written, site.clone());
                         }
                     }
@@ -323,6 +329,9 @@ impl Resolved<'_> {
             let sets_anew = matches!(by, Written::Zero);
             let site = (!sets_anew || index == Index::Whole).then_some(site);
             for number in self.numbers_named(name, context) {
+                if index != Index::Whole {
+                    noted.numbers.scatters(number);
+                }
                 noted.numbers.write(number, by, site.cloned());
             }
             for datum in self.data_named(name, context) {
@@ -434,7 +443,8 @@ impl Resolved<'_> {
         context: Context,
         own: &mut dyn FnMut(&[u8]) -> Option<Quantity>,
     ) -> Quantity {
-        let of = &mut |number| self.whenever(number);
+        let here = (context.routine.unwrap_or(u32::MAX), at.offset);
+        let of = &mut |number| self.value_at(number, here, &mut |other| self.whenever(other));
         self.evaluated(text, at, context, of, own)
     }
 

@@ -11,6 +11,7 @@ mod frames;
 mod grips;
 mod loads;
 mod posts;
+mod present;
 mod robust;
 mod samples;
 mod sensors;
