@@ -15,7 +15,7 @@ mod rounds;
 pub(super) use blocks::{Blocks, Site};
 pub(super) use bounds::{bounds_in, compared_in, inside_brackets};
 use flow::Flow;
-pub(super) use joins::logic;
+pub(super) use joins::{First, logic};
 pub(super) use questions::{Literal, Question, cases, equality, names_asked, questions};
 
 use super::functions;
@@ -80,6 +80,8 @@ pub(super) struct Numbers<W> {
     /// Numbers that are one with another.
     same: HashMap<u32, u32>,
     known: RefCell<HashMap<u32, Quantity>>,
+    /// A statement calls a routine that only the running program knows.
+    calls_any: bool,
     /// Where routines stand behind which writes, in the order of the text.
     marks: HashMap<u32, Vec<present::Mark>>,
     owns: RefCell<HashMap<u32, Option<Rc<present::Own>>>>,
@@ -100,6 +102,7 @@ impl<W> Default for Numbers<W> {
             concurrent: HashSet::default(),
             same: HashMap::default(),
             known: RefCell::default(),
+            calls_any: false,
             marks: HashMap::default(),
             owns: RefCell::default(),
         }
@@ -221,6 +224,11 @@ impl<W> Numbers<W> {
     /// A routine calls another.
     pub(super) fn calls(&mut self, caller: u32, callee: u32) {
         self.calls.entry(caller).or_default().insert(callee);
+    }
+
+    /// A statement calls a routine that only the running program knows: it may be any.
+    pub(super) fn calls_any(&mut self) {
+        self.calls_any = true;
     }
 
     /// An interrupt or a thread runs a routine.

@@ -224,7 +224,6 @@ impl<'a> Entries<'a> {
     /// A statement begins at a byte of its file.
     pub(super) fn begin_statement(&mut self, at: usize) {
         self.at = short(at);
-        self.numbers.stands(self.at, &self.blocks);
     }
 
     fn here(&self) -> At {
@@ -476,8 +475,8 @@ impl<'a> Entries<'a> {
             }
         }
         for (number, site) in std::mem::take(&mut self.blank) {
-            // what the files do not say, and nothing writes, nobody knows
-            if site.is_some() || self.numbers.is_written(number) {
+            // where nothing writes them nothing is meant by that
+            if self.numbers.is_written(number) {
                 let zero = (Written::Exactly(0.0), self.here());
                 self.numbers.write(number, zero, site);
             }
@@ -493,10 +492,7 @@ impl<'a> Entries<'a> {
     /// What a number may be whenever it is looked at.
     fn whenever(&self, number: u32, reads: &dyn Reads<'a>) -> Quantity {
         let written = |(written, at): &(Written<'a>, At), of: &mut Of| {
-            let mut of_counted = |number| {
-                let counted = self.counted_at(number, *at, reads, of);
-                counted.unwrap_or_else(|| of(number))
-            };
+            let mut of_counted = |number| self.value_at(number, *at, reads, of);
             self.written(*written, *at, reads, &mut of_counted)
         };
         self.numbers.value(number, &written)
@@ -524,37 +520,20 @@ impl<'a> Entries<'a> {
         }
     }
 
-    /// What a number is at a statement: in a loop that counts with it, what that counts; else what was
-    /// written last.
+    /// What a number is at a statement: in a loop that counts with it, what that counts.
     fn value_at(&self, number: u32, at: At, reads: &dyn Reads<'a>, of: &mut Of) -> Quantity {
-        self.counted_at(number, at, reads, of)
-            .or_else(|| {
-                let written = |(written, at): &(Written<'a>, At), of: &mut Of| {
-                    self.written(*written, *at, reads, &mut |other| {
-                        let counted = self.counted_at(other, *at, reads, of);
-                        counted.unwrap_or_else(|| of(other))
-                    })
-                };
-                self.numbers.present(number, at, &written, of)
-            })
-            .unwrap_or_else(|| of(number))
-    }
-
-    /// Likewise where a loop counts with it, else `None`.
-    fn counted_at(
-        &self,
-        number: u32,
-        at: At,
-        reads: &dyn Reads<'a>,
-        of: &mut Of,
-    ) -> Option<Quantity> {
-        let counter = self.counting(number, at)?;
+        let Some(counter) = self.counting(number, at) else {
+            return of(number);
+        };
         let start = (counter.routine, counter.start);
         let mut before = |other| {
-            let counted = (other != number).then(|| self.counted_at(other, start, reads, of));
-            counted.flatten().unwrap_or_else(|| of(other))
+            if other == number {
+                of(other)
+            } else {
+                self.value_at(other, start, reads, of)
+            }
         };
-        Some(counted_by(counter.texts, at.0, reads, &mut before).0)
+        counted_by(counter.texts, at.0, reads, &mut before).0
     }
 
     /// The loop around a statement that counts with a number, where nothing else writes that before

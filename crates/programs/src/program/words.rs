@@ -1,6 +1,6 @@
 //! Words of statements: names, numbers, texts and signs, and lists of them in brackets.
 
-use super::numbers::logic;
+use super::numbers::{First, logic};
 use super::script::{Logic, Wanted, short};
 use super::{Number, number};
 use std::ops::Range;
@@ -298,9 +298,14 @@ impl<'a> Words<'a, '_> {
     pub(super) fn compared(&self) -> Logic<Option<(Self, Wanted)>> {
         let whole = self.whole();
         let first = self.span().start;
-        logic(whole, true).map(&mut |part| {
+        logic(whole, true, First::Comparisons).map(&mut |part| {
             let start = first + (part.text.as_ptr() as usize - whole.as_ptr() as usize);
             let end = start + part.text.len();
+            // NOT may be of the name alone
+            let before = self.bytes[..start].trim_ascii_end();
+            if !part.holds && !before.ends_with(b"(") {
+                return None;
+            }
             self.between(start..end).comparison(part.holds)
         })
     }
@@ -478,7 +483,8 @@ mod tests {
             (".n==2", Some((".n", Wanted::Number(2)))),
             ("(n <> -1)", Some(("n", Wanted::NotNumber(-1)))),
             ("n!=1.0", Some(("n", Wanted::NotNumber(1)))),
-            ("NOT n==1", Some(("n", Wanted::NotNumber(1)))),
+            ("NOT (n==1)", Some(("n", Wanted::NotNumber(1)))),
+            ("NOT n==1", None),
             ("n==1.5", None),
             ("n<1", None),
             ("n>=1", None),

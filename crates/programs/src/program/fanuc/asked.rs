@@ -4,7 +4,7 @@
 use super::content::canonical;
 use super::reader::Reader;
 use super::words::{comma, indexed, whole};
-use crate::program::numbers::{equality, logic};
+use crate::program::numbers::{First, equality, logic};
 use crate::program::script::{Test, Tests, VariableId, Wanted};
 
 /// The number of the argument that a text is.
@@ -16,7 +16,7 @@ impl Reader<'_> {
     /// What a condition asks of arguments.
     pub(super) fn tests(&mut self, condition: &[u8]) -> Tests {
         let text = canonical(condition.trim_ascii());
-        logic(&text, true).map(&mut |part| self.test(part.text, part.holds))
+        logic(&text, true, First::Comparisons).map(&mut |part| self.test(part.text, part.holds))
     }
 
     fn test(&mut self, comparison: &[u8], holds: bool) -> Option<Test> {

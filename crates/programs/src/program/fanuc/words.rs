@@ -225,7 +225,8 @@ fn letters(text: &[u8]) -> impl Iterator<Item = (usize, u8, usize)> {
                     .last()
                     .is_some_and(|start| !is_group(&text[*start..here])) =>
                 {
-                    at += name_end(&text[at..]).unwrap_or(0);
+                    let name = &text[at..text.len().min(at + MOST_INDEX)];
+                    at += name_end(name).unwrap_or(0);
                     return Some((here, byte, open.len()));
                 }
                 _ => return Some((here, byte, open.len())),

@@ -10,7 +10,7 @@ use super::tokens::{Cursor, Kind};
 use crate::program::kit::spread;
 use crate::program::names::{Context, Symbol};
 use crate::program::number;
-use crate::program::numbers::{Literal, Question, cases, names_asked, questions, word};
+use crate::program::numbers::{First, Literal, Question, cases, names_asked, questions, word};
 use crate::program::script::{Expr, Test, Tests, VariableId};
 use foldhash::HashSet;
 
@@ -155,7 +155,7 @@ impl Reader {
 
     /// What an IF asks of parameters.
     pub(super) fn tests(&mut self, cursor: Cursor) -> Tests {
-        questions(condition(cursor)).map(&mut |of| self.test(of.as_ref()?))
+        questions(condition(cursor), First::Joins).map(&mut |of| self.test(of.as_ref()?))
     }
 
     fn test(&mut self, of: &Question) -> Option<Test> {

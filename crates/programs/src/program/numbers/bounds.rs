@@ -1,7 +1,7 @@
 //! What conditions say of numbers, and counters of loops that they bound: `WHILE n<10`.
 
 use super::super::quantity::{Quantity, is_letter};
-use super::joins::logic;
+use super::joins::{First, logic};
 use super::rounds::growths;
 use super::{Numbers, Site};
 
@@ -120,7 +120,7 @@ impl Relation {
 
 /// The comparisons of a condition that all are as they are here where it holds, or where it does not.
 fn comparisons(condition: &[u8], holds: bool) -> Vec<(&[u8], Relation, &[u8])> {
-    let parts = logic(condition, holds);
+    let parts = logic(condition, holds, First::Comparisons);
     let compared = parts.conjuncts().into_iter().filter_map(|part| {
         let (before, relation, behind) = comparison(part.text)?;
         let relation = if part.holds {

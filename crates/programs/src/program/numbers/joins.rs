@@ -17,15 +17,24 @@ pub(in crate::program) struct Part<'a> {
     pub holds: bool,
 }
 
+/// What a language does first where no brackets tell: `b AND n==1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::program) enum First {
+    /// It compares.
+    Comparisons,
+    /// It joins.
+    Joins,
+}
+
 /// The parts of a condition where it holds, or (`false`) where it does not.
 ///
 /// Languages differ in what AND, OR, NOT and comparisons bind first. Where that matters and no
 /// brackets tell, it is one part.
-pub(in crate::program) fn logic(condition: &[u8], holds: bool) -> Logic<Part<'_>> {
-    within(condition, holds, DEEPEST)
+pub(in crate::program) fn logic(condition: &[u8], holds: bool, first: First) -> Logic<Part<'_>> {
+    within(condition, holds, first, DEEPEST)
 }
 
-fn within(condition: &[u8], holds: bool, depth: u32) -> Logic<Part<'_>> {
+fn within(condition: &[u8], holds: bool, first: First, depth: u32) -> Logic<Part<'_>> {
     let text = inside_brackets(condition);
     let one = Logic::One(Part { text, holds });
     let (Some(depth), Some((parts, joined))) = (depth.checked_sub(1), split(text)) else {
@@ -33,7 +42,7 @@ fn within(condition: &[u8], holds: bool, depth: u32) -> Logic<Part<'_>> {
     };
     let Some(by_and) = joined else {
         return match behind_not(text) {
-            Some(rest) => within(rest, !holds, depth),
+            Some(rest) => within(rest, !holds, first, depth),
             None => one,
         };
     };
@@ -41,9 +50,10 @@ fn within(condition: &[u8], holds: bool, depth: u32) -> Logic<Part<'_>> {
     let is_clear = |part: &&[u8]| {
         comparison(part).is_none_or(|(before, _, behind)| {
             inside_brackets(part).len() < part.trim_ascii().len()
-                || Literal::flag(before)
-                    .or_else(|| Literal::flag(behind))
-                    .is_none()
+                || first == First::Comparisons
+                    && Literal::flag(before)
+                        .or_else(|| Literal::flag(behind))
+                        .is_none()
         })
     };
     // NOT may reach over what follows
@@ -56,7 +66,7 @@ fn within(condition: &[u8], holds: bool, depth: u32) -> Logic<Part<'_>> {
     }
     let all = parts
         .iter()
-        .map(|part| within(part, holds, depth))
+        .map(|part| within(part, holds, first, depth))
         .collect();
     if by_and == holds {
         Logic::All(all)
@@ -154,11 +164,21 @@ mod tests {
             ("", ""),
         ] {
             assert_eq!(
-                written(&logic(condition.as_bytes(), true)),
+                written(&logic(condition.as_bytes(), true, First::Comparisons)),
                 wanted,
                 "{condition}"
             );
         }
-        assert_eq!(written(&logic(b"a AND n<1", false)), "(!a | !n<1)");
+        let contrary = logic(b"a AND n<1", false, First::Comparisons);
+        assert_eq!(written(&contrary), "(!a | !n<1)");
+        // comparisons last
+        for (condition, wanted) in [
+            ("b AND c==$IN[1]", "b AND c==$IN[1]"),
+            ("(n==1) OR b", "(n==1 | b)"),
+            ("b AND NOT (c==d)", "(b & !c==d)"),
+        ] {
+            let found = logic(condition.as_bytes(), true, First::Joins);
+            assert_eq!(written(&found), wanted, "{condition}");
+        }
     }
 }

@@ -8,6 +8,9 @@ use std::rc::Rc;
 /// Writes that are made of the one before that are followed.
 const DEEPEST: u32 = 24;
 
+/// Blocks in blocks that are followed.
+const DEEPEST_BLOCK: usize = 32;
+
 /// From which byte on a routine stands behind so many writes, in these blocks.
 #[derive(Debug)]
 pub(super) struct Mark {
@@ -36,6 +39,10 @@ impl<W> Numbers<W> {
     /// A statement begins at this byte of the routine that `blocks` are of.
     pub(in crate::program) fn stands(&mut self, offset: u32, blocks: &Blocks) {
         let (routine, order, open) = blocks.here();
+        if open.len() > DEEPEST_BLOCK {
+            self.jumping.insert(routine);
+            return;
+        }
         let marks = self.marks.entry(routine).or_default();
         if let Some(last) = marks.last() {
             if last.offset > offset {
@@ -102,7 +109,9 @@ impl<W> Numbers<W> {
         let since = blocks.strip_prefix(&written.blocks[..])?;
         let next = own.writes.get(behind).and_then(|at| site(*at));
         let is_again = |block: &Block| {
-            block.most != Some(1) && next.is_some_and(|next| next.blocks.contains(block))
+            let is_once =
+                block.most == Some(1) && !self.unbounded.contains(&(own.routine, block.number));
+            !is_once && next.is_some_and(|next| next.blocks.contains(block))
         };
         if since.iter().any(is_again) {
             return None;
@@ -147,8 +156,12 @@ impl<W> Numbers<W> {
             .filter_map(|(at, (_, site))| Some((at, site.as_ref()?)))
             .collect();
         let routine = sites.first()?.1.routine;
+        let mut at_any_time = self.called_by(self.concurrent.iter().copied().collect());
+        at_any_time.extend(&self.concurrent);
         let is_followed = sites.iter().all(|(_, site)| site.routine == routine)
+            && !self.calls_any
             && !self.jumping.contains(&routine)
+            && !at_any_time.contains(&routine)
             && !self.runs_inside_itself(routine);
         if !is_followed {
             return None;

@@ -3,7 +3,7 @@
 
 use super::super::quantity::is_letter;
 use super::bounds::{Relation, comparison};
-use super::joins::{Part, logic};
+use super::joins::{First, Part, logic};
 use crate::program::script::{Held, Logic, Wanted};
 
 /// A value that branches tell from others.
@@ -63,8 +63,8 @@ pub(in crate::program) struct Question<'a> {
 }
 
 /// What the parts of a condition ask that are about one name.
-pub(in crate::program) fn questions(condition: &[u8]) -> Logic<Option<Question<'_>>> {
-    logic(condition, true).map(&mut |part| question(*part))
+pub(in crate::program) fn questions(condition: &[u8], first: First) -> Logic<Option<Question<'_>>> {
+    logic(condition, true, first).map(&mut |part| question(*part))
 }
 
 fn question(Part { text, holds }: Part<'_>) -> Option<Question<'_>> {
@@ -95,7 +95,7 @@ fn question(Part { text, holds }: Part<'_>) -> Option<Question<'_>> {
 
 /// The names that a condition asks about.
 pub(in crate::program) fn names_asked(condition: &[u8]) -> Vec<&[u8]> {
-    let questions = questions(condition);
+    let questions = questions(condition, First::Comparisons);
     let asked = questions.parts().into_iter().flatten();
     asked.map(|question| question.name).collect()
 }
@@ -153,7 +153,7 @@ mod tests {
             ("", None),
             ("NOT", Some(("NOT", "", true))),
         ] {
-            let asked = questions(condition.as_bytes());
+            let asked = questions(condition.as_bytes(), First::Comparisons);
             let [found] = asked.parts()[..] else {
                 panic!("{condition}: {asked:?}");
             };

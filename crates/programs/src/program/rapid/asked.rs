@@ -9,7 +9,9 @@ use crate::program::contexts::Numbered;
 use crate::program::kit::spread;
 use crate::program::names::{Meaning, Symbol};
 use crate::program::number;
-use crate::program::numbers::{Literal, Question, cases, inside_brackets, names_asked, questions};
+use crate::program::numbers::{
+    First, Literal, Question, cases, inside_brackets, names_asked, questions,
+};
 use crate::program::quantity::is_letter;
 use crate::program::script::{Expr, Test, Tests, Variable, VariableId, Wanted};
 
@@ -112,8 +114,11 @@ impl Translator<'_> {
             }
             Some(Asked::Value(part)) => {
                 let resolved = self.resolved;
-                questions(resolved.condition_of(self.here.file, part))
-                    .map(&mut |of| self.test(of.as_ref()?))
+                questions(
+                    resolved.condition_of(self.here.file, part),
+                    First::Comparisons,
+                )
+                .map(&mut |of| self.test(of.as_ref()?))
             }
             None => None.into(),
         }

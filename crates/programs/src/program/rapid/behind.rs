@@ -5,16 +5,13 @@
 use super::derived::{Holder, Origin, Origins};
 use super::parts::small;
 use super::resolved::{Entity, Resolved, named};
-use super::syntax::{Expression, Index, Storage, Type};
+use super::syntax::{Index, Storage, Type};
 use super::translate::Translator;
 use crate::program::Source;
 use crate::program::names::{Context, Meaning, Symbol};
 use crate::program::script::{Expr, OVERWRITTEN, Place, Remark, UNBOUNDED};
 use foldhash::{HashSet, HashSetExt};
 use std::cell::RefCell;
-
-/// Names of members within members that are followed.
-const DEEPEST_MEMBER: usize = 6;
 
 /// Data by their name, where that stands, and the path of the member that counts.
 pub(super) type Asked = (Symbol, Context, Option<Vec<u8>>);
@@ -26,22 +23,10 @@ struct Behind {
     targets: HashSet<(Symbol, Context, bool)>,
     /// Numbers that come from no target are written over some of the coordinates.
     overwritten: bool,
-    /// What is copied as it is may be what a record holds before the program runs.
-    declared: bool,
-}
-
-/// What is looked into for the targets behind it.
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct Open {
-    holder: Holder,
-    /// The path of the member that counts.
-    member: Option<Vec<u8>>,
-    /// What the member holds is copied as it is.
-    is_copy: bool,
 }
 
 /// A name with its members, in small letters and without indices: `rc{i}.At` is `rc.at`.
-pub(super) fn path(text: &[u8]) -> Vec<u8> {
+fn path(text: &[u8]) -> Vec<u8> {
     let mut depth = 0;
     let mut path = small(text);
     path.retain(|letter| {
@@ -68,50 +53,31 @@ impl Resolved<'_> {
         member: Option<&[u8]>,
     ) -> Behind {
         let mut found = Behind::default();
-        let mut open = self.holders(name, here, member, true);
+        let mut open = self.holders(name, here, member);
         let mut seen = HashSet::new();
-        while let Some(next) = open.pop() {
-            if !seen.insert(next.clone()) {
+        while let Some((holder, member)) = open.pop() {
+            if !seen.insert((holder, member.is_some())) {
                 continue;
             }
-            let Open {
-                holder,
-                member,
-                is_copy: all_copied,
-            } = next;
             for origin in origins.of(holder) {
                 let (value, context, at) = match *origin {
                     Origin::Value(value, context, at) => (value, context, at),
                     Origin::Given(value, context) => (value, context, None),
                     Origin::Parameter(datum) => {
-                        open.push(Open {
-                            holder: Holder::Data(Entity::Declared(datum)),
-                            member: None,
-                            is_copy: false,
-                        });
+                        open.push((Holder::Data(Entity::Declared(datum)), None));
                         continue;
                     }
                 };
                 let mut is_copy = false;
-                if let (Some(member), Some(at)) = (&member, at) {
-                    let (written, text) = self.paths(at);
+                if let (Some(member), Some(at)) = (member, at) {
+                    let written = self.path_written(at);
                     let into = after(&written, member);
-                    let within = after(member, &written);
-                    if into.is_none() && within.is_none() {
-                        continue;
-                    }
-                    if all_copied
-                        && let Some(rest) = within
-                        && let Some((of, from)) = self.copied_member((&value, context), &text, rest)
-                    {
-                        found.declared |= self.has_value(of, context);
-                        open.extend(self.holders(of, context, Some(&from), true));
+                    if into.is_none() && after(member, &written).is_none() {
                         continue;
                     }
                     // what a parameter was in a call that is over nobody knows
                     let copied = named(&value).filter(|name| !self.is_parameter(*name, context));
-                    is_copy =
-                        all_copied && within.is_some_and(<[u8]>::is_empty) && copied.is_some();
+                    is_copy = into.is_some_and(<[u8]>::is_empty) && copied.is_some();
                     found.overwritten |= into.is_some_and(|part| part.starts_with(b".trans"))
                         && !self.is_from_target(&value, context);
                 }
@@ -127,7 +93,7 @@ impl Resolved<'_> {
                     if is_target && !(is_elsewhere && self.is_parameter(name, context)) {
                         found.targets.insert((name, context, is_copy));
                     } else {
-                        open.extend(self.holders(name, context, None, false));
+                        open.extend(self.holders(name, context, None));
                     }
                 }
             }
@@ -135,49 +101,21 @@ impl Resolved<'_> {
         found
     }
 
-    /// The record that a value or the record around it is, and the path to what counts of it:
-    /// `rest` within the value. `None` where it is a target, or a parameter's.
-    fn copied_member(
-        &self,
-        (value, context): (&Expression, Context),
-        text: &[u8],
-        rest: &[u8],
-    ) -> Option<(Symbol, Vec<u8>)> {
-        let name = named(value).filter(|name| {
-            let kind = self.kind(*name, context);
-            !kind.is_some_and(Type::is_target) && !self.is_parameter(*name, context)
-        })?;
-        let is_path = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.');
-        let mut path = text.to_vec();
-        path.extend_from_slice(rest);
-        let depth = memchr::memchr_iter(b'.', &path).count();
-        (path.iter().all(is_path) && depth <= DEEPEST_MEMBER).then_some((name, path))
-    }
-
     /// What a name that is no target may hold numbers in.
-    fn holders(
+    fn holders<'p>(
         &self,
         name: Symbol,
         context: Context,
-        member: Option<&[u8]>,
-        is_copy: bool,
-    ) -> Vec<Open> {
+        member: Option<&'p [u8]>,
+    ) -> Vec<(Holder, Option<&'p [u8]>)> {
         let several = self.data_named(name, context).into_iter();
         let data = match self.meaning(name, context) {
             Meaning::Nothing => vec![Entity::Undeclared(name)],
             _ => several.map(Entity::Declared).collect(),
         };
-        let data = data.into_iter().map(|data| Open {
-            holder: Holder::Data(data),
-            member: member.map(<[u8]>::to_vec),
-            is_copy,
-        });
-        let result = self.function_of(name, context).map(|result| Open {
-            holder: Holder::Result(result),
-            member: None,
-            is_copy: false,
-        });
-        data.chain(result).collect()
+        let data = data.into_iter().map(|data| (Holder::Data(data), member));
+        let result = self.function_of(name, context).map(Holder::Result);
+        data.chain(result.map(|result| (result, None))).collect()
     }
 
     fn is_parameter(&self, name: Symbol, context: Context) -> bool {
@@ -185,14 +123,11 @@ impl Resolved<'_> {
         self.data_named(name, context).iter().any(is_parameter)
     }
 
-    /// What the assignment in this place writes, and what it is given.
-    fn paths(&self, at: Place) -> (Vec<u8>, Vec<u8>) {
+    /// What the assignment in this place writes.
+    fn path_written(&self, at: Place) -> Vec<u8> {
         let text = &self.sources[at.file as usize].bytes[at.offset as usize..];
-        let text = &text[..memchr::memchr(b';', text).unwrap_or(text.len())];
-        match memchr::memmem::find(text, b":=") {
-            Some(end) => (path(&text[..end]), path(&text[end + 2..])),
-            None => (Vec::new(), Vec::new()),
-        }
+        let end = memchr::memmem::find(text, b":=").unwrap_or(0);
+        path(&text[..end])
     }
 
     /// Whether data have a value before the program runs.
@@ -248,9 +183,6 @@ impl Translator<'_> {
         let mut targets: Vec<_> = behind.targets.into_iter().collect();
         targets.sort_unstable_by_key(|(name, context, is_copy)| (*name, context.routine, *is_copy));
         let mut all = Vec::new();
-        if behind.declared {
-            all.push(self.computed_name(name));
-        }
         for (name, context, is_copy) in targets {
             let base = self.position_in(name, Index::Whole, Type::Robtarget, context, 0);
             let script = &mut self.builder.script;

@@ -137,6 +137,9 @@ impl Resolved<'_> {
                     arguments,
                     ..
                 }) => {
+                    if matches!(callee, Callee::Late) || verb == Verb::CallByVar {
+                        noted.numbers.calls_any();
+                    }
                     let name = match callee {
                         Callee::Named(name) if self.is_routine(name, context) => None,
                         Callee::Named(name) => Some(name),

@@ -1,7 +1,6 @@
 //! What assignments make of data, as a whole and part by part.
 
 use super::aggregate::Leaf;
-use super::behind::path;
 use super::records::part_of;
 use super::syntax::{
     Argument, Assigned, Base, Callee, Component, Expression, Index, Type, indices,
@@ -89,11 +88,6 @@ impl Translator<'_> {
         {
             let named = &mut self.builder.script.targets[target as usize].name;
             *named = Some(self.resolved.spelling(name).into());
-        }
-        if let Expression::Member { name, .. } = expression {
-            let (_, member) = self.own_and_value();
-            let own = self.computed_name(name);
-            return How::Whole(self.at_member(name, Some(&path(&member)), own));
         }
         How::Whole(self.position_from(expression, wanted))
     }

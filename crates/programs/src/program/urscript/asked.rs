@@ -8,7 +8,7 @@ use super::translate::Translator;
 use super::variables::{Assigned, VarId, Variables};
 use crate::program::kit::spread;
 use crate::program::number;
-use crate::program::numbers::{Literal, Question, inside_brackets, names_asked, questions};
+use crate::program::numbers::{First, Literal, Question, inside_brackets, names_asked, questions};
 use crate::program::script::{self, Test, Tests, Variable, VariableId, short};
 use foldhash::HashSet;
 
@@ -119,7 +119,7 @@ impl Translator<'_, '_, '_> {
     /// On what the condition between these bytes depends.
     pub(super) fn tests_of(&mut self, part: (u32, u32), function: FunctionId) -> Tests {
         let variables = self.goals.variables;
-        let questions = questions(variables.condition_of(part));
+        let questions = questions(variables.condition_of(part), First::Comparisons);
         questions.map(&mut |of| self.test(of.as_ref()?, function))
     }
 

@@ -25,7 +25,7 @@ pub(super) struct Elements {
 }
 
 /// Elements of one list that are kept apart by their numbers.
-const MOST_NUMBERS: usize = 16;
+const MOST_NUMBERS: usize = 4;
 
 /// The places in lists and structures from which an element may come, each once.
 #[derive(Default)]
@@ -225,17 +225,6 @@ impl Variables<'_, '_> {
                     }
                 }
             }
-        }
-        // a pose of zeros holds the place of one that is put there: no robot reaches it
-        let is_blank = |(value, _): &(ExprId, _)| match self.parsed.expression(*value) {
-            Expr::Literal(id) => {
-                let literal = self.parsed.literal(id);
-                literal.pose && self.parsed.values(literal) == Some([0.0; 6])
-            }
-            _ => false,
-        };
-        if !found.iter().all(is_blank) {
-            found.retain(|one| !is_blank(one));
         }
         Some(Elements {
             values: found,

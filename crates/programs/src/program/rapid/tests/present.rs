@@ -85,6 +85,11 @@ fn what_may_have_been_written_since_counts_too() {
         ),
         (format!("h:=20;\nIF di1=1 main;\n{GO}\nh:=60;"), ""),
         (format!("h:=20;\noutside h;\n{GO}"), ""),
+        (format!("h:=20;\nCallByVar \"ma\",k;\n{GO}\nh:=60;"), ""),
+        (
+            format!("CONNECT i1 WITH other;\nh:=20;\n{GO}\nh:=60;"),
+            "TRAP other\nmain;\nENDTRAP",
+        ),
     ] {
         let found = up(&statements, more);
         assert!(found.contains(&None), "{statements}: {found:?}");
