@@ -85,6 +85,8 @@ pub(super) struct Numbers<W> {
     /// Where routines stand behind which writes, in the order of the text.
     marks: HashMap<u32, Vec<present::Mark>>,
     owns: RefCell<HashMap<u32, Option<Rc<present::Own>>>>,
+    /// Whether routines are followed statement by statement.
+    followed: RefCell<HashMap<u32, bool>>,
 }
 
 impl<W> Default for Numbers<W> {
@@ -105,6 +107,7 @@ impl<W> Default for Numbers<W> {
             calls_any: false,
             marks: HashMap::default(),
             owns: RefCell::default(),
+            followed: RefCell::default(),
         }
     }
 }

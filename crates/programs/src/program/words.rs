@@ -298,14 +298,9 @@ impl<'a> Words<'a, '_> {
     pub(super) fn compared(&self) -> Logic<Option<(Self, Wanted)>> {
         let whole = self.whole();
         let first = self.span().start;
-        logic(whole, true, First::Comparisons).map(&mut |part| {
+        logic(whole, true, First::Not).map(&mut |part| {
             let start = first + (part.text.as_ptr() as usize - whole.as_ptr() as usize);
             let end = start + part.text.len();
-            // NOT may be of the name alone
-            let before = self.bytes[..start].trim_ascii_end();
-            if !part.holds && !before.ends_with(b"(") {
-                return None;
-            }
             self.between(start..end).comparison(part.holds)
         })
     }
@@ -484,7 +479,7 @@ mod tests {
             ("(n <> -1)", Some(("n", Wanted::NotNumber(-1)))),
             ("n!=1.0", Some(("n", Wanted::NotNumber(1)))),
             ("NOT (n==1)", Some(("n", Wanted::NotNumber(1)))),
-            ("NOT n==1", None),
+            ("NOT n==1", Some(("NOT n", Wanted::Number(1)))),
             ("n==1.5", None),
             ("n<1", None),
             ("n>=1", None),

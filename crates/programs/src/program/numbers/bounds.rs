@@ -120,7 +120,7 @@ impl Relation {
 
 /// The comparisons of a condition that all are as they are here where it holds, or where it does not.
 fn comparisons(condition: &[u8], holds: bool) -> Vec<(&[u8], Relation, &[u8])> {
-    let parts = logic(condition, holds, First::Comparisons);
+    let parts = logic(condition, holds, First::Not);
     let compared = parts.conjuncts().into_iter().filter_map(|part| {
         let (before, relation, behind) = comparison(part.text)?;
         let relation = if part.holds {
@@ -221,7 +221,8 @@ mod tests {
             ("n<>10", &[("n", Relation::NotEqual, "10")]),
             ("n<m", &[("n", below(true), "m"), ("m", above(true), "n")]),
             ("n<10 OR x", &[]),
-            ("NOT n<10", &[("n", above(false), "10")]),
+            ("NOT n<10", &[]),
+            ("NOT (n<10)", &[("n", above(false), "10")]),
             ("NOT n<10 AND m<1", &[]),
             ("n<10 AND m<1 OR di1", &[]),
             ("n<10 AND (m<1 OR di1)", &[("n", below(true), "10")]),

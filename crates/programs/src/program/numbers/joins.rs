@@ -17,11 +17,13 @@ pub(in crate::program) struct Part<'a> {
     pub holds: bool,
 }
 
-/// What a language does first where no brackets tell: `b AND n==1`.
+/// What a language does first where no brackets tell: `b AND NOT n==1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::program) enum First {
     /// It compares.
     Comparisons,
+    /// It may take the contrary of what stands behind NOT, then it compares.
+    Not,
     /// It joins.
     Joins,
 }
@@ -41,7 +43,10 @@ fn within(condition: &[u8], holds: bool, first: First, depth: u32) -> Logic<Part
         return one;
     };
     let Some(by_and) = joined else {
-        return match behind_not(text) {
+        let is_clear = |rest: &&[u8]| {
+            first != First::Not || comparison(rest).is_none() || is_in_brackets(rest)
+        };
+        return match behind_not(text).filter(is_clear) {
             Some(rest) => within(rest, !holds, first, depth),
             None => one,
         };
@@ -49,8 +54,8 @@ fn within(condition: &[u8], holds: bool, first: First, depth: u32) -> Logic<Part
     let (last, others) = parts.split_last().expect("two parts at least");
     let is_clear = |part: &&[u8]| {
         comparison(part).is_none_or(|(before, _, behind)| {
-            inside_brackets(part).len() < part.trim_ascii().len()
-                || first == First::Comparisons
+            is_in_brackets(part)
+                || first != First::Joins
                     && Literal::flag(before)
                         .or_else(|| Literal::flag(behind))
                         .is_none()
@@ -104,6 +109,11 @@ fn split(text: &[u8]) -> Option<(Vec<&[u8]>, Option<bool>)> {
     }
     parts.push(&text[from..]);
     Some((parts, Some(by)))
+}
+
+/// Whether brackets stand around the whole of a text.
+fn is_in_brackets(text: &[u8]) -> bool {
+    inside_brackets(text).len() < text.trim_ascii().len()
 }
 
 /// What stands behind a NOT in front.
@@ -171,6 +181,15 @@ mod tests {
         }
         let contrary = logic(b"a AND n<1", false, First::Comparisons);
         assert_eq!(written(&contrary), "(!a | !n<1)");
+        for (condition, wanted) in [
+            ("NOT n==1", "NOT n==1"),
+            ("NOT (n==1)", "!n==1"),
+            ("b OR NOT n<1", "(b | NOT n<1)"),
+            ("NOT b", "!b"),
+        ] {
+            let found = logic(condition.as_bytes(), true, First::Not);
+            assert_eq!(written(&found), wanted, "{condition}");
+        }
         // comparisons last
         for (condition, wanted) in [
             ("b AND c==$IN[1]", "b AND c==$IN[1]"),

@@ -146,6 +146,21 @@ impl<W> Numbers<W> {
         found
     }
 
+    /// Whether a routine goes from statement to statement, and never runs while it does so already.
+    fn is_followed(&self, routine: u32) -> bool {
+        if let Some(known) = self.followed.borrow().get(&routine) {
+            return *known;
+        }
+        let mut at_any_time = self.called_by(self.concurrent.iter().copied().collect());
+        at_any_time.extend(&self.concurrent);
+        let found = !self.calls_any
+            && !self.jumping.contains(&routine)
+            && !at_any_time.contains(&routine)
+            && !self.runs_inside_itself(routine);
+        self.followed.borrow_mut().insert(routine, found);
+        found
+    }
+
     fn find_own(&self, number: u32) -> Option<Own> {
         let facts = self.facts.get(&number)?;
         if facts.is_lost || facts.is_endless || facts.is_elsewhere || facts.is_scattered {
@@ -156,14 +171,8 @@ impl<W> Numbers<W> {
             .filter_map(|(at, (_, site))| Some((at, site.as_ref()?)))
             .collect();
         let routine = sites.first()?.1.routine;
-        let mut at_any_time = self.called_by(self.concurrent.iter().copied().collect());
-        at_any_time.extend(&self.concurrent);
-        let is_followed = sites.iter().all(|(_, site)| site.routine == routine)
-            && !self.calls_any
-            && !self.jumping.contains(&routine)
-            && !at_any_time.contains(&routine)
-            && !self.runs_inside_itself(routine);
-        if !is_followed {
+        let is_of_one = sites.iter().all(|(_, site)| site.routine == routine);
+        if !is_of_one || !self.is_followed(routine) {
             return None;
         }
         // what it begins with does not change where it is written

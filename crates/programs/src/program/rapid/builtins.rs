@@ -70,6 +70,12 @@ const HARMLESS: &str = "\
     writevar wzboxdef wzcyldef wzdisable wzdoset wzdosset wzenable wzfree wzhomejointdef \
     wzlimjointdef wzlimsup wzsphdef";
 
+/// Optional arguments of harmless instructions that these show, and do not write.
+///
+/// # Source
+/// ABB, Technical reference manual RAPID Instructions, Functions and Data types, `TPWrite`, `Write`.
+const SHOWN: &str = "bool dnum num orient pos";
+
 /// Functions that write the argument at this position.
 const WRITING_FUNCTIONS: &[(&str, u8)] = &[("getnextsym", 0), ("strtoval", 1), ("testandset", 0)];
 
@@ -115,6 +121,11 @@ const WORKED_OUT: &str = "\
 /// Whether the value of a function, in lower case, is worked out of what it is given.
 pub(super) fn is_worked_out(name: &str) -> bool {
     has(WORKED_OUT, name)
+}
+
+/// Whether an optional argument of a harmless instruction is what that shows: `TPWrite "h="\Num:=h;`
+pub(super) fn is_shown(option: &str) -> bool {
+    has(SHOWN, &option.to_ascii_lowercase())
 }
 
 /// Whether a list of words has one.

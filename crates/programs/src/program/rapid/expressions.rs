@@ -1,7 +1,7 @@
 //! Expressions that are passed over, and the arguments of an instruction one after another.
 
 use super::blocks::is_block_word;
-use super::builtins::Known;
+use super::builtins::{self, Known};
 use super::reader::{KEYWORD, Reader, keyword};
 use super::resolved::named;
 use super::syntax::{Argument, Base, Expression, Function, Index, Part, StatementKind, Verb};
@@ -119,7 +119,7 @@ impl Reader<'_> {
             let symbols = &self.parsed.symbols;
             let given = given.filter(|argument| {
                 let option = argument.option.map(|option| symbols.spelling(option));
-                option.is_some_and(|option| !is_shown(option))
+                option.is_some_and(|option| !builtins::is_shown(option))
             });
             let names = given.filter_map(|argument| named(&argument.expression));
             let results = names.map(|name| (name, self.context));
@@ -428,13 +428,6 @@ fn index_at(bytes: &[u8], open: u32) -> Index {
         }
     }
     Index::At(place)
-}
-
-/// Whether an optional argument of instructions that show or ask something is what they show:
-/// `TPWrite "h="\Num:=h;`
-fn is_shown(option: &str) -> bool {
-    let shown = ["Num", "Dnum", "Bool", "Pos", "Orient"];
-    shown.iter().any(|name| option.eq_ignore_ascii_case(name))
 }
 
 fn closes(open: u8, close: u8) -> bool {
