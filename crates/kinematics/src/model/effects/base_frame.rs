@@ -37,10 +37,14 @@ impl Equation for BaseFrame {
     fn sentence(effect: &Effect, _: &Seen) -> String {
         let (place, turned) = (length(&effect.parameters[..3]), length(&effect.parameters[3..]));
         match (place == 0.0, turned == 0.0) {
-            (false, true) => format!("The base stands {} mm from where the profile has it", mm(place)),
-            (true, false) => format!("The base is rotated by {}° from how the profile has it", deg(turned)),
+            (false, true) => {
+                format!("The base or the measuring device stands {} mm from where the profile has it", mm(place))
+            }
+            (true, false) => {
+                format!("The base or the measuring device is rotated by {}° from how the profile has it", deg(turned))
+            }
             _ => format!(
-                "The base stands {} mm from where the profile has it and rotated by {}°",
+                "The base or the measuring device stands {} mm from where the profile has it and rotated by {}°",
                 mm(place),
                 deg(turned)
             ),

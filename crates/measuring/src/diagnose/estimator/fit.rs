@@ -85,8 +85,10 @@ pub struct Fit {
     pub left: Column,
     /// Of the residual given the prior, before division by the scale squared.
     pub deviance: f64,
-    /// Residuals are so many standard deviations of the rows.
+    /// Residuals are so many standard deviations of the rows, and no less than the floor.
     pub scale: f64,
+    /// The same, however little it is.
+    pub mean: f64,
     /// Measured numbers in use, by weight, minus free parameters.
     pub freedom: f64,
     /// The scale is at least this.
@@ -299,6 +301,7 @@ impl<'a> Normal<'a> {
             solved,
             held,
             scale: 1.0,
+            mean: 1.0,
             freedom: 1.0,
             floor: self.floor,
             design: 1.0,
@@ -324,9 +327,9 @@ impl<'a> Normal<'a> {
         let weight = dot(&full.roots, &full.roots);
         let free: f64 = full.shares.iter().filter(|s| **s == 1.0).sum();
         full.freedom = (weight - free).max(1.0);
-        let mean = (full.deviance / full.freedom).max(0.0).sqrt();
+        full.mean = (full.deviance / full.freedom).max(0.0).sqrt();
         // normal rows beyond the limit are cut: their part of the mean square is small
-        full.scale = mean.max(self.floor).max(1e-12);
+        full.scale = full.mean.max(self.floor).max(1e-12);
         full.design = design(self.layout, self.used, &full.left, full.shares.iter().sum());
         // so many numbers that tell as much as these
         full.freedom = (weight / full.design - free).max(1.0);

@@ -42,8 +42,10 @@ pub struct Refit {
     pub impossible: Vec<Beyond>,
     /// The residual's `rᵀ M r`, see [`Fit`].
     pub deviance: f64,
-    /// Residuals are so many standard deviations of the rows.
+    /// As of [`Fit::scale`].
     pub scale: f64,
+    /// As of [`Fit::mean`].
+    pub mean: f64,
     /// As of [`Fit::design`].
     pub design: f64,
     /// Measured numbers in use, by weight, minus free parameters.
@@ -201,6 +203,7 @@ pub(crate) fn refit(start: Start, chosen: &[Chosen], used: &[bool]) -> (Refit, L
         chosen_sigmas,
         deviance: fit.deviance,
         scale: fit.scale,
+        mean: fit.mean,
         design: fit.design,
         freedom: fit.freedom,
         strain: fit.strain,

@@ -17,8 +17,8 @@ use crate::diagnose::question::shifts::Shifts;
 use crate::diagnose::question::{Session, Trust, for_choice, session};
 use crate::diagnose::search::{Chosen, by_gain};
 use crate::identify::IdentifyError;
-use crate::identify::input_checks::Remark;
 use crate::identify::input_checks::plausibility::HOPELESS_M;
+use crate::identify::input_checks::{Remark, sigma};
 use crate::identify::measurements::Measurements;
 use crate::identify::pick::Pick;
 use crate::identify::problem::Estimate;
@@ -131,16 +131,28 @@ impl Attempt {
     }
 
     /// What rows are still off by, root mean square, metres, where no arm is that far from its
-    /// drawing.
+    /// drawing. A few that fit no model do not count: they are reported as such.
     pub(crate) fn hopeless_m(&self) -> Option<f64> {
-        let lengths = lengths_m(
-            &self.session.problem,
-            &self.session.layout,
-            &self.refit.residual,
-        );
-        let squares = lengths.iter().map(|length| length * length);
-        let rms = (squares.sum::<f64>() / lengths.len().max(1) as f64).sqrt();
+        let (layout, refit) = (&self.session.layout, &self.refit);
+        let lengths = lengths_m(&self.session.problem, layout, &refit.residual);
+        let are_many = self.strangers().is_some();
+        let counts = |row: &usize| are_many || beyond(layout, refit, *row).is_none();
+        let counted: Vec<f64> = (0..layout.rows())
+            .filter(counts)
+            .map(|row| lengths[row])
+            .collect();
+        let squares = counted.iter().map(|length| length * length);
+        let rms = (squares.sum::<f64>() / counted.len().max(1) as f64).sqrt();
         (rms > HOPELESS_M).then_some(rms)
+    }
+
+    /// That the residual is far below the noise that is stated.
+    pub(crate) fn sigma_large(&self) -> Option<Remark> {
+        if self.session.problem.sigma_assumed {
+            return None;
+        }
+        let said = sigma(self.refit.mean, self.refit.freedom);
+        said.filter(|remark| remark.id == "sigma-large")
     }
 
     /// The median of the rows' standard deviations, metres.

@@ -23,6 +23,7 @@ use crate::diagnose::search::{Chosen, Scored};
 use crate::geometry::Pose;
 use crate::identify::IdentifyError;
 use crate::identify::input_checks::Remark;
+use crate::identify::input_checks::screening::moved_fitted_tools;
 use crate::identify::measurements::Measurements;
 use crate::identify::off::Off;
 use crate::identify::pick::Pick;
@@ -106,6 +107,10 @@ pub(crate) fn conclude(
     }
     let written = written(profile, attempt, &mut found, (verdict, proof.all_predict));
     remarks.extend(attempt.open.as_ref().and_then(Open::remark));
+    remarks.extend(attempt.sigma_large());
+    if remarks.iter().all(|known| known.id != "tool-elsewhere") {
+        remarks.extend(moved_fitted_tools(profile, &attempt.refit.estimate));
+    }
     let (noise_m, noise_source, residual_m) = noise(attempt);
     let together: Vec<_> = attempt
         .in_a_row
@@ -267,7 +272,14 @@ fn written(
 /// Noise of a coordinate, where it comes from, and the residual of a coordinate, metres.
 fn noise(attempt: &Attempt) -> (f64, NoiseSource, f64) {
     let sigma_m = attempt.sigma_m();
-    let residual_m = attempt.refit.scale * sigma_m;
+    // the scale by which evidence counts is not below the noise that is stated
+    let is_large = attempt.sigma_large().is_some();
+    let scale = if is_large {
+        attempt.refit.mean
+    } else {
+        attempt.refit.scale
+    };
+    let residual_m = scale * sigma_m;
     if !attempt.session.problem.sigma_assumed {
         return (sigma_m, NoiseSource::Given, residual_m);
     }

@@ -372,6 +372,12 @@ fn objections(
             "{strangers} of {of} rows fit no model: what explains the others may have come of them"
         ));
     }
+    if let Some(large) = attempt.sigma_large().filter(|_| found.is_empty()) {
+        reasons.push(format!(
+            "{}: what is missing may be below them",
+            large.message
+        ));
+    }
     if let Some(off_m) = attempt.hopeless_m() {
         reasons.push(format!(
             "rows are still {:.1} mm off (root mean square): no arm is that far from its drawing",

@@ -71,7 +71,7 @@ const RARELY: f64 = 3.09;
 ///
 /// # Source
 /// E. B. Wilson, M. M. Hilferty, *PNAS* 17 (1931) 684, for the quantiles of chi-squared.
-fn sigma(times: f64, freedom: f64) -> Option<Remark> {
+pub(crate) fn sigma(times: f64, freedom: f64) -> Option<Remark> {
     let part = 2.0 / (9.0 * freedom);
     let quantile = |z: f64| (1.0 - part + z * part.sqrt()).max(0.0).powi(3).sqrt();
     if times > SIGMA_FACTOR.max(quantile(RARELY)) {
