@@ -275,7 +275,7 @@ pub struct Move {
     pub target_error_mm: Option<f64>,
     /// Their angle.
     pub target_error_deg: Option<f64>,
-    /// Standard deviation of the prediction.
+    /// Standard deviation of the prediction, by the covariance of the calibrated parameters alone.
     pub uncertainty_mm: Option<f64>,
     /// Bound of that distance along the path.
     pub max_path_error_mm: Option<f64>,

@@ -20,6 +20,7 @@ mod parts;
 mod registers;
 mod rotations;
 mod rows;
+mod split;
 mod straight;
 mod taken_up;
 mod tipped;

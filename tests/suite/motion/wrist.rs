@@ -1,7 +1,7 @@
 //! Straight moves on which the joints of the wrist lead the tool: they come to the target from the side
 //! on which they began, whatever an even rotation of the tool would make of them.
 
-use crate::support::text;
+use crate::support::{poseshift, repository, scratch, text};
 use poseshift::compensate::{Options, compensate};
 use poseshift::model::profile::Profile;
 use poseshift::program::Source;
@@ -80,4 +80,56 @@ fn joints_of_the_wrist_come_as_on_a_joint_move() {
     }
     // an even rotation makes some of them turn back
     assert!(other > 0 && other < all, "{other} of {all}");
+}
+
+/// Two straight moves, the first to a target at the wrist's singularity.
+const SINGULAR: &str = "/JOB
+//NAME T1
+//POS
+///NPOS 3,0,0,0,0,0
+///TOOL 9
+///POSTYPE ANGLE
+///ANGLE
+C00000=5.0000,10.0000,-10.0000,20.0000,-2.0000,5.0000
+///POSTYPE BASE
+///RECTAN
+///RCONF 0,0,0,0,0,0,0,0
+C00001=723.419,80.873,273.416,105.1853,-69.8971,97.7758
+C00002=716.438,71.120,249.628,125.5832,-67.8887,76.1427
+//INST
+///DATE 2023/11/08 06:41
+///ATTR SC,RW
+///GROUP1 RB1
+NOP
+MOVJ C00000 VJ=25.00
+MOVL C00001 V=100.0
+MOVL C00002 V=100.0
+END
+";
+
+#[test]
+fn a_path_that_goes_on_otherwise_behind_a_singular_target_is_an_error() {
+    let folder = scratch();
+    let given = folder.path().join("T1.JBI");
+    std::fs::write(&given, SINGULAR).expect("a writable folder");
+    for how in ["flip", "nearest"] {
+        let output = poseshift()
+            .arg("compensate")
+            .arg(&given)
+            .arg("--profile")
+            .arg(repository("programs/inform/profile.yaml"))
+            .args(["--tool", "9=20,-10,110,10,20,0"])
+            .args(["--start-joints", "5,10,-10,20,-2,5"])
+            .args(["--at-singularity", how, "-o"])
+            .arg(folder.path().join("out.JBI"))
+            .output()
+            .expect("the program starts");
+        let reported = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{how}: {reported}");
+        assert!(
+            reported.contains("error[several-postures]"),
+            "{how}: {reported}"
+        );
+        assert!(!folder.path().join("out.JBI").exists());
+    }
 }

@@ -36,7 +36,7 @@ pub(super) fn bases(job: &Job) -> BTreeSet<usize> {
 }
 
 /// Coordinates that a displacement is worked out from.
-fn readings(displacement: &Displacement) -> impl Iterator<Item = &Readings> {
+pub(super) fn readings(displacement: &Displacement) -> impl Iterator<Item = &Readings> {
     let strides: &[Stride] = match displacement {
         Displacement::Within(strides) | Displacement::AtLeast(strides) => strides,
         _ => &[],

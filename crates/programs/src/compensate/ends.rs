@@ -12,6 +12,7 @@ use crate::model::Conditions;
 use crate::motion::arms::Equipped;
 use crate::motion::backlash::{self, Stretch, Within};
 use crate::motion::course::Course;
+use crate::motion::passed;
 use crate::motion::walk::{Arrival, Arrivals, NOWHERE, WalkOptions};
 use crate::motion::{follow, middle, ride, sides};
 use crate::program::script::short;
@@ -159,27 +160,25 @@ impl<'a> Path<'a> {
     }
 }
 
-/// The arrival at the end of the arc through the point of an arrival, where that is the next one and
-/// known.
-pub(super) fn end_of_arc<'a>(
-    program: &Program,
-    arrivals: &'a Arrivals,
-    at: usize,
-) -> Option<&'a Arrival> {
-    let end = arrivals.all.get(at + 1)?;
-    let is_end = program.moves[end.motion as usize].motion == Motion::ArcEnd;
-    Some(end).filter(|end| is_end && end.from as usize == at && end.known)
+/// The arrival at the end of the arc through the point of an arrival, where that is known.
+pub(super) fn end_of_arc(program: &Program, arrivals: &Arrivals, at: usize) -> Option<usize> {
+    let via = arrivals.all.get(at)?.motion as usize;
+    let ends = passed::ends_of(program, via).flat_map(|end| arrivals.at(end));
+    let is_own = |end: &usize| {
+        let end = &arrivals.all[*end];
+        end.from as usize == at && end.known
+    };
+    ends.filter(is_own).min()
 }
 
 /// Where that arc ends between fake targets.
 fn fake_end(job: &Job, arrivals: &Arrivals, fakes: &[[f64; 6]], at: usize) -> Option<Pose> {
     let program = job.ground.program;
     let end = end_of_arc(program, arrivals, at)?;
-    let equipped = job
-        .ground
-        .equipped(program.moves[end.motion as usize].tool)?;
+    let motion = &program.moves[arrivals.all[end].motion as usize];
+    let equipped = job.ground.equipped(motion.tool)?;
     let conditions = Conditions::default();
-    Some(equipped.controller.forward(&fakes[at + 1], &conditions))
+    Some(equipped.controller.forward(&fakes[end], &conditions))
 }
 
 /// Where the path to an arrival begins.

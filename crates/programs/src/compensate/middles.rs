@@ -60,8 +60,8 @@ fn turned(
         return None;
     }
     let at = approach.arrival as usize;
-    end_of_arc(program, arrivals, at)?;
-    let path = Path::of(job, arrivals, walk_options, &ends.fakes, at + 1)?;
+    let end = end_of_arc(program, arrivals, at)?;
+    let path = Path::of(job, arrivals, walk_options, &ends.fakes, end)?;
     let Course::Tool(course) = path.course else {
         return None;
     };

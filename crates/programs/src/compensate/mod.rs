@@ -65,6 +65,7 @@ mod rewrite;
 mod shared;
 mod singular;
 mod solve;
+mod split;
 mod strange;
 mod strides;
 #[cfg(test)]
@@ -75,7 +76,7 @@ use limit::Limits;
 pub(crate) use limit::MOST as MOST_SHIFT;
 pub use outcome::{Added, Compensation, Summary, TargetReport};
 use portions::{Rewritten, rewrite_all};
-use rewrite::Split;
+use split::Split;
 pub use written::{Check, Differs, Written};
 
 use crate::finding::{Acceptance, Finding, Severity, accept};
@@ -422,7 +423,7 @@ fn with(
     if options.work_offset.is_none() && is_same {
         return Err(CompensateError::NothingToCorrect);
     }
-    let (mut outcomes, ends) = solve::solve(
+    let (outcomes, ends) = solve::solve(
         &job,
         &arrivals,
         &walk_options,
@@ -432,7 +433,6 @@ fn with(
     if solve::is_directed(&job) {
         findings.extend(remarks::corners(&job, &approaches));
     }
-    singular::settle(&job, &mut approaches, &mut outcomes, &mut findings);
     let derived = if let Some(ends) = ends {
         let taken_up = ends.take_up(&job, &arrivals, &walk_options);
         taken_up.report(&job, &ends, &arrivals, &mut findings);

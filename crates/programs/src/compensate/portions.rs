@@ -2,7 +2,8 @@
 
 use super::approach::{Approach, Solved};
 use super::outcome::Tally;
-use super::rewrite::{self, Portion, Split};
+use super::rewrite::{self, Portion};
+use super::split::Split;
 use super::{Job, TargetReport, deciding, displaced};
 use crate::finding::Finding;
 use crate::geometry::{Pose, Separation};
@@ -104,7 +105,9 @@ impl Rewritten {
                 if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
                     self.fakes.insert(target, fake);
                 }
-                if let Some(shift_m) = self.deciding.get_mut(&target).filter(|_| report.changed) {
+                // a target that is written out at its moves keeps its numbers
+                let is_other = report.changed && report.fake.is_some();
+                if let Some(shift_m) = self.deciding.get_mut(&target).filter(|_| is_other) {
                     *shift_m = report.shift.distance_m;
                 }
                 if let Some(place) = self.reports.get_mut(target) {

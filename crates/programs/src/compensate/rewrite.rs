@@ -6,13 +6,13 @@ use super::limit;
 use super::outcome::{TargetReport, small};
 use super::remarks;
 use super::shared::{self, Fake};
+use super::split::{self, Split};
 use crate::finding::{Acceptance, Finding};
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, MM};
 use crate::inverse::{Arm, Status};
-use crate::motion::walk::NOWHERE;
 use crate::program::number::{self, Fraction, Style};
-use crate::program::{Edits, Insertion, Number, Posture, Role, Shape, Target, Value};
+use crate::program::{Edits, Number, Posture, Role, Shape, Target, Value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ const NO_SHIFT: Separation = Separation {
     angle_rad: 1e-9,
 };
 /// More than this may not remain after rounding.
-const ROUNDING_LIMIT: Separation = Separation {
+pub(super) const ROUNDING_LIMIT: Separation = Separation {
     distance_m: 0.01 * MM,
     angle_rad: 0.01 * DEG,
 };
@@ -46,15 +46,6 @@ pub(super) struct Portion<'a> {
     pub meant: Vec<(u32, f64)>,
     /// The limit that allows every correction which shifts its target too far.
     pub needed: Separation,
-}
-
-/// A move that is to get a target of its own, and what is said where its text cannot have one.
-#[derive(Clone, Debug)]
-pub(super) struct Split {
-    pub insertion: Insertion,
-    /// The controller's joints there.
-    pub joints: [f64; 6],
-    pub refusal: Finding,
 }
 
 /// How each source writes magnitudes below one.
@@ -113,8 +104,13 @@ impl<'a> Portion<'a> {
         } else {
             match shared::common(job, group) {
                 Ok(fake) => self.add_converged(job, group, &fake, fractions, &mut report),
-                Err((finding, mean)) => {
-                    if !self.split(job, group, fractions, &finding, &mut report) {
+                Err((mut finding, mean)) => {
+                    let obstacle = split::obstacle(job, self.bases, group);
+                    let may_split = job.options.split_targets && obstacle.is_none();
+                    if !may_split || !self.split(job, group, fractions, &finding, &mut report) {
+                        if let Some(hint) = obstacle.filter(|_| job.options.split_targets) {
+                            finding = finding.hint(hint);
+                        }
                         self.refuse_shared(job, group, fractions, (finding, &mean), &mut report);
                     }
                 }
@@ -136,7 +132,7 @@ impl<'a> Portion<'a> {
         job: &Job,
         group: &[Solved],
         fractions: &[Fraction],
-        (mut finding, mean): (Finding, &Fake),
+        (finding, mean): (Finding, &Fake),
         report: &mut TargetReport,
     ) {
         let takes = |acceptance: &Acceptance| acceptance.takes(&finding);
@@ -147,96 +143,7 @@ impl<'a> Portion<'a> {
         } else {
             report.status = None;
         }
-        let target = group[0].approach.target as usize;
-        if job.options.split_targets && self.bases.contains(&target) {
-            finding = finding.hint(
-                "give each use a target of its own: the program derives points from this one, and \
-                 --split-targets leaves such a target whole",
-            );
-        }
         self.findings.push(finding);
-    }
-
-    /// Gives each of the moves a target of its own; false where one of them cannot be served alone.
-    fn split(
-        &mut self,
-        job: &Job,
-        group: &[Solved],
-        fractions: &[Fraction],
-        refusal: &Finding,
-        report: &mut TargetReport,
-    ) -> bool {
-        let target = group[0].approach.target as usize;
-        let moves = &job.ground.program.moves;
-        let is_bare = |solved: &Solved| solved.approach.motion != NOWHERE;
-        if !job.options.split_targets || self.bases.contains(&target) || !group.iter().all(is_bare)
-        {
-            return false;
-        }
-        let mut each: BTreeMap<u32, Vec<Solved>> = BTreeMap::new();
-        for one in group {
-            let instruction = moves[one.approach.motion as usize].instruction;
-            each.entry(instruction).or_default().push(*one);
-        }
-        let numbers = job
-            .ground
-            .program
-            .numbers_of(&job.ground.program.targets[target]);
-        let mut splits = Vec::with_capacity(each.len());
-        let [mut shifted, mut before, mut after] = [Separation::default(); 3];
-        for alone in each.values() {
-            let Ok(fake) = shared::common(job, alone) else {
-                return false;
-            };
-            let approach = alone[0].approach;
-            let frame = job.ground.placed(approach.frame as usize).nominal;
-            let meant = alone[0].meant(job);
-            let shift = meant.separation(&(frame * approach.taken(fake.frame_from_tool)));
-            if let Some((finding, needed)) = job.limits.judge(job, approach, &shift) {
-                self.findings.push(finding);
-                self.needed = largest(self.needed, needed);
-                return false;
-            }
-            shifted = largest(shifted, shift);
-            let Some(written) = self.written(job, approach, &fake, fractions) else {
-                return false;
-            };
-            let meant = Fake::meant(job, approach, &written.numbers);
-            let [landed, passed] = shared::landings(job, alone, &meant);
-            self.findings.extend(shared::passed(job, approach, &passed));
-            if landed.distance_m > ROUNDING_LIMIT.distance_m
-                || landed.angle_rad > ROUNDING_LIMIT.angle_rad
-            {
-                return false;
-            }
-            let own = worst(alone.iter().map(|solved| uncorrected(job, solved)));
-            (before, after) = (largest(before, own), largest(after, landed));
-            let target = &job.ground.program.targets[target];
-            let mut texts: Vec<Vec<u8>> = numbers
-                .iter()
-                .map(|number| text(job, target, number).trim_ascii().to_vec())
-                .collect();
-            for (index, _, digits) in &written.texts {
-                texts[*index] = match numbers[*index].length {
-                    0 => written.numbers[*index].to_string().into_bytes(),
-                    _ => written.digits[digits.clone()].trim_ascii().to_vec(),
-                };
-            }
-            splits.push(Split {
-                insertion: Insertion {
-                    motion: approach.motion as usize,
-                    between: Vec::new(),
-                    own: Some(texts),
-                },
-                joints: fake.q,
-                refusal: refusal.clone(),
-            });
-        }
-        report.changed = true;
-        report.shift = shifted;
-        (report.before, report.rounding) = (Some(before), Some(after));
-        self.splits.extend(splits);
-        true
     }
 
     fn add_converged(
@@ -318,7 +225,7 @@ impl<'a> Portion<'a> {
     }
 
     /// The text of the new numbers; `None` where the target has to stay.
-    fn written(
+    pub(super) fn written(
         &mut self,
         job: &Job,
         approach: &Approach,
@@ -450,19 +357,19 @@ impl<'a> Portion<'a> {
 
 /// New numbers as they are to be written.
 #[derive(Default)]
-struct Written {
-    numbers: Vec<f64>,
+pub(super) struct Written {
+    pub numbers: Vec<f64>,
     changed: bool,
-    digits: Vec<u8>,
+    pub digits: Vec<u8>,
     /// Index of the number, bytes of the file, and in `digits` what replaces them.
-    texts: Vec<(usize, Range<usize>, Range<usize>)>,
+    pub texts: Vec<(usize, Range<usize>, Range<usize>)>,
     /// See [`Portion::meant`].
     meant: Vec<(u32, f64)>,
     findings: Vec<Finding>,
 }
 
 /// The largest distance and the largest angle.
-fn worst(all: impl Iterator<Item = Separation>) -> Separation {
+pub(super) fn worst(all: impl Iterator<Item = Separation>) -> Separation {
     all.fold(Separation::default(), largest)
 }
 
@@ -487,7 +394,7 @@ fn as_programmed(job: &Job, approach: &Approach) -> [f64; 6] {
 }
 
 /// How far from the wanted pose the real tool lands with the target as it is.
-fn uncorrected(job: &Job, solved: &Solved) -> Separation {
+pub(super) fn uncorrected(job: &Job, solved: &Solved) -> Separation {
     let approach = solved.approach;
     let equipped = job.ground.arm_with(approach.tool as usize);
     let is_joints = job.ground.is_joints(approach.target as usize);
@@ -534,7 +441,7 @@ fn styles(
     })
 }
 
-fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
+pub(super) fn text<'a>(job: &'a Job, target: &Target, number: &Number) -> &'a [u8] {
     number.text(&job.ground.sources[target.file as usize].bytes)
 }
 

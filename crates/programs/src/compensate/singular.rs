@@ -1,7 +1,7 @@
 //! Targets so near the wrist's singularity that the real arm has no posture on the meant side:
 //! joints 4 and 6 would have to turn far for nothing.
 //!
-//! Two ways out, both for the user to choose: to go through (joint 5 changes its sign, the tool
+//! Two alternatives, both for the user to choose: to go through (joint 5 changes its sign, the tool
 //! lands), or to stay with joint 4 where it is (the tip lands, the orientation nearly).
 
 use super::approach::Approach;
@@ -10,7 +10,7 @@ use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::inverse::{Branch, Inverse, Outcome, Status};
 
-/// Nearer than this to the singularity of the wrist the two ways out are offered, radians.
+/// Nearer than this to the singularity of the wrist the two alternatives are offered, radians.
 const NEAR_RAD: f64 = 0.1 * DEG;
 const JOINT_4: usize = 3;
 
@@ -45,7 +45,7 @@ fn answers(job: &Job, approach: &Approach) -> Option<Answers> {
     })
 }
 
-/// What the two ways out would give, for the message of a target that is refused.
+/// What the two alternatives would give, for the message of a target that is refused.
 pub(super) fn offers(job: &Job, approach: &Approach) -> Option<String> {
     let answers = answers(job, approach)?;
     let mut offers = Vec::new();
@@ -66,20 +66,21 @@ pub(super) fn offers(job: &Job, approach: &Approach) -> Option<String> {
     (!offers.is_empty()).then(|| offers.join("; "))
 }
 
-/// Takes the way out that the user has chosen.
+/// Takes the alternative that the user has chosen; whether it was taken anywhere.
 pub(super) fn settle(
     job: &Job,
     approaches: &mut [Approach],
-    outcomes: &mut [Outcome],
+    outcomes: &mut [Option<Outcome>],
     findings: &mut Vec<Finding>,
-) {
+) -> bool {
+    let mut is_settled = false;
     if job.options.at_singularity == AtSingularity::Refuse {
-        return;
+        return is_settled;
     }
     for (approach, outcome) in approaches.iter_mut().zip(outcomes) {
-        if outcome.status == Status::Converged {
+        let Some(outcome) = outcome.as_mut().filter(|o| o.status != Status::Converged) else {
             continue;
-        }
+        };
         let Some(answers) = answers(job, approach) else {
             continue;
         };
@@ -102,6 +103,7 @@ pub(super) fn settle(
             }),
         };
         if let Some(how) = how {
+            is_settled = true;
             let message = format!(
                 "{} is at the wrist's singularity, where the real arm has no posture on the meant \
                  side; {how}",
@@ -116,4 +118,5 @@ pub(super) fn settle(
             ));
         }
     }
+    is_settled
 }

@@ -4,7 +4,7 @@
 use super::Job;
 use super::approach::{Approach, SAME_RAD};
 use super::ends::Ends;
-use super::{middles, postures};
+use super::{middles, postures, singular};
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::mm_from_m;
 use crate::inverse::{Inverse, Outcome, Status, Targets, solve_batch_by};
@@ -92,6 +92,14 @@ pub(super) fn solve(
             last = Some(Ends::of(job, arrivals, walk_options, approaches, &outcomes));
         }
         tell_unknown(job, arrivals, approaches, findings);
+    }
+    let is_settled = singular::settle(job, approaches, &mut outcomes, findings);
+    if is_settled && walk_options.directed {
+        let ends = Ends::of(job, arrivals, walk_options, approaches, &outcomes);
+        for (at, direction) in ends.changed(approaches) {
+            findings.push(unsettled(job, &approaches[at as usize], direction));
+        }
+        last = Some(ends);
     }
     postures::others(job, arrivals, walk_options, approaches, &outcomes, findings);
     let outcomes = outcomes.into_iter();
@@ -306,9 +314,8 @@ fn fake_of(
         return shifted(job, arrival, shift, approach, outcome);
     }
     let is_of_arrival = |(a, _): &(&Approach, &Outcome)| {
-        !arrival.displaced
-            && a.branch == arrival.branch
-            && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
+        // one that --at-singularity settled is on another branch
+        !arrival.displaced && (0..6).all(|i| (a.nominal_q[i] - arrival.q[i]).abs() < SAME_RAD)
     };
     // other moves may come to the same joints from other sides
     let is_own = |(a, _): &(&Approach, &Outcome)| a.motion == arrival.motion;

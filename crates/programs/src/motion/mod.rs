@@ -37,7 +37,7 @@ mod holding;
 mod inherited;
 pub(crate) mod leg;
 pub(crate) mod middle;
-mod passed;
+pub(crate) mod passed;
 pub(crate) mod placed;
 pub(crate) mod plausibility;
 pub(crate) mod posture;

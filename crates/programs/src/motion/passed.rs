@@ -59,6 +59,10 @@ impl Arcs<'_> {
         for via in 0..self.program.moves.len() {
             let arcs = self.through(via, values);
             let mut is_reported = false;
+            // which beginning goes with which end nobody knows where there are several of both
+            let is_one = |of: fn(&Arc) -> usize| arcs.iter().all(|arc| of(arc) == of(&arcs[0]));
+            let are_sure = is_one(|arc| arc.start) || is_one(|arc| arc.end);
+            let is_error = |k: usize| are_sure && arcs.iter().any(|arc| self.counts(via, arc, k));
             for (k, axis) in self.axes.iter().enumerate() {
                 let value = |at: usize| match values[at * count + k] {
                     Known::Is(value) => Some(value),
@@ -86,10 +90,18 @@ impl Arcs<'_> {
                 };
                 values[here] = Known::Is(first);
                 let differs = |other: &f64| differ(axis, *other, first);
-                let finding = match written.filter(differs) {
-                    Some(written) => Some(self.elsewhere(via, axis, [written, first])),
-                    None => (passed.iter().copied().find(differs))
-                        .map(|other| self.several(via, axis, [first, other])),
+                let several = passed.iter().copied().find(differs);
+                if let Some(other) = several.filter(|_| is_error(k)) {
+                    is_reported = true;
+                    findings.push(Finding {
+                        severity: Severity::Error,
+                        ..self.several(via, axis, [first, other])
+                    });
+                    continue;
+                }
+                let finding = match (written.filter(differs), several) {
+                    (Some(written), _) => Some(self.elsewhere(via, axis, [written, first])),
+                    (None, several) => several.map(|other| self.several(via, axis, [first, other])),
                 };
                 if let Some(finding) = finding.filter(|_| !is_reported) {
                     is_reported = true;
@@ -97,6 +109,19 @@ impl Arcs<'_> {
                 }
             }
         }
+    }
+
+    /// Whether it matters to an arc where an axis stands: it carries the base, or what the arc is on.
+    fn counts(&self, via: usize, arc: &Arc, axis: usize) -> bool {
+        let external = &self.profile.external;
+        let carries = |at: usize| {
+            let frame = &self.program.frames[self.program.moves[at].frame];
+            carrier(frame, external).ok().flatten().is_some_and(|at| {
+                let first = external.first_of(at);
+                (first..first + external.positioners[at].axes.len()).contains(&axis)
+            })
+        };
+        axis < external.track.len() || [via, arc.start, arc.end].into_iter().any(carries)
     }
 
     /// Whether an axis may move on an arc through the point of a move: it stands elsewhere at one of
@@ -249,14 +274,11 @@ impl Arcs<'_> {
         let [first, other] = values.map(|value| shown(axis, value));
         let message = format!(
             "this arc begins or ends at several places: the robot passes its point with external \
-             axis {} at {first} or at {other}: the point is corrected for {first}",
+             axis {} at {first} or at {other}: the point can be corrected for one of them",
             axis.name()
         );
-        self.finding(
-            via,
-            message,
-            "write the arc out for each place, with a point of its own",
-        )
+        let hint = "write the arc out for each place, with a point of its own";
+        self.finding(via, message, hint)
     }
 
     fn finding(&self, via: usize, message: String, hint: &str) -> Finding {
@@ -274,7 +296,7 @@ fn differ(axis: &Listed, a: f64, b: f64) -> bool {
 }
 
 /// The moves that end the arc through the point of a move.
-pub(super) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usize> {
     let moves = &program.moves;
     // moves of one statement follow each other, once for each state in which the robot comes there
     let mut behind = (via + 1..moves.len())

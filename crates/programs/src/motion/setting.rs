@@ -257,13 +257,15 @@ pub(crate) fn check_given(
     Ok(())
 }
 
-/// Whether there are targets that no move uses: their tool and frame are those given for any name.
+/// Whether there are targets that no move uses, and that do not stay for that: their tool and frame are
+/// those given for any name.
 fn has_unused(program: &Program) -> bool {
     let mut used = vec![false; program.targets.len()];
     for target in program.moves.iter().filter_map(|motion| motion.target) {
         used[target] = true;
     }
-    used.contains(&false)
+    let mut all = program.targets.iter().zip(used);
+    all.any(|(target, is_used)| !is_used && !target.blocked)
 }
 
 /// The same frame but for the digits of the files: 1 µm and 1e-5 degrees.

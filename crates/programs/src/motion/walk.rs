@@ -330,15 +330,20 @@ impl Walker<'_, '_> {
     /// Adds an arrival where it is another than those at its move, and goes on from there.
     pub(super) fn add(&mut self, behind: &Behind, arrival: Arrival) {
         let at = arrival.motion;
+        let motion = self.ground.program.moves[at as usize].motion;
+        let is_via = motion == Motion::ArcVia;
         let mut others = 0;
         let mut is_same = false;
         let mut is_new = true;
         for other in self.arrivals.at(at as usize) {
             let other = &self.arrivals.all[other];
-            others += 1;
             let alike = is_alike(other, &arrival);
-            is_new &= !alike;
-            is_same |= alike && self.motion_of(other.from) == self.motion_of(arrival.from);
+            let is_known = alike && self.start_of(other.from) == self.start_of(arrival.from);
+            is_same |= is_known;
+            // beginnings are counted where the point of the arc is
+            others += usize::from(motion != Motion::ArcEnd || !alike);
+            // the arc through a point is another one from each beginning
+            is_new &= !(if is_via { is_known } else { alike });
         }
         if is_same {
             return;
@@ -355,8 +360,14 @@ impl Walker<'_, '_> {
         }
     }
 
-    fn motion_of(&self, arrival: u32) -> Option<u32> {
-        self.arrivals.all.get(arrival as usize).map(|a| a.motion)
+    /// The move from which a move behind an arrival begins, and of an arc also the one before the point
+    /// on its path.
+    fn start_of(&self, arrival: u32) -> Option<(u32, Option<u32>)> {
+        let all = &self.arrivals.all;
+        let before = all.get(arrival as usize)?;
+        let is_via = self.ground.program.moves[before.motion as usize].motion == Motion::ArcVia;
+        let start = all.get(before.from as usize).filter(|_| is_via);
+        Some((before.motion, start.map(|start| start.motion)))
     }
 
     fn too_many(&mut self, at: u32) {

@@ -371,6 +371,8 @@ pub struct Move {
     pub external_state: u32,
     /// Nothing reaches it.
     pub is_dead: bool,
+    /// Its target is what a call gives its routine.
+    pub by_parameter: bool,
 }
 
 impl Default for Move {
@@ -393,6 +395,7 @@ impl Default for Move {
             frame_written: None,
             external_state: 0,
             is_dead: false,
+            by_parameter: false,
         }
     }
 }
@@ -474,6 +477,8 @@ pub struct Program {
     pub stands_at_start: Vec<Option<f64>>,
     /// Statements that read numbers of targets by which the program decides.
     pub decided: Vec<Decided>,
+    /// Files with statements that write targets, tools or frames of another file, and that.
+    pub writes_into: Vec<(u32, u32)>,
     /// What the reader saw that a person should look at.
     pub findings: Vec<Finding>,
 }

@@ -10,10 +10,17 @@ use crate::compensate::MOST_SHIFT;
 use crate::finding::{Finding, Severity};
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Separation, norm, scale, sub};
+use crate::model::Conditions;
 use crate::motion::leg::{Leg, Piece};
 use crate::motion::plausibility::OUT_OF_BOUNDS;
 use crate::program::Motion;
 use crate::program::script::short;
+
+/// Tools that differ by less are the same.
+const SAME_TOOL: Separation = Separation {
+    distance_m: 1e-6,
+    angle_rad: 1e-6,
+};
 
 /// What every move is judged with.
 pub(super) struct Job<'a> {
@@ -95,6 +102,7 @@ impl Job<'_> {
         }
         self.judge_path(index, &report, &mut findings);
         findings.extend(self.is_another(index, &report));
+        findings.extend(self.has_another_tool(index));
         findings.extend(self.not_finite(index, &landed, &report));
         (Some(report), findings)
     }
@@ -147,6 +155,37 @@ impl Job<'_> {
             message,
             "is --nominal the original of this program, and was the part moved (--work-offset)? \
              compensate the original again",
+        ))
+    }
+
+    /// That a move has another tool than in the original: that tool comes to where the other one is
+    /// wanted.
+    fn has_another_tool(&self, index: usize) -> Option<Finding> {
+        let (original, part) = (self.original?, self.parts?[index]?);
+        let of = |walk: &Walk, at: usize| {
+            let stop = walk.stops.all[at]?;
+            let tool = &walk.program.tools[walk.motion(at).tool];
+            let controller = &walk.equipped(&stop).controller;
+            // where the same joints have the tool
+            let at_zero = controller.forward(&[0.0; 6], &Conditions::default());
+            Some((tool.name.clone(), at_zero))
+        };
+        let ((ours, here), (theirs, there)) = of(self.walk, index).zip(of(original, part.stop))?;
+        let gap = here.separation(&there);
+        if gap.distance_m < SAME_TOOL.distance_m && gap.angle_rad < SAME_TOOL.angle_rad {
+            return None;
+        }
+        let message = if ours.eq_ignore_ascii_case(&theirs) {
+            format!("tool `{ours}` has other numbers than in the original program")
+        } else {
+            format!("this move has tool `{ours}`, and tool `{theirs}` in the original program")
+        };
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            "tool-not-original",
+            Severity::Error,
+            format!("{message}: another tool comes to where that one is wanted"),
+            "is --nominal the original of this program? compensate the original again",
         ))
     }
 

@@ -1,6 +1,7 @@
 //! From what may hold at each move to moves, and what is wrong with their targets.
 
 mod frames;
+mod given;
 mod report;
 mod targets;
 mod whole;
@@ -10,14 +11,15 @@ use super::flow::{Flow, Modes, OF_MOVE};
 use super::holding::{Atom, DECLARED, Holding, NOTHING, Site};
 use crate::finding::Severity;
 use crate::program::script::{
-    DisplacementId, Held, Instruction, NOT_DISPLACED, Place, Remark, RemarkId, Script, ValueId,
-    short,
+    DisplacementId, Expr, Held, Instruction, NOT_DISPLACED, Place, Remark, RemarkId, Script,
+    ValueId, VariableId, Written, short,
 };
 use crate::program::{
     Called, Displacement, ExternalState, FrameId, Language, Program, ReadError, Settings, Shape,
     Source, Target, TargetId, ToolId,
 };
-use foldhash::{HashMap, HashMapExt};
+use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
+use given::Given;
 use report::Report;
 use std::rc::Rc;
 
@@ -63,6 +65,7 @@ pub(super) fn resolve(
         unknown_tool: None,
         unknown_frame: None,
         own_frames: HashMap::new(),
+        given: Given::of(&script),
         used: Vec::new(),
         as_written: Vec::new(),
         changed: Vec::new(),
@@ -82,6 +85,7 @@ pub(super) fn resolve(
     resolver.judge_targets();
     resolver.report.finish();
     drop(resolver);
+    program.writes_into = writes_into(&script);
     program.instructions = script.instructions;
     if !program.led.is_empty() {
         let calls = script.calls.into_iter();
@@ -95,6 +99,38 @@ pub(super) fn resolve(
     }
     program.speed_zones = script.modals.iter().map(|modal| modal.speed_zone).collect();
     Ok(program)
+}
+
+/// See [`Program::writes_into`].
+fn writes_into(script: &Script) -> Vec<(u32, u32)> {
+    let mut pairs = Vec::new();
+    let mut tables = HashSet::new();
+    let mut note = |file: u32, variable: VariableId| {
+        let of = &script.variables[variable as usize];
+        let is_data = matches!(of.declared, Expr::Target(_) | Expr::Value(_)) && !of.shared;
+        if is_data && file != of.place.file && of.place != Place::NOWHERE {
+            pairs.push((file, of.place.file));
+        }
+    };
+    for write in &script.writes {
+        let file = write.place.file;
+        match write.variable {
+            Written::One(variable) => note(file, variable),
+            Written::AnyOf(table) if tables.insert((file, table)) => {
+                let entries = script.tables[table as usize].entries.values();
+                entries.for_each(|entry| note(file, *entry));
+            }
+            Written::AnyOf(_) => {}
+        }
+    }
+    for call in &script.calls {
+        let given = call.arguments.start as usize..call.arguments.end as usize;
+        let back = script.arguments[given].iter().filter_map(|of| of.back);
+        back.for_each(|variable| note(call.place.file, variable));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
 }
 
 /// Why a tool or frame is not known.
@@ -122,6 +158,8 @@ struct Resolver<'a, 'p> {
     unknown_frame: Option<FrameId>,
     /// Those that targets have of their own.
     own_frames: HashMap<TargetId, Result<FrameId, Refused>>,
+    /// What routines are given.
+    given: Given,
     /// Targets that moves go to.
     used: Vec<bool>,
     /// Those of them whose numbers in the file a move goes to.

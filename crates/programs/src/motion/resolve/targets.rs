@@ -487,6 +487,8 @@ impl Resolver<'_, '_> {
         let Listed {
             at, instruction, ..
         } = listed;
+        let targets = &self.report.program.targets;
+        let is_given = self.given.is_given(self.script, targets, instruction);
         self.report.program.moves.push(Move {
             file: instruction.place.file,
             offset: instruction.place.offset,
@@ -504,6 +506,7 @@ impl Resolver<'_, '_> {
             frame_written,
             external_state: listed.external_state,
             is_dead: listed.is_dead,
+            by_parameter: is_given,
         });
     }
 }

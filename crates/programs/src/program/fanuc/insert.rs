@@ -6,6 +6,7 @@
 use super::points::Points;
 use super::sections::{Sections, line_end};
 use crate::program::insert::{Added, Line, Repeated, line_start, sole_use, with_numbers};
+use crate::program::script::Instruction;
 use crate::program::{
     Inserted, Insertion, Insertions, Motion, Move, Program, Replacements, Target,
 };
@@ -35,9 +36,10 @@ fn points(program: &Program, index: usize) -> Option<Vec<Range<usize>>> {
         _ => index..index + 1,
     };
     let both = program.instructions.get(both)?;
-    let is_one = both.iter().all(|other| other.place == both[0].place);
+    let is_one = |one: &Instruction| one.place == both[0].place && !one.does_more;
     let points = both.iter().map(|one| one.target_span.range());
-    points.collect::<Option<Vec<_>>>().filter(|_| is_one)
+    let points = points.collect::<Option<Vec<_>>>();
+    points.filter(|_| both.iter().all(is_one))
 }
 
 /// What the copies of one move are made of.
@@ -80,9 +82,11 @@ fn in_field(old: &[u8], new: &[u8]) -> Vec<u8> {
 }
 
 /// The text of a point with the number of another tool or user frame, whose field is called so;
-/// `None` where the point has such a field and the other one no number. Fields with `F` are for any.
+/// `None` where the point has such a field and the other one no number. Fields with `F` are for any. Other
+/// groups than the first have fields of their own.
 fn with_frame(text: &[u8], field: &[u8], name: &str) -> Option<Vec<u8>> {
-    let found = memchr::memmem::find_iter(text, field).find_map(|at| {
+    let first = memchr::memmem::find(text, b"GP2").unwrap_or(text.len());
+    let found = memchr::memmem::find_iter(&text[..first], field).find_map(|at| {
         let rest = &text[at + field.len()..];
         let colon = rest.len() - rest.trim_ascii_start().len();
         let behind = rest[colon..].strip_prefix(b":")?;
@@ -125,7 +129,8 @@ impl<'a> Copied<'a> {
         }
         let (held, name) = declared(bytes, target)?;
         let body = name.end..held.end;
-        if has_more_axes(&bytes[body.clone()]) {
+        // of a split they stay as they are
+        if !insertion.is_split() && has_more_axes(&bytes[body.clone()]) {
             return None;
         }
         // the column of the instruction stays
@@ -251,5 +256,38 @@ mod tests {
             "P[4]{\n   GP1:\n\tUF : 0, UT : 1,\n\tX =  1600.161  mm,\tY =   -99.500  mm,\tZ =   \
              400.000  mm,\n\tW =   180.000 deg,\tP =      .250 deg,\tR =     0.000 deg\n};\n"
         );
+    }
+    #[test]
+    fn a_move_that_does_more_gets_a_point_of_its_own_and_is_not_repeated() {
+        let text = "/PROG  T\n/MN\n1:L P[3] 9mm/sec FINE TB .10sec,DO[1]=ON ;\n/POS\nP[3]{\n   GP1:\n\tUF : 0, UT \
+            : 1,\n\tX =  1922.978  mm,\tY =  -163.122  mm,\tZ =   -54.328  mm,\n\tW =  -179.532 \
+            deg,\tP =      .193 deg,\tR =     -.287 deg\n   GP2:\n\tUF : 0, UT : 1,\n\tJ1 = 1.0 \
+            deg\n};\n/END\n";
+        let source = Source::new("t.ls", text.as_bytes().to_vec());
+        let sources = std::slice::from_ref(&source);
+        let program = crate::motion::read(&Fanuc, sources, &Settings::default()).expect("read");
+        let numbers = ["1600.161", "-99.500", "400.000", "180.000", ".250", "0.000"];
+        let numbers = numbers.map(|number| number.as_bytes().to_vec()).to_vec();
+        let insert = |between: Vec<Between>, own: Option<Vec<Vec<u8>>>| {
+            let list = [Insertion {
+                motion: 0,
+                between,
+                own,
+            }];
+            insert(&Insertions {
+                sources,
+                program: &program,
+                file: 0,
+                list: &list,
+            })
+        };
+        let end = numbers.clone();
+        assert_eq!(insert(vec![Between { via: None, end }], None).moves, [None]);
+        let inserted = insert(Vec::new(), Some(numbers));
+        let changed = inserted.moves[0].as_ref().expect("it can");
+        assert_eq!(changed.len(), 1);
+        assert_eq!(&text[changed[0].0.clone()], "P[3]");
+        assert_eq!(Source::text(&changed[0].1), "P[4]");
+        assert!(Source::text(&inserted.rest[0].1).contains("J1 = 1.0"));
     }
 }

@@ -94,8 +94,8 @@ impl<'a> Reader<'a> {
         words.against[Why::Coordinated as usize] &= !self.listing.is_carried;
         let is_arc = points.len() == 2;
         let is_row = !is_arc && b"AC".contains(&letter);
-        let is_plain = words.is_plain && line.is_closed && self.state.rounds() == 1;
-        let is_repeatable = is_plain && (is_arc || b"JL".contains(&letter));
+        let is_rewritable = line.is_closed && self.state.rounds() == 1;
+        let is_repeatable = words.is_plain && (is_arc || b"JL".contains(&letter));
         let instruction = Instruction {
             end: short(line.text.end + usize::from(line.is_closed)),
             free_orientation: words.wrist_joint,
@@ -124,15 +124,17 @@ impl<'a> Reader<'a> {
                 (_, true, _) => Motion::ArcEnd,
                 _ => Motion::Linear,
             };
-            // what is more than a move to its points cannot be repeated
-            let target_span = is_repeatable.then(|| Span::of(start + span.start..start + span.end));
             last = self.builder.script.instructions.len();
             let goals = self.goals(named, &text[span.clone()]);
             self.go_to(
                 goals,
                 &Instruction {
                     motion,
-                    target_span: target_span.unwrap_or_default(),
+                    target_span: match is_rewritable {
+                        true => Span::of(start + span.start..start + span.end),
+                        false => Span::default(),
+                    },
+                    does_more: !is_repeatable,
                     ..instruction.clone()
                 },
                 modal,

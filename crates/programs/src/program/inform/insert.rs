@@ -22,21 +22,22 @@ struct Copied<'a> {
     body: Range<usize>,
 }
 
-/// A line that does nothing but go to a `C` position, and the name of that.
-fn plain_move(
+/// A line that goes to a `C` position, and the name of that; with words, one that begins with any of
+/// them and does nothing else.
+fn move_line(
     bytes: &[u8],
     instruction: &Instruction,
-    verbs: &[&[u8]],
+    verbs: Option<&[&[u8]]>,
 ) -> Option<(Range<usize>, Range<usize>)> {
     let span = instruction.span();
     let name = instruction.target_span.range()?;
-    let verb = &bytes[span.start..];
-    let behind = line_behind(bytes, span.end).unwrap_or(bytes.len());
-    let rest = &bytes[span.end..behind];
-    let is_plain = verbs.iter().any(|known| verb.starts_with(known))
-        && bytes[name.start] == b'C'
-        && rest.trim_ascii().is_empty();
-    is_plain.then_some((span, name))
+    let is_plain = verbs.is_none_or(|verbs| {
+        let verb = &bytes[span.start..];
+        let behind = line_behind(bytes, span.end).unwrap_or(bytes.len());
+        let rest = &bytes[span.end..behind];
+        verbs.iter().any(|known| verb.starts_with(known)) && rest.trim_ascii().is_empty()
+    });
+    (is_plain && bytes[name.start] == b'C').then_some((span, name))
 }
 
 impl<'a> Copied<'a> {
@@ -45,16 +46,16 @@ impl<'a> Copied<'a> {
         let bytes = &source.bytes;
         let motion = sole_use(program, insertion.motion)?;
         let is_arc = insertion.is_arc();
-        let verbs: &[&[u8]] = if insertion.is_split() {
-            &[b"MOVJ ", b"MOVL ", b"MOVC ", b"MOVS "]
+        let verbs: Option<&[&[u8]]> = if insertion.is_split() {
+            None
         } else if is_arc {
-            &[b"MOVC "]
+            Some(&[b"MOVC "])
         } else {
-            &[b"MOVJ ", b"MOVL "]
+            Some(&[b"MOVJ ", b"MOVL "])
         };
         let line = |of: &Move| {
             let instruction = &program.instructions[of.instruction as usize];
-            let (span, name) = plain_move(bytes, instruction, verbs)?;
+            let (span, name) = move_line(bytes, instruction, verbs)?;
             Some(Line {
                 span,
                 targets: vec![name],

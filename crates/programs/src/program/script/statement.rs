@@ -181,6 +181,8 @@ pub struct Instruction {
     pub displacement: DisplacementId,
     /// Where its target stands in it.
     pub target_span: Span,
+    /// It does more than go to its target: it cannot be written again.
+    pub does_more: bool,
 }
 
 impl Instruction {
@@ -199,6 +201,7 @@ impl Instruction {
             turned: None,
             displacement: NOT_DISPLACED,
             target_span: Span::default(),
+            does_more: false,
         }
     }
 
