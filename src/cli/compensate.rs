@@ -390,19 +390,15 @@ impl Compensate {
         if output.json {
             return Said::json(&found);
         }
-        let written = !header.outputs.is_empty();
-        let mut text = String::new();
-        if !output.quiet || !written {
-            text += &layout::findings(&compensation.findings, output);
-        }
+        let mut text = layout::findings(&compensation.findings, output);
         if !output.quiet {
             text += &layout::fitted(&report::compensation::text(&found, header.language));
         }
         match header.outputs.as_slice() {
             [] if self.write_good => {
                 text += &layout::fitted(
-                    "nothing is written: each program has an error, or shares targets or calls with \
-                     one that has",
+                    "nothing is written: each program has an error, or shares data or calls with one \
+                     that has",
                 );
             }
             [] => {

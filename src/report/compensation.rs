@@ -79,7 +79,7 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
             if found.findings.iter().any(is_own) {
                 name.clone()
             } else {
-                format!("{name} (shares targets or calls with a refused one)")
+                format!("{name} (shares data or calls with a refused one)")
             }
         };
         let refused: Vec<String> = files.refused.iter().map(shown).collect();

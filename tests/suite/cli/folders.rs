@@ -504,8 +504,15 @@ fn what_is_refused_next_to_good_programs_is_named_with_the_reason() {
     let output = run(path, &command);
     let said = flat(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    let lists = "written in/Good.mod refused in/Bad.mod, in/Shares.mod (shares targets or calls with a refused one)";
+    let lists = "written in/Good.mod refused in/Bad.mod, in/Shares.mod (shares data or calls with a refused one)";
     assert!(said.contains(lists), "{said}");
+    // errors are printed whatever else is not
+    let quiet = flat(&run(path, &[&command[..], &["--quiet"]].concat()));
+    assert!(
+        quiet.contains("Bad.mod:3:1: error[out-of-reach]"),
+        "{quiet}"
+    );
+    assert!(!quiet.contains("written in/Good.mod"), "{quiet}");
     let page = std::fs::read_to_string(path.join("r.html")).expect("a page");
     assert!(page.contains("1 of 3 programs are written, 2 refused: 1 error"));
     assert!(page.contains("in/Bad.mod, in/Shares.mod"));

@@ -25,7 +25,7 @@ pub struct Compensation {
     pub edits: Vec<Edits>,
     /// Whether each source has targets that now are compensated, changed or not.
     pub compensated: Vec<bool>,
-    /// Whether each source has an error, or shares targets or calls with one that has.
+    /// Whether each source has an error, or shares data or calls with one that has.
     pub refused: Vec<bool>,
     /// Targets and moves that were put between those of the program.
     pub added: Added,

@@ -130,9 +130,10 @@ impl<'a> Reader<'a> {
                 goals,
                 &Instruction {
                     motion,
-                    target_span: match is_rewritable {
-                        true => Span::of(start + span.start..start + span.end),
-                        false => Span::default(),
+                    target_span: if is_rewritable {
+                        Span::of(start + span.start..start + span.end)
+                    } else {
+                        Span::default()
                     },
                     does_more: !is_repeatable,
                     ..instruction.clone()
