@@ -508,10 +508,8 @@ fn what_is_refused_next_to_good_programs_is_named_with_the_reason() {
     assert!(said.contains(lists), "{said}");
     // errors are printed whatever else is not
     let quiet = flat(&run(path, &[&command[..], &["--quiet"]].concat()));
-    assert!(
-        quiet.contains("Bad.mod:3:1: error[out-of-reach]"),
-        "{quiet}"
-    );
+    assert!(quiet.starts_with("in/Bad.mod:"), "{quiet}");
+    assert!(quiet.contains("error[out-of-reach]"), "{quiet}");
     assert!(!quiet.contains("written in/Good.mod"), "{quiet}");
     let page = std::fs::read_to_string(path.join("r.html")).expect("a page");
     assert!(page.contains("1 of 3 programs are written, 2 refused: 1 error"));

@@ -45,6 +45,18 @@ fn moves_that_name_their_target_get_one_of_their_own() {
 }
 
 #[test]
+fn a_copy_that_each_routine_makes_for_itself_is_written_out() {
+    let other = "PROC other()\nq:=p1;\nMoveL q,v100,fine,t;\nENDPROC";
+    let text = with_two_tools(
+        "VAR robtarget q;",
+        "q:=p1;\nMoveL q,v100,fine,t;\nother;",
+        other,
+    );
+    let done = split(&[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+}
+
+#[test]
 fn moves_by_parameters_and_indices_stay_as_they_are() {
     let go = "PROC go(robtarget p)\nMoveL p,v100,fine,t;\nENDPROC";
     // a parameter that has the name of the target is no other matter
@@ -147,6 +159,27 @@ fn an_arc_is_followed_from_each_of_its_beginnings() {
     };
     near(bounds("START\nIF DInput(di1)=1 THEN\nOTHER\nENDIF\n"));
     near(bounds("IF DInput(di1)=1 THEN\nOTHER\nELSE\nSTART\nENDIF\n"));
+}
+
+#[test]
+fn arcs_through_elements_of_arrays_are_followed_from_one_beginning() {
+    let list = |name: &str, x: f64, y: f64| {
+        let element = |i: i32| {
+            let by = 3.0 * f64::from(i);
+            format!("[[{},{},350],{P}", x + by, y + by)
+        };
+        let all: Vec<String> = (0..16).map(element).collect();
+        format!("CONST robtarget {name}{{16}}:=[{}];\n", all.join(","))
+    };
+    let data = list("a", 380.0, -60.0) + &list("b", 370.0, 10.0) + "VAR num i;";
+    let start = format!("[[350,-60,350],{P}");
+    let body = format!(
+        "MoveAbsJ [[0,10,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveL \
+         {start},v100,fine,tool0;\nFOR i FROM 1 TO 16 DO\nMoveC \
+         a{{i}},b{{i}},v100,fine,tool0;\nENDFOR"
+    );
+    let done = done(&[PLAIN], &[("t.mod", &rapid(&data, &body))]);
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
 }
 
 #[test]

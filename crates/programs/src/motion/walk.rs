@@ -331,7 +331,7 @@ impl Walker<'_, '_> {
     pub(super) fn add(&mut self, behind: &Behind, arrival: Arrival) {
         let at = arrival.motion;
         let motion = self.ground.program.moves[at as usize].motion;
-        let is_via = motion == Motion::ArcVia;
+        let is_via = motion == Motion::ArcVia && !self.is_one_of_many(at as usize);
         let mut others = 0;
         let mut is_same = false;
         let mut is_new = true;
@@ -358,6 +358,16 @@ impl Walker<'_, '_> {
                 self.open.push(Reverse((next, here)));
             }
         }
+    }
+
+    /// Whether the instruction of a move goes to other targets as well: elements of an array, of which most
+    /// do not go with each beginning.
+    fn is_one_of_many(&self, at: usize) -> bool {
+        let moves = &self.ground.program.moves;
+        let own = &moves[at];
+        let next = [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
+        let mut others = next.filter_map(|at| moves.get(at));
+        others.any(|other| other.instruction == own.instruction && other.target != own.target)
     }
 
     /// The move from which a move behind an arrival begins, and of an arc also the one before the point

@@ -42,6 +42,8 @@ const SETTLING: usize = 4;
 pub(crate) const ALIKE: f64 = 2e-4;
 /// A calibration is off as a whole where the pull at it is less likely by chance.
 const STRAINED: f64 = 1e-4;
+/// More rows that fit no model than this leave a mark on what is fitted to the others.
+const MOST_APART: f64 = 0.02;
 /// Noise is more than stated where that is less likely by chance, in standard deviations of its
 /// estimate.
 pub(crate) const LOUDER: f64 = 4.0;
@@ -131,11 +133,12 @@ impl Attempt {
     }
 
     /// What rows are still off by, root mean square, metres, where no arm is that far from its
-    /// drawing. A few that fit no model do not count: they are reported as such.
+    /// drawing. Single rows that fit no model do not count: they are reported as such.
     pub(crate) fn hopeless_m(&self) -> Option<f64> {
         let (layout, refit) = (&self.session.layout, &self.refit);
         let lengths = lengths_m(&self.session.problem, layout, &refit.residual);
-        let are_many = self.strangers().is_some();
+        let strangers = (0..layout.rows()).filter(|row| beyond(layout, refit, *row).is_some());
+        let are_many = strangers.count() as f64 > MOST_APART * layout.rows() as f64;
         let counts = |row: &usize| are_many || beyond(layout, refit, *row).is_none();
         let counted: Vec<f64> = (0..layout.rows())
             .filter(counts)

@@ -1,7 +1,9 @@
 //! What routines are given: by parameters, and by variables that others write.
 
 use crate::program::Target;
-use crate::program::script::{Expr, How, Instruction, Place, Script, VariableId, Written, short};
+use crate::program::script::{
+    Expr, How, Instruction, Place, Script, VariableId, Write, Written, short,
+};
 use foldhash::{HashMap, HashMapExt};
 
 /// Copies of copies that are followed.
@@ -41,15 +43,14 @@ impl Given {
         targets: &[Target],
         instruction: &Instruction,
     ) -> bool {
-        let routine = routine_at(script, instruction.place);
-        self.is_other((script, targets), instruction.target, routine, MOST_COPIES)
+        let at = (instruction.target, instruction.place);
+        self.is_other((script, targets), at, MOST_COPIES)
     }
 
     fn is_other(
         &self,
         (script, targets): (&Script, &[Target]),
-        value: Expr,
-        routine: usize,
+        (value, place): (Expr, Place),
         steps: usize,
     ) -> bool {
         let Expr::Variable(variable) = value else {
@@ -78,16 +79,17 @@ impl Given {
         if !matches!(declared, Expr::Target(_)) && writes.len() == 1 && is_numbers(&writes[0]) {
             return false;
         }
-        writes.iter().any(|at| {
-            let write = &script.writes[*at as usize];
-            let is_own = routine_at(script, write.place) == routine;
-            match write.how {
-                How::Whole(of) => {
-                    !is_own || self.is_other((script, targets), of, routine, steps - 1)
-                }
-                _ => !is_own,
-            }
-        })
+        // what its own routine writes before it is used there, whatever others write
+        let routine = routine_at(script, place);
+        let writes = writes.iter().map(|at| &script.writes[*at as usize]);
+        let is_before =
+            |write: &&Write| write.place < place && routine_at(script, write.place) == routine;
+        let mut own = writes.filter(is_before).peekable();
+        own.peek().is_none()
+            || own.any(|write| match write.how {
+                How::Whole(of) => self.is_other((script, targets), (of, write.place), steps - 1),
+                _ => false,
+            })
     }
 }
 
