@@ -44,6 +44,7 @@ pub struct Moment {
     pub time: f64,
     /// From 1.
     pub row: usize,
+    pub rows: usize,
     /// From the posture before.
     pub moved: [f64; 6],
 }
@@ -95,6 +96,8 @@ pub enum Fault {
     JointCreep(usize, f64, f64),
     /// Displacement in the world, rows.
     BaseCreep(V3, f64),
+    /// Part of all lengths, from the middle of the session on; rows.
+    Lengthening(f64, f64),
     /// Not known to the product: a joint's error by any function of its commanded angles, torques
     /// and the moment.
     Joint(usize, fn(&[f64; 6], &[f64; 6], &Moment) -> f64, f64),
@@ -168,6 +171,14 @@ fn moment_about_flange(robot: &Robot, load: (f64, V3), flange: &M4) -> V3 {
     cross(sub(point(flange, load.1), origin), weight)
 }
 
+/// All lengths of an arm in proportion.
+fn lengthen(rows: &mut [[f64; 5]; 6], factor: f64) {
+    for row in rows {
+        row[1] *= factor;
+        row[4] *= factor;
+    }
+}
+
 /// Where the tool really is in the world at the controller's joint angles `q`.
 pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> M4 {
     let (mut base, mut tool, mut rows, mut load) = (robot.base, robot.tool, robot.rows, robot.load);
@@ -195,6 +206,8 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
     let mut tilt = [0.0; 2];
     let warm = |constant: f64| 1.0 - (-at.time / constant).exp();
     let later = |rows: f64| 1.0 - (-(at.row as f64) / rows).exp();
+    let half = at.rows as f64 / 2.0;
+    let from_half = |rows: f64| (-half / rows).exp() - (-(at.row as f64) / rows).exp();
     let still_flange = times(&still[5], &robot.flange);
     let hanging = moment_about_flange(robot, load, &still_flange);
     let mut adapter = [0.0; 2];
@@ -225,11 +238,10 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
                 tilt[1] += y * dot(whole, axis(&base, 1));
             }
             Fault::Growth(k, reference) => {
-                let factor = 1.0 + k * (at.temperature - reference);
-                for row in &mut rows {
-                    row[1] *= factor;
-                    row[4] *= factor;
-                }
+                lengthen(&mut rows, 1.0 + k * (at.temperature - reference));
+            }
+            Fault::Lengthening(part, constant) => {
+                lengthen(&mut rows, 1.0 + part * from_half(*constant));
             }
             _ => {}
         }

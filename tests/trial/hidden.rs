@@ -127,7 +127,10 @@ pub fn kinds(start: Start) -> Vec<Kind> {
     ];
     of_arm()
         .filter(|k| start != Start::Nominal || !absorbed.contains(k))
-        // cases have a clock
-        .filter(|k| !k.definition().needs.contains(&Need::NoTime))
+        // cases have a clock and a thermometer
+        .filter(|k| {
+            let needs = k.definition().needs;
+            !needs.contains(&Need::NoTime) && !needs.contains(&Need::NoTemperature)
+        })
         .collect()
 }

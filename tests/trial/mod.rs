@@ -173,6 +173,7 @@ pub fn case_of(group: &Group, number: usize, seed: u64, (poses, times): (usize, 
             temperature_c: Some((warm * 100.0).round() / 100.0),
             time_s: Some(45.0 * r as f64 + random.random_range(0.0..5.0_f64).round()),
             row: u32::try_from(r + 1).ok(),
+            rows: u32::try_from(rows).expect("small"),
             moved: moves[r],
             ..Conditions::default()
         });
@@ -375,6 +376,7 @@ fn moment(c: &Conditions) -> Moment {
         temperature: c.temperature_c.unwrap_or(20.0),
         time: c.time_s.unwrap_or(0.0),
         row: c.row.map_or(0, |r| r as usize),
+        rows: c.rows as usize,
         moved: c.moved,
     }
 }

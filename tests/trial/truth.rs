@@ -73,6 +73,7 @@ pub fn faults(effect: &Effect) -> Fault {
         Kind::MeasurementScale => Fault::Longer(p[0]),
         Kind::SessionDrift if i == BASE => Fault::BaseCreep([p[1], p[2], p[3]], p[4]),
         Kind::SessionDrift => Fault::JointCreep(i, p[0], p[4]),
+        Kind::SessionGrowth => Fault::Lengthening(p[0], p[1]),
         other => unreachable!("{} is no effect of the arm", other.definition().id),
     }
 }

@@ -1,12 +1,13 @@
 //! What is not believed: effects of rows that fit no model, of a joint that comes from one side
 //! only, of a tool that is mounted otherwise.
 
-use super::commands::diagnosed as by_command;
+use super::commands::{case_with, diagnosed as by_command};
 use super::standing::{found, moved};
 use super::{group, with_csv};
 use crate::trial::{Case, case};
 use poseshift::diagnose::{Options, Standing, Verdict};
 use poseshift::geometry::Pose;
+use poseshift::identify::pick::Pick;
 use poseshift::model::Conditions;
 use poseshift::model::effects::Kind;
 
@@ -149,4 +150,90 @@ fn what_the_profile_has_already_is_said_with_the_new_value() {
     assert!((by - 0.03).abs() < 0.003, "{by}");
     let (_, out, _) = by_command(&moved, &[]);
     assert!(out.contains("The profile has"), "{out}");
+}
+
+#[test]
+fn a_noise_that_is_stated_far_too_large_is_said_and_hides_nothing() {
+    let base = case_with("backlash");
+    let mut lines = base.csv.lines();
+    let mut csv = lines.next().expect("a header").to_owned() + "\n";
+    for line in lines {
+        let (cells, sigma) = line.rsplit_once(',').expect("several columns");
+        let sigma: f64 = sigma.parse().expect("a number");
+        csv += &format!("{cells},{}\n", 1000.0 * sigma);
+    }
+    let d = found(&with_csv(base, csv), &Options::default());
+    assert_eq!(d.verdict, Verdict::Undetermined, "{:?}", d.reasons);
+    assert!(d.remarks.iter().any(|r| r.id == "sigma-large"));
+    assert!(
+        d.reasons
+            .iter()
+            .any(|r| r.contains("too large by a factor"))
+    );
+    // 30 mm are stated
+    assert!(d.residual_m < 1e-3, "{}", d.residual_m);
+}
+
+#[test]
+fn one_lost_row_does_not_make_the_others_hopeless_and_many_do() {
+    let lost = |rows: usize| {
+        moved(case_with("backlash"), |row, _| match row % 11 {
+            5 if row / 11 < rows => [3000.0, -2000.0, 1000.0],
+            _ => [0.0; 3],
+        })
+    };
+    let is_far = |reason: &String| reason.contains("no arm is that far");
+    let d = found(&lost(1), &Options::default());
+    assert!(!d.reasons.iter().any(is_far), "{:?}", d.reasons);
+    assert_eq!(d.found.len(), 1);
+    assert_eq!(d.found[0].effect.kind, Kind::Backlash);
+    let d = found(&lost(6), &Options::default());
+    assert!(d.reasons.iter().any(is_far), "{:?}", d.reasons);
+    assert_eq!(d.verdict, Verdict::Undetermined);
+}
+
+#[test]
+fn a_point_elsewhere_on_the_tool_is_said() {
+    let base = clean(8);
+    let name = base.profile.tools.keys().next().expect("its tool").clone();
+    let tool = base.profile.tool(&name).expect("its tool");
+    let model = base.profile.real_model(&tool, &Conditions::default());
+    let by = |along_mm: f64| {
+        let model = &model;
+        move |_: usize, degrees: [f64; 6]| {
+            let pose = model.forward(&degrees.map(f64::to_radians), &Conditions::default());
+            let end = pose.transform([0.0, 0.0, along_mm]);
+            std::array::from_fn(|k| end[k] - pose.translation[k])
+        }
+    };
+    let said = |case: &Case| {
+        let d = found(case, &Options::default());
+        d.remarks.iter().any(|r| r.id == "tool-elsewhere")
+    };
+    assert!(said(&moved(clean(8), by(12.7))));
+    assert!(!said(&base));
+}
+
+#[test]
+fn what_the_measurements_say_against_an_accepted_effect_is_said() {
+    let case = case_with("joint_scale");
+    let own = found(&case, &Options::default());
+    let right = own.found[0].effect.site.index + 1;
+    let wrong = if right == 2 { 3 } else { 2 };
+    let accepted = |word: &str| {
+        let accept = Pick::parse_list(word).expect("a word");
+        let options = Options {
+            accept,
+            ..Options::default()
+        };
+        found(&case, &options)
+    };
+    let d = accepted(&format!("joint_scale:{right}"));
+    assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.reasons);
+    let d = accepted(&format!("backlash:{wrong}"));
+    assert_ne!(d.verdict, Verdict::Explained);
+    let said = d.reasons.join("\n");
+    assert!(said.contains("was accepted"), "{said}");
+    let better = format!("joint_scale joint {right} explains the measurements better");
+    assert!(said.contains(&better), "{said}");
 }

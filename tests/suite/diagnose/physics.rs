@@ -94,6 +94,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                     gravity_m_s2: None,
                     device_m: [0.0; 3],
                     row: Some(random.random_range(1..6)),
+                    rows: random.random_range(6..20),
                     moved: [0.7, -1.1, 0.2, 2.0, -0.6, 0.9],
                 };
                 let moment = Moment {
@@ -102,6 +103,7 @@ fn every_effect_is_the_same_in_two_implementations() {
                     temperature: 27.0,
                     time: 900.0,
                     row: conditions.row.map_or(0, |r| r as usize),
+                    rows: conditions.rows as usize,
                     moved: conditions.moved,
                 };
                 let q = random_joints(&mut random, &profile);

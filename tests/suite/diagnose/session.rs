@@ -397,3 +397,35 @@ fn an_arm_that_grows_from_another_temperature_than_20_is_no_wrong_scale_of_the_d
         assert!((reference_c - 26.0).abs() < 2.0, "{seed}: {reference_c}");
     }
 }
+
+/// An arm that warms up, by 12 ppm a degree and 12 degrees, and nobody wrote down the temperature.
+#[test]
+fn an_arm_that_warms_up_without_a_thermometer_is_said_to_grow() {
+    for seed in 1..4 {
+        let base = case(group("clean"), 0, seed, 150);
+        let name = base.profile.tools.keys().next().expect("its tool").clone();
+        let tool = base.profile.tool(&name).expect("its tool");
+        let model = base.profile.real_model(&tool, &Conditions::default());
+        let off = tool.flange_from_tool.inverse() * base.profile.link6_from_flange.inverse();
+        let stands = base.profile.world_from_base.translation;
+        let warm = moved(base, |row, degrees| {
+            let q = degrees.map(f64::to_radians);
+            let end = (model.forward(&q, &Conditions::default()) * off).translation;
+            // as its profile says in the middle
+            let grown = 144e-6 * ((-75.0_f64 / 40.0).exp() - (-(row as f64) / 40.0).exp());
+            std::array::from_fn(|k| 1e3 * grown * (end[k] - stands[k]))
+        });
+        let csv = warm.csv.replacen("temperature_c", "room", 1);
+        let with = with_csv(warm, csv);
+        let d = diagnosed(&with);
+        let named: Vec<Kind> = d.found.iter().map(|f| f.effect.kind).collect();
+        assert_eq!(named, [Kind::SessionGrowth], "{seed}");
+        let [part, rows, ..] = d.found[0].effect.parameters;
+        assert!((part - 144e-6).abs() < 30e-6, "{seed}: {part}");
+        assert!((20.0..80.0).contains(&rows), "{seed}: {rows}");
+        assert_eq!(d.found[0].standing, Standing::Likely);
+        assert!(d.found[0].against[0].what.contains("measuring device"));
+        // what a session does is none of the profile's
+        assert_eq!(d.profile.effects, with.profile.effects);
+    }
+}

@@ -24,4 +24,6 @@ pub struct Conditions {
     pub device_m: Vector,
     /// Row of the measurements, from 1; none outside a session of measurements.
     pub row: Option<u32>,
+    /// How many rows there are; 0 outside a session of measurements.
+    pub rows: u32,
 }

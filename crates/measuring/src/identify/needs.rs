@@ -168,7 +168,7 @@ pub(super) fn check_needs(
                 Need::ExternalDirections => problem.rows.iter().any(|row| row.stand.is_directed()),
                 Need::Temperature => measurements.has(&["temperature_c"]),
                 Need::Time => measurements.has(&["time_s"]),
-                Need::Order | Need::NoTime => true,
+                Need::Order | Need::NoTime | Need::NoTemperature => true,
                 Need::Moves => problem.rows.iter().any(|r| r.conditions.moved != [0.0; 6]),
                 Need::Load => problem.tools.iter().any(|t| t.load.is_some()),
                 Need::Places => problem

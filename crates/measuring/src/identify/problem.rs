@@ -239,6 +239,7 @@ impl Problem {
                 point: named.unwrap_or(PointRef::Known(m.point_in_tool_m.unwrap_or_default())),
                 conditions: Conditions {
                     row: u32::try_from(index + 1).ok(),
+                    rows: u32::try_from(measurements.rows.len()).unwrap_or(u32::MAX),
                     ..m.conditions
                 },
                 stand: m.stand.clone(),

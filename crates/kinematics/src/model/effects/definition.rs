@@ -379,6 +379,8 @@ pub enum Need {
     Places,
     /// Rows in order and no column `time_s`, which says more; unless it begins late.
     NoTime,
+    /// Rows in order and no column `temperature_c`, which says more.
+    NoTemperature,
 }
 
 impl Need {
@@ -398,6 +400,7 @@ impl Need {
             Self::Load => "the tool's mass_kg in the profile",
             Self::Places => "places or distances, not contacts",
             Self::NoTime => "rows in order and no column time_s",
+            Self::NoTemperature => "rows in order and no column temperature_c",
         }
     }
 }

@@ -21,6 +21,7 @@ fn conditions() -> Conditions {
         gravity_m_s2: None,
         device_m: [0.4, -2.9, 1.1],
         row: Some(7),
+        rows: 20,
         moved: [0.4, -0.9, 0.3, 1.2, -0.5, 2.0],
     }
 }

@@ -233,6 +233,7 @@ registry! {
     tool_compliance::ToolCompliance,
     measurement_scale::MeasurementScale,
     session_drift::SessionDrift,
+    session_growth::SessionGrowth,
     track_scale::TrackScale,
     track_direction::TrackDirection,
     track_straightness::TrackStraightness,

@@ -23,8 +23,8 @@ pub struct Search {
     pub mass: Option<usize>,
     /// Effects that do nearly the same where a column is missing that would tell them.
     pub alternatives: &'static [Kind],
-    /// At the base it does exactly what the measuring device may do itself: no row tells them
-    /// apart.
+    /// At the base, or of the whole arm, it does what the measuring device may do itself: no row
+    /// tells them apart.
     pub or_of_device: bool,
 }
 

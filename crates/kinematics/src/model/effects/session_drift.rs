@@ -2,15 +2,12 @@
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{List, Search, Sets, Shown};
-use super::words::{deg, joint, length, mm};
+use super::words::{deg, gone, joint, length, mm, pace};
 use super::{BASE, Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
 /// A joint or the base moves with the row number to its last place, exponentially. An effect of the data.
 pub(super) struct SessionDrift;
-
-/// Shorter constants count as this, rows.
-const SHORTEST: f64 = 0.1;
 
 impl Equation for SessionDrift {
     const DEFINITION: Definition = Definition {
@@ -43,8 +40,7 @@ impl Equation for SessionDrift {
     #[inline(always)]
     fn deflect<S: Scalar>(site: &Site, p: &[S; MOST_PARAMETERS], state: &State<S>, deflection: &mut Deflection<S>) {
         let Some(row) = state.conditions.row else { return };
-        let constant = p[4].max(S::constant(SHORTEST));
-        let gone = S::one() - (S::constant(-f64::from(row)) / constant).exp();
+        let gone = gone(f64::from(row), p[4]);
         if let Some(joint) = deflection.joints.get_mut(site.index) {
             *joint += p[0] * gone;
         }
@@ -56,13 +52,12 @@ impl Equation for SessionDrift {
     fn sentence(effect: &Effect, seen: &Seen) -> String {
         let (rows, all) = (effect.parameters[4], seen.rows as f64);
         // what it reaches by the last row, not what it would reach
-        let part = 1.0 - (-all / rows.max(SHORTEST)).exp();
+        let part = gone(all, rows);
         let (what, by) = if effect.site.index == BASE {
             ("The base or the measuring device".to_owned(), mm(part * length(&effect.parameters[1..4])) + " mm")
         } else {
             (joint(effect), deg(part * effect.parameters[0]) + "°")
         };
-        let when = if rows < all { format!("most of it in {rows:.0} rows") } else { "about evenly".to_owned() };
-        format!("{what} drifts by {by} in the course of the session, {when}")
+        format!("{what} drifts by {by} in the course of the session, {}", pace(rows, all))
     }
 }

@@ -1,7 +1,27 @@
 //! Sizes and places as sentences have them.
 
 use super::Effect;
+use crate::geometry::Scalar;
 use crate::geometry::units::{DEG, mm_from_m};
+
+/// Shorter constants count as this, rows.
+const SHORTEST: f64 = 0.1;
+
+/// The part of its last size that what grows exponentially with the row number has reached.
+#[inline(always)]
+pub(super) fn gone<S: Scalar>(row: f64, constant_rows: S) -> S {
+    let constant = constant_rows.max(S::constant(SHORTEST));
+    S::one() - (S::constant(-row) / constant).exp()
+}
+
+/// How fast it does so.
+pub(super) fn pace(constant_rows: f64, all: f64) -> String {
+    if constant_rows < all {
+        format!("most of it in {constant_rows:.0} rows")
+    } else {
+        "about evenly".to_owned()
+    }
+}
 
 /// Three decimals, or two digits where these say nothing.
 pub(super) fn digits(value: f64) -> String {

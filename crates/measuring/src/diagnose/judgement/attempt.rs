@@ -137,14 +137,15 @@ impl Attempt {
     pub(crate) fn hopeless_m(&self) -> Option<f64> {
         let (layout, refit) = (&self.session.layout, &self.refit);
         let lengths = lengths_m(&self.session.problem, layout, &refit.residual);
-        let strangers = (0..layout.rows()).filter(|row| beyond(layout, refit, *row).is_some());
-        let are_many = strangers.count() as f64 > MOST_APART * layout.rows() as f64;
-        let counts = |row: &usize| are_many || beyond(layout, refit, *row).is_none();
-        let counted: Vec<f64> = (0..layout.rows())
-            .filter(counts)
-            .map(|row| lengths[row])
-            .collect();
-        let squares = counted.iter().map(|length| length * length);
+        let (apart, others): (Vec<usize>, Vec<usize>) =
+            (0..layout.rows()).partition(|row| beyond(layout, refit, *row).is_some());
+        let are_many = apart.len() as f64 > MOST_APART * layout.rows() as f64;
+        let counted = if are_many {
+            (0..layout.rows()).collect()
+        } else {
+            others
+        };
+        let squares = counted.iter().map(|row| lengths[*row] * lengths[*row]);
         let rms = (squares.sum::<f64>() / counted.len().max(1) as f64).sqrt();
         (rms > HOPELESS_M).then_some(rms)
     }

@@ -46,6 +46,8 @@ const FEW_PERIODS: f64 = 2.0;
 const CLEARLY: f64 = 5.0;
 /// An effect is there by its own evidence where chance does that less often.
 pub(crate) const EVIDENT: f64 = 1e-4;
+/// Chance does what is there more seldom than this, the usual level.
+const SHOWN: f64 = 0.05;
 /// And found again in this part of the measurements' parts.
 pub(crate) const AGAIN: f64 = 0.8;
 /// Numbers beyond the parameters that tell their own noise: to 7 %.
@@ -246,8 +248,12 @@ fn twin(attempt: &Attempt, found: &Found) -> Option<&'static str> {
     let definition = effect.definition();
     // the axis of joint 1 goes along a rail, that of a device does not
     let is_fixed = (attempt.session.problem.profile.external.track).is_empty();
+    if !definition.site.contains(&SiteKey::JointOrBase) {
+        return (definition.search.or_of_device).then_some(
+            "a measuring device whose lengths change, which fixed points measured again would show",
+        );
+    }
     match effect.site.index {
-        _ if !definition.site.contains(&SiteKey::JointOrBase) => None,
         BASE => (definition.search.or_of_device).then_some(
             "a drift of the measuring device, which a fixed point measured again would show",
         ),
@@ -346,6 +352,29 @@ pub(crate) fn apart(before: f64, after: f64) -> String {
     words.join(" → ")
 }
 
+/// What the measurements say against effects that a person accepted.
+fn overruled(found: &[Found], alternatives: &[Alternative]) -> Vec<String> {
+    let mut reasons = Vec::new();
+    for (i, one) in found.iter().enumerate().filter(|(_, f)| f.accepted) {
+        let label = one.effect.label();
+        if one.p_value > SHOWN {
+            reasons.push(format!(
+                "the measurements do not show {label}, which was accepted: chance does as much (p = {:.2})",
+                one.p_value
+            ));
+        }
+        let mut others = alternatives.iter().filter(|r| r.instead_of == i);
+        if let Some(better) = others.find(|r| r.behind < -CLEAR && !is_same(r, one)) {
+            reasons.push(format!(
+                "{} explains the measurements better than {label}, which was accepted: odds {:.0} to 1",
+                better.effect.label(),
+                odds_of(-better.behind).min(1e6)
+            ));
+        }
+    }
+    reasons
+}
+
 /// Why the effects found may not be the answer, one sentence each; none where they are.
 fn objections(
     attempt: &Attempt,
@@ -402,6 +431,7 @@ fn objections(
             alternative.effect.label()
         ));
     }
+    reasons.extend(overruled(found, alternatives));
     for one in found.iter().filter(|f| !f.accepted) {
         for alternative in untested(attempt, one) {
             reasons.push(format!(

@@ -229,7 +229,7 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                     Some(format!("times from switching the cold robot on: {late}"))
                 })
             }
-            Need::Order | Need::NoTime => {
+            Need::Order | Need::NoTime | Need::NoTemperature => {
                 (rows.len() < 20).then(|| "at least 20 rows in order".to_owned())
             }
             Need::Moves => {
@@ -335,11 +335,15 @@ impl Candidates {
         let length_s = range(times());
         // what a clock that begins late says is in the order of rows, too
         let has_time = length_s > 0.0 && Late::of(&measurements.rows).is_none();
+        let has_temperature = measurements.has(&["temperature_c"]);
         let track = problem.profile.external.track.len();
         let mut stood = places(&problem.profile.external, measurements);
         stood.truncate(track);
         for kind in shown_by_tool().filter(|kind| track > 0 || !kind.of_track()) {
-            if has_time && kind.definition().needs.contains(&Need::NoTime) {
+            let needs = kind.definition().needs;
+            if has_time && needs.contains(&Need::NoTime)
+                || has_temperature && needs.contains(&Need::NoTemperature)
+            {
                 continue;
             }
             if let Some(missing) = missing(kind, problem, measurements) {

@@ -11,7 +11,7 @@ use crate::identify::measurements::{Measurement, Measurements, Observed};
 use crate::identify::problem::{Estimate, Problem};
 use crate::identify::start::{self, Start, spreads};
 use crate::identify::statistics::quantile;
-use crate::model::effects::{Effect, Kind, Site};
+use crate::model::effects::{Effect, Kind};
 use crate::profile::Profile;
 
 /// A first guess that misses by less is not questioned, metres, if it is also less than
@@ -472,17 +472,22 @@ fn moved_tools(profile: &Profile, start: &Start) -> Vec<Remark> {
 /// Fitted tools that are elsewhere than the profile says, where the first guess knows none.
 #[must_use]
 pub fn moved_fitted_tools(profile: &Profile, estimate: &Estimate) -> Vec<Remark> {
-    let frames = |effects: &[Effect], site: &Site| {
-        let mut of = effects.iter();
-        let frame = of.find(|e| e.kind == Kind::ToolFrame && e.site == *site);
-        frame.map_or([0.0; 3], |e| std::array::from_fn(|k| e.parameters[k]))
+    // each stands on the one before
+    let offset = |effects: &[Effect], name: &str| {
+        let own = effects
+            .iter()
+            .filter(|e| e.kind == Kind::ToolFrame && e.site.is_of_tool(name));
+        let frames = own.map(|e| Pose::from_xyz_rxryrz(e.parameters));
+        frames
+            .fold(Pose::identity(), |all, next| all * next)
+            .translation
     };
-    let tools = profile.tools.keys().filter_map(|name| {
-        let mut of = estimate.effects.iter();
-        let fitted = of.find(|e| e.kind == Kind::ToolFrame && e.site.is_of_tool(name))?;
-        let before = frames(&profile.effects, &fitted.site);
-        let now = frames(&estimate.effects, &fitted.site);
-        Some((name.as_str(), norm(sub(now, before))))
+    let tools = profile.tools.keys().map(|name| {
+        let (before, now) = (
+            offset(&profile.effects, name),
+            offset(&estimate.effects, name),
+        );
+        (name.as_str(), norm(sub(now, before)))
     });
     tools_elsewhere(tools)
 }
