@@ -42,13 +42,13 @@ pub(super) struct Register {
     /// residuals)
     #[arg(long, value_name = "MM")]
     sigma_mm: Option<f64>,
-    /// Leave out touches that disagree with the others, and tell why
+    /// Leave out touches that disagree with the others, and say why
     #[arg(long)]
     robust: bool,
     /// Radius of the probe's ball: TO holds the centres of the ball
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     probe_radius_mm: f64,
-    /// Tell the error ellipsoid at this point of FROM (may be given several times)
+    /// Print the error ellipsoid at this point of FROM (may be given several times)
     #[arg(long = "at", value_name = "X,Y,Z", allow_hyphen_values = true)]
     at: Vec<String>,
     /// Leave out rows whose id the other file does not have

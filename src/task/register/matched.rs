@@ -175,6 +175,7 @@ fn by_points(
         to: &to,
         name,
     };
+    sets.refuse_reversed(&rejected, spread_m)?;
     let times = given.map(|given| noise() / given);
     let contradicted = times.and_then(|times| other_sigma(times, redundancy.freedom, name));
     let mut bad = None;
@@ -352,21 +353,56 @@ impl Sets<'_> {
             return Ok(());
         }
         let message = unlike(self.name, rmsd_m, limit_m);
-        let hint = bad.unwrap_or_else(|| self.order(limit_m));
+        // the reverse order explains all rows, what is bad in this one only the others
+        let reversed = self
+            .reversed(limit_m)
+            .map(|left_m| self.in_order("in the reverse order", left_m));
+        let hint = reversed.or(bad).unwrap_or_else(|| self.shifted(limit_m));
         Err(Failure::with_hint(message, hint))
     }
 
-    /// The order of rows in which they fit.
-    fn order(&self, limit_m: f64) -> String {
-        let n = self.from.len();
-        let left_m = |from: &[Vector], to: &[Vector]| {
-            let fit = kabsch(from, to, None).ok()?;
-            Some(fit.rmsd_m(from, to, None)).filter(|left| *left <= limit_m)
+    /// Refuses to leave touches out where all of them fit in the reverse order.
+    fn refuse_reversed(&self, rejected: &[robust::BadTouch], spread_m: f64) -> Result<(), Failure> {
+        let farthest_m = rejected
+            .iter()
+            .fold(0.0, |most: f64, bad| most.max(bad.distance_m));
+        let limit_m = (UNLIKE * spread_m).min(CLEARLY_NEARER * farthest_m);
+        let Some(left_m) = self.reversed(limit_m).filter(|_| !rejected.is_empty()) else {
+            return Ok(());
         };
+        let message = format!(
+            "{}: {} of {} touches do not fit, by up to {:.3} mm",
+            self.name,
+            rejected.len(),
+            self.to.len(),
+            mm_from_m(farthest_m)
+        );
+        Err(Failure::with_hint(
+            message,
+            self.in_order("in the reverse order", left_m),
+        ))
+    }
+
+    /// What the rows leave in the reverse order, where they fit.
+    fn reversed(&self, limit_m: f64) -> Option<f64> {
         let turned: Vec<Vector> = self.to.iter().rev().copied().collect();
+        left_m(self.from, &turned, limit_m)
+    }
+
+    /// That the rows fit in another order.
+    fn in_order(&self, order: &str, left_m: f64) -> String {
+        format!(
+            "with the rows of {} taken {order} they fit to {:.3} mm: put them in the order of FROM, or \
+             give both files a column id",
+            self.name,
+            mm_from_m(left_m)
+        )
+    }
+
+    /// By how many rows they have to be shifted to fit.
+    fn shifted(&self, limit_m: f64) -> String {
+        let n = self.from.len();
         let mut found: Vec<(f64, String)> = Vec::new();
-        let reversed = left_m(self.from, &turned);
-        found.extend(reversed.map(|left| (left, "in the reverse order".to_owned())));
         // so many are left that they do not fit by chance
         for by in 1..=(n / 2).min(FARTHEST_SHIFT).min(n.saturating_sub(4)) {
             let rest = n - by;
@@ -375,23 +411,22 @@ impl Sets<'_> {
                 (&self.from[by..], &self.to[..rest], "earlier"),
             ];
             for (from, to, whither) in shifts {
-                let left = left_m(from, to);
+                let left = left_m(from, to, limit_m);
                 found.extend(left.map(|left| (left, format!("{by} row(s) {whither}"))));
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.first().map_or_else(
             || "do the rows of both files belong together? a column id in both matches them".into(),
-            |(left, order)| {
-                format!(
-                    "with the rows of {} taken {order} they fit to {:.3} mm: put them in the order \
-                     of FROM, or give both files a column id",
-                    self.name,
-                    mm_from_m(*left)
-                )
-            },
+            |(left, order)| self.in_order(order, *left),
         )
     }
+}
+
+/// What the best motion leaves, where that is no more than a limit.
+fn left_m(from: &[Vector], to: &[Vector], limit_m: f64) -> Option<f64> {
+    let fit = kabsch(from, to, None).ok()?;
+    Some(fit.rmsd_m(from, to, None)).filter(|left| *left <= limit_m)
 }
 
 /// Without --robust: a point that the others contradict is reported, not left out. Which these are
@@ -454,6 +489,8 @@ fn suspect(
     })
 }
 
+/// Another order leaves less than this part of how far bad touches are off.
+const CLEARLY_NEARER: f64 = 0.1;
 /// So many bad rows are named in an error.
 const NAMED: usize = 6;
 /// A mirror image fits as well that leaves less than this times what the motion does.

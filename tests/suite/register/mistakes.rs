@@ -290,6 +290,34 @@ fn rows_in_another_order_are_refused_and_the_order_is_named() {
     assert!(has(&report, "suspect-touch"), "{report}");
 }
 
+/// Corners of a rectangle, with a point before and one behind: four of six rows fit in both orders.
+#[test]
+fn a_reverse_order_in_which_all_rows_fit_goes_before_bad_touches() {
+    let folder = scratch();
+    let at = folder.path();
+    let corners = [
+        [40.0, 60.0, 50.0],
+        [0.0, 0.0, 0.0],
+        [300.0, 0.0, 0.0],
+        [300.0, 200.0, 0.0],
+        [0.0, 200.0, 0.0],
+        [250.0, 90.0, 35.0],
+    ];
+    let mut probed = corners.map(|[x, y, z]: [f64; 3]| [x + 10.01, y + 19.99, z + 30.0]);
+    write(at, "from.csv", &points(&corners));
+    write(at, "to.csv", &points(&probed));
+    let (status, _, reported) = registered(at, &["register", "from.csv", "to.csv", "--robust"]);
+    assert_eq!(status, 0, "{reported}");
+    probed.reverse();
+    write(at, "to.csv", &points(&probed));
+    for more in [&[][..], &["--robust"]] {
+        let command = [&["register", "from.csv", "to.csv"], more].concat();
+        let (status, _, reported) = registered(at, &command);
+        assert_eq!(status, 2, "{more:?} {reported}");
+        assert!(reported.contains("in the reverse order"), "{reported}");
+    }
+}
+
 #[test]
 fn a_stated_deviation_that_the_residuals_contradict_is_said() {
     let folder = scratch();
@@ -357,6 +385,38 @@ fn an_inverted_board_is_one_of_the_readings_that_fit() {
         &reading,
     ] {
         assert!(reported.contains(word), "{word}: {reported}");
+    }
+}
+
+#[test]
+fn quaternions_with_the_scalar_last_are_named() {
+    let folder = scratch();
+    let at = folder.path();
+    let robot = boards(&super::poses("tests/data/register/robot.csv"));
+    let board = boards(&super::poses("tests/data/register/board.csv"));
+    // what stands under qw, qx, qy, qz is x, y, z, w
+    let last = |text: &str| {
+        let mut lines = text.lines();
+        let mut moved = lines.next().expect("a header").to_owned() + "\n";
+        for line in lines {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            cells[3..].rotate_left(1);
+            moved += &(cells.join(",") + "\n");
+        }
+        moved
+    };
+    for (names, texts) in [
+        ("BOARD's", [robot.clone(), last(&board)]),
+        ("ROBOT's", [last(&robot), board.clone()]),
+        ("both files'", [last(&robot), last(&board)]),
+    ] {
+        write(at, "robot.csv", &texts[0]);
+        write(at, "board.csv", &texts[1]);
+        let (status, _, reported) = registered(at, &HANDEYE);
+        assert_eq!(status, 2, "{names}: {reported}");
+        let advice = format!("with {names} quaternions in the order x, y, z, w it fits");
+        assert!(reported.contains(&advice), "{names}: {reported}");
+        assert!(!reported.contains("inverted"), "{reported}");
     }
 }
 

@@ -176,8 +176,8 @@ impl IdentifyError {
                 known.iter().map(String::as_str),
             ),
             Self::AmbiguousTool { .. } => "add a column tool".into(),
-            Self::TooFew { .. } => "measure more configurations, or identify less: `poseshift \
-                calibrate --level 1`, or its --fix"
+            Self::TooFew { .. } => "measure more configurations, or identify less: a lower \
+                --level of `poseshift calibrate`, or its --fix"
                 .into(),
             Self::Suspicious { hint, .. } => hint.clone(),
             Self::FarOff { .. } => "is a decimal point lost, or is the row in another unit? \

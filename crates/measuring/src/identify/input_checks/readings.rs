@@ -137,13 +137,22 @@ impl Readings<'_> {
 
     fn joints(&mut self) {
         let order = "check the order of the joint columns";
-        for a in 0..6 {
-            for b in a + 1..6 {
-                self.add(
-                    format!("the columns q{}_deg and q{}_deg are swapped", a + 1, b + 1),
-                    order,
-                    |_, row| row.q.swap(a, b),
-                );
+        let measurements = self.measurements;
+        let rows = &measurements.rows;
+        // one that stands at zero counts in no direction
+        let stands = |joint: &usize| rows.iter().all(|row| row.q[*joint] == 0.0);
+        let turned: Vec<usize> = (0..6).filter(|joint| !stands(joint)).collect();
+        for (at, &a) in turned.iter().enumerate() {
+            self.add(
+                format!("joint {} counts the other way", a + 1),
+                format!(
+                    "negate q{}_deg, or set the sign of joint {} in the profile",
+                    a + 1,
+                    a + 1
+                ),
+                |_, row| row.q[a] = -row.q[a],
+            );
+            for &b in &turned[at + 1..] {
                 self.add(
                     format!("joints {} and {} count the other way", a + 1, b + 1),
                     format!(
@@ -157,15 +166,15 @@ impl Readings<'_> {
                     },
                 );
             }
-            self.add(
-                format!("joint {} counts the other way", a + 1),
-                format!(
-                    "negate q{}_deg, or set the sign of joint {} in the profile",
-                    a + 1,
-                    a + 1
-                ),
-                |_, row| row.q[a] = -row.q[a],
-            );
+        }
+        for a in 0..6 {
+            for b in a + 1..6 {
+                self.add(
+                    format!("the columns q{}_deg and q{}_deg are swapped", a + 1, b + 1),
+                    order,
+                    |_, row| row.q.swap(a, b),
+                );
+            }
         }
         self.add(
             "the joint columns stand in the opposite order",
@@ -240,4 +249,23 @@ pub(super) fn readings(measurements: &Measurements) -> Vec<Reading> {
     all.joints();
     all.rows();
     all.all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_at_zero_counts_in_no_direction() {
+        let text = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n\
+                    10,20,30,0,40,50,1,2,3\n20,10,25,0,30,60,2,3,4\n";
+        let rows = Measurements::from_csv(text.as_bytes()).expect("rows");
+        let all = readings(&rows);
+        let of_signs = all.iter().filter(|r| r.supposes.contains("the other way"));
+        let of_signs: Vec<&str> = of_signs.map(|r| &*r.supposes).collect();
+        // five joints, and ten pairs of them; each before its pairs
+        assert_eq!(of_signs.len(), 15);
+        assert_eq!(of_signs[0], "joint 1 counts the other way");
+        assert!(of_signs.iter().all(|supposes| !supposes.contains('4')));
+    }
 }

@@ -16,7 +16,7 @@ mod refine;
 pub use corners::{Corners, refine_by_corners};
 pub use refine::{PoseResidual, Refined};
 
-use crate::geometry::{Pose, norm};
+use crate::geometry::{Pose, Quaternion, norm};
 use nalgebra::Matrix3;
 
 /// Where the camera is mounted.
@@ -259,7 +259,7 @@ impl HandEye {
     pub fn refined(&self) -> Result<Refined, HandEyeError> {
         let refined = self.refine()?;
         let turned = refined.rotation_rad >= GROSS_RAD;
-        if !turned && refined.distance_m <= GROSS_PART * self.reach_m {
+        if self.fits(&refined) {
             return Ok(refined);
         }
         Err(HandEyeError::Gross {
@@ -271,6 +271,11 @@ impl HandEye {
                 self.unit_advice(refined.distance_m)
             },
         })
+    }
+
+    /// Whether no more than noise is left.
+    fn fits(&self, found: &Refined) -> bool {
+        found.rotation_rad < GROSS_RAD && found.distance_m <= GROSS_PART * self.reach_m
     }
 
     fn refine(&self) -> Result<Refined, HandEyeError> {
@@ -293,8 +298,8 @@ impl HandEye {
             ..self.clone()
         };
         let fit = other.refine().ok();
-        let Some(fit) = fit.filter(|fit| fit.rotation_rad < GROSS_RAD) else {
-            return TOGETHER.to_owned();
+        let Some(fit) = fit.filter(|fit| other.fits(fit)) else {
+            return self.order_advice();
         };
         let (holder, other_holder) = match self.setup {
             Setup::EyeInHand => ("flange", "base"),
@@ -309,6 +314,38 @@ impl HandEye {
              {board:.0} mm from the {holder}); the poses do not say which: see where the camera \
              stands"
         )
+    }
+
+    /// In which files quaternions may have the scalar last, by what fits.
+    fn order_advice(&self) -> String {
+        let last = |poses: &[Pose], is_last: bool| -> Vec<Pose> {
+            if is_last {
+                poses.iter().map(scalar_last).collect()
+            } else {
+                poses.to_vec()
+            }
+        };
+        for (names, robot, board) in [
+            ("BOARD's", false, true),
+            ("ROBOT's", true, false),
+            ("both files'", true, true),
+        ] {
+            let (a, b) = (last(&self.a, robot), last(&self.b, board));
+            let motions = motions(&a, &b);
+            let other = Self {
+                a,
+                b,
+                motions,
+                ..self.clone()
+            };
+            if other.refine().is_ok_and(|found| other.fits(&found)) {
+                return format!(
+                    "with {names} quaternions in the order x, y, z, w it fits: name the columns \
+                     qx,qy,qz,qw as they stand"
+                );
+            }
+        }
+        TOGETHER.to_owned()
     }
 
     /// In which unit the positions may be, by what fits.
@@ -333,8 +370,15 @@ impl HandEye {
                 }
             }
         }
-        TOGETHER.to_owned()
+        // both files read otherwise fit in rotation
+        self.order_advice()
     }
+}
+
+/// A pose whose quaternion was read in the order w, x, y, z and stood in the order x, y, z, w.
+fn scalar_last(pose: &Pose) -> Pose {
+    let Quaternion([x, y, z, w]) = pose.rotation.quaternion();
+    Pose::from_parts(pose.translation, Quaternion([w, x, y, z]))
 }
 
 /// What positions in other units are multiplied by to be millimetres.
