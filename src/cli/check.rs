@@ -64,11 +64,11 @@ pub(super) struct Check {
     /// Write `JUnit` XML for a build server
     #[arg(long, value_name = "XML")]
     junit: Option<PathBuf>,
-    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and
+    /// Tool for names that no file declares: a tool of the profile, or x,y,z,rx,ry,rz in mm and
     /// degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
-    /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
+    /// Work frame for names that no file declares: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
     /// Files and folders that are read for their declarations and calls only
@@ -82,7 +82,7 @@ pub(super) struct Check {
     #[arg(long, value_name = "ID[:FILE[:LINE]]")]
     accept: Vec<String>,
     /// Joints of the robot when a program starts, degrees, and its external axes, mm or degrees:
-    /// they tell the first posture and direction
+    /// they give the first posture and direction
     #[arg(long, value_name = "Q1,…,Q6[,E1,…]", allow_hyphen_values = true)]
     start_joints: Option<String>,
     /// Language of the programs (default: by file name and content)

@@ -81,11 +81,11 @@ pub(super) struct Compensate {
     /// How to search the joints of the real arm
     #[arg(long, value_enum, default_value = "auto")]
     method: Search,
-    /// Tool for names the files do not tell: a tool of the profile, or x,y,z,rx,ry,rz in mm and
+    /// Tool for names that no file declares: a tool of the profile, or x,y,z,rx,ry,rz in mm and
     /// degrees on the flange
     #[arg(long = "tool", value_name = "[NAME=]TOOL", allow_hyphen_values = true)]
     tools: Vec<String>,
-    /// Work frame for names the files do not tell: x,y,z,rx,ry,rz in mm and degrees in the world
+    /// Work frame for names that no file declares: x,y,z,rx,ry,rz in mm and degrees in the world
     #[arg(long = "frame", value_name = "[NAME=]POSE", allow_hyphen_values = true)]
     frames: Vec<String>,
     /// Where the part stands: a frame file that maps the part as simulated into the part as
@@ -97,7 +97,7 @@ pub(super) struct Compensate {
     #[arg(long = "wobj", value_name = "NAME=FRAME.yaml")]
     wobjs: Vec<String>,
     /// Joints of the robot when a program starts, degrees, and its external axes, mm or degrees:
-    /// they tell the first posture and direction
+    /// they give the first posture and direction
     #[arg(long, value_name = "Q1,…,Q6[,E1,…]", allow_hyphen_values = true)]
     start_joints: Option<String>,
     /// How far points that the running program derives from a target may land off their own wanted

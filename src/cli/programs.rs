@@ -40,6 +40,12 @@ impl Ignored {
                 )
             };
             let pattern = text.trim_end_matches('/');
+            if pattern.trim().is_empty() {
+                return Err(Failure::with_hint(
+                    "--ignore is empty",
+                    "a pattern is such as `*.bak`, `old/**` or `{a,b}.mod`",
+                ));
+            }
             // a name without a folder is meant in every folder
             let pattern = if pattern.contains('/') {
                 pattern.trim_start_matches("./").to_owned()
@@ -561,10 +567,18 @@ pub(super) fn read_context(
         .iter()
         .filter_map(|path| Identity::of(path))
         .collect();
+    let is_program = |path: &Path| Identity::of(path).is_some_and(|own| known.contains(&own));
+    for path in paths
+        .iter()
+        .filter(|path| !path.is_dir() && is_program(path))
+    {
+        screen::warn(&format!(
+            "--with {}: it is a program of this run, and is treated as one; --ignore leaves it out",
+            name_of(path)
+        ));
+    }
     let found = gather(files, paths, asked, ignored)?.programs.into_iter();
-    let others = found.filter(|program| {
-        !Identity::of(&program.path).is_some_and(|identity| known.contains(&identity))
-    });
+    let others = found.filter(|program| !is_program(&program.path));
     Ok(others
         .map(|program| Source::context(program.source.name, program.source.bytes))
         .collect())

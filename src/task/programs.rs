@@ -44,6 +44,10 @@ pub fn language_by_id(id: &str) -> Result<&'static dyn Language, Failure> {
 /// # Errors
 /// No finding has this id, or it is not for the user to take.
 pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
+    let lists = "`poseshift explain` lists the findings, and which can be accepted";
+    if text.trim().is_empty() {
+        return Err(Failure::with_hint("--accept is empty", lists));
+    }
     text.parse().map_err(|error: AcceptanceError| {
         let meant = match &error {
             AcceptanceError::Unknown(id) => {
@@ -51,7 +55,6 @@ pub fn acceptance(text: &str) -> Result<Acceptance, Failure> {
             }
             AcceptanceError::Never(..) | AcceptanceError::Line(_) => String::new(),
         };
-        let lists = "`poseshift explain` lists the findings, and which can be accepted";
         Failure::with_hint(
             format!("--accept {text}: {error}"),
             format!("{meant} {lists}").trim_start(),

@@ -586,3 +586,23 @@ fn programs_that_move_nothing_are_read_in_folders() {
         assert_eq!(is_refused, status == 2, "{}", reported(&output));
     }
 }
+
+#[test]
+fn options_that_say_nothing_or_the_contrary_are_said() {
+    let folder = world();
+    for (command, words) in [
+        (&["check", "in", "--ignore", ""][..], "--ignore is empty"),
+        (&["check", "in", "--accept", ""], "--accept is empty"),
+    ] {
+        let output = run(folder.path(), command);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(reported(&output).contains(words), "{}", reported(&output));
+    }
+    let output = run(folder.path(), &["check", "in", "--with", "in/Deburr.mod"]);
+    let said = reported(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("--with in/Deburr.mod: it is a program of this run"),
+        "{said}"
+    );
+}

@@ -13,6 +13,7 @@ mod identify;
 mod inputs;
 mod jobs_and_tables_of_poses;
 mod judged_on_reading;
+mod left_alone;
 mod limits;
 mod marked;
 mod memory;

@@ -137,6 +137,8 @@ fn a_relative_move_of_krl_moves_its_external_axes() {
     for (relative, x) in [
         ("PTP_REL {Z 1}", 640.9),
         ("PTP_REL {Z 1,E1 100}", 640.8),
+        ("PTP {E6AXIS: E1 300}", 640.7),
+        ("PTP {E6AXIS: A6 5,E1 300}", 640.7),
         ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1}", 640.8),
         ("PTP_REL {Z 1,E1 100}\nPTP_REL {Z 1,E1 50}", 640.75),
     ] {

@@ -14,12 +14,16 @@ pub(super) fn files(program: &Program, sources: &[Source], findings: &[Finding])
     // what is only read is not written, and does not change
     let is_read = |file: usize| sources[file].is_context;
     let shares = |file: usize, other: usize| !is_read(file) && !is_read(other);
+    let is_wrong = |file: usize| names.contains(sources[file].name.as_str());
     if sources.len() > 1 && !names.is_empty() {
         for motion in &program.moves {
             let file = motion.file as usize;
             let read = readings(&motion.displacement).flat_map(Readings::targets);
             for target in motion.target.into_iter().chain(read) {
-                join(&mut groups, file, program.targets[target].file as usize);
+                let other = program.targets[target].file as usize;
+                if !is_read(other) || is_wrong(other) {
+                    join(&mut groups, file, other);
+                }
             }
             for written in [motion.tool_written, motion.frame_written] {
                 let written = written.filter(|place| *place != Place::NOWHERE);
@@ -36,9 +40,12 @@ pub(super) fn files(program: &Program, sources: &[Source], findings: &[Finding])
             }
         }
         for decided in &program.decided {
+            let file = decided.place.file as usize;
             for target in &decided.targets {
-                let (file, other) = (decided.place.file, program.targets[*target].file);
-                join(&mut groups, file as usize, other as usize);
+                let other = program.targets[*target].file as usize;
+                if shares(file, other) {
+                    join(&mut groups, file, other);
+                }
             }
         }
         for (file, other) in &program.writes_into {

@@ -49,7 +49,8 @@ pub(super) fn obstacle(
         if !goes_to_one(program, motion) {
             return Some(
                 "give each use a target of its own: one of these moves goes to it by a parameter or an \
-                 index, and --split-targets leaves such moves as they are",
+                 index, or by a variable that another routine writes, and --split-targets leaves such \
+                 moves as they are",
             );
         }
     }
@@ -60,7 +61,7 @@ pub(super) fn obstacle(
 /// gives or what an index chooses.
 fn goes_to_one(program: &Program, motion: &Move) -> bool {
     let instruction = &program.instructions[motion.instruction as usize];
-    !motion.by_parameter && matches!(instruction.target, Expr::Target(_) | Expr::Variable(_))
+    !motion.is_given && matches!(instruction.target, Expr::Target(_) | Expr::Variable(_))
 }
 
 impl Portion<'_> {

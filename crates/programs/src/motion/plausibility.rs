@@ -268,7 +268,7 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
         let alike: Vec<&Effect> = profile.effects.iter().filter(of_kind).collect();
         let lacks = |(used, _): &(&str, &Move)| alike.iter().all(|e| !e.site.is_of_tool(used));
         let is_used = used.iter().any(|(used, _)| same_tool(used, name));
-        if effect.is_zero() || is_used || !used.iter().any(lacks) {
+        if effect.is_zero() || !used.iter().any(lacks) {
             continue;
         }
         let known = profile.tool(name);
@@ -278,7 +278,7 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
             own.is_some_and(|(own, known)| is_same_place(own, known))
         };
         let unnamed = used.iter().filter(|of| lacks(of)).find(at_its_place);
-        if known.is_some() && unnamed.is_none() {
+        if (is_used || known.is_some()) && unnamed.is_none() {
             continue;
         }
         let names = used
@@ -288,8 +288,13 @@ pub(crate) fn names(ground: &Ground, findings: &mut Vec<Finding>) {
         let names: Vec<&str> = names.collect();
         let id = effect.definition().id;
         if let Some((other, motion)) = unnamed {
+            let applies = if is_used {
+                "does not apply to this move"
+            } else {
+                "applies to no move"
+            };
             let message = format!(
-                "`{id}` of tool `{name}` applies to no move; `{other}` of the program has the place of \
+                "`{id}` of tool `{name}` {applies}; `{other}` of the program has the place of \
                  `{name}` on the flange, and another name"
             );
             let hint =

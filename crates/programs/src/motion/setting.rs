@@ -269,7 +269,7 @@ fn has_unused(program: &Program) -> bool {
 }
 
 /// The same frame but for the digits of the files: 1 µm and 1e-5 degrees.
-fn agrees(a: &Pose, b: &Pose) -> bool {
+pub(crate) fn agrees(a: &Pose, b: &Pose) -> bool {
     let gap = a.separation(b);
     gap.distance_m < 1e-6 && gap.angle_rad < 1e-5 * DEG
 }

@@ -17,6 +17,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::geometry::{Pose, Rotation};
 use crate::inverse::Branch;
 use crate::model::Conditions;
+use crate::program::insert::sole_use;
 use crate::program::script::Turn;
 use crate::program::{Before, Configuration, Motion, Program, Role, TargetId, Value};
 use std::cmp::Reverse;
@@ -330,8 +331,10 @@ impl Walker<'_, '_> {
     /// Adds an arrival where it is another than those at its move, and goes on from there.
     pub(super) fn add(&mut self, behind: &Behind, arrival: Arrival) {
         let at = arrival.motion;
-        let motion = self.ground.program.moves[at as usize].motion;
-        let is_via = motion == Motion::ArcVia && !self.is_one_of_many(at as usize);
+        let program = self.ground.program;
+        let motion = program.moves[at as usize].motion;
+        // of the elements of an array most do not go with each beginning
+        let is_via = motion == Motion::ArcVia && sole_use(program, at as usize).is_some();
         let mut others = 0;
         let mut is_same = false;
         let mut is_new = true;
@@ -358,16 +361,6 @@ impl Walker<'_, '_> {
                 self.open.push(Reverse((next, here)));
             }
         }
-    }
-
-    /// Whether the instruction of a move goes to other targets as well: elements of an array, of which most
-    /// do not go with each beginning.
-    fn is_one_of_many(&self, at: usize) -> bool {
-        let moves = &self.ground.program.moves;
-        let own = &moves[at];
-        let next = [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
-        let mut others = next.filter_map(|at| moves.get(at));
-        others.any(|other| other.instruction == own.instruction && other.target != own.target)
     }
 
     /// The move from which a move behind an arrival begins, and of an arc also the one before the point

@@ -189,7 +189,7 @@ impl Manner {
 }
 
 /// A move whose instruction goes to no other target.
-pub(super) fn sole_use(program: &Program, index: usize) -> Option<&Move> {
+pub(crate) fn sole_use(program: &Program, index: usize) -> Option<&Move> {
     let motion = &program.moves[index];
     let others = [index.wrapping_sub(1), index + 1];
     let mut others = others.into_iter().filter_map(|at| program.moves.get(at));

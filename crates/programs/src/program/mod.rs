@@ -36,7 +36,7 @@ mod external;
 pub mod fanuc;
 mod functions;
 pub mod inform;
-mod insert;
+pub(crate) mod insert;
 pub mod kawasaki;
 mod kit;
 pub mod krl;
@@ -371,8 +371,8 @@ pub struct Move {
     pub external_state: u32,
     /// Nothing reaches it.
     pub is_dead: bool,
-    /// Its target is what a call gives its routine.
-    pub by_parameter: bool,
+    /// Its target is what its routine is given: by a call, or in a variable that others write.
+    pub is_given: bool,
 }
 
 impl Default for Move {
@@ -395,7 +395,7 @@ impl Default for Move {
             frame_written: None,
             external_state: 0,
             is_dead: false,
-            by_parameter: false,
+            is_given: false,
         }
     }
 }

@@ -13,14 +13,9 @@ use crate::geometry::{Pose, Separation, norm, scale, sub};
 use crate::model::Conditions;
 use crate::motion::leg::{Leg, Piece};
 use crate::motion::plausibility::OUT_OF_BOUNDS;
+use crate::motion::setting::agrees;
 use crate::program::Motion;
 use crate::program::script::short;
-
-/// Tools that differ by less are the same.
-const SAME_TOOL: Separation = Separation {
-    distance_m: 1e-6,
-    angle_rad: 1e-6,
-};
 
 /// What every move is judged with.
 pub(super) struct Job<'a> {
@@ -171,8 +166,7 @@ impl Job<'_> {
             Some((tool.name.clone(), at_zero))
         };
         let ((ours, here), (theirs, there)) = of(self.walk, index).zip(of(original, part.stop))?;
-        let gap = here.separation(&there);
-        if gap.distance_m < SAME_TOOL.distance_m && gap.angle_rad < SAME_TOOL.angle_rad {
+        if agrees(&here, &there) {
             return None;
         }
         let message = if ours.eq_ignore_ascii_case(&theirs) {

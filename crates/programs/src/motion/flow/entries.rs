@@ -5,7 +5,9 @@ use super::{Flow, From, MOST_ROUNDS, NO_INSTANCE, State};
 use crate::motion::before::{ANYWHERE, START};
 use crate::motion::holding::{DECLARED, Holding};
 use crate::motion::readers::{read_elsewhere, written_by};
-use crate::program::script::{Expr, RoutineId, Start, Statement, VariableId, Written, short};
+use crate::program::script::{
+    Expr, Routine, RoutineId, Start, Statement, VariableId, Written, short,
+};
 use foldhash::HashSet;
 use std::rc::Rc;
 
@@ -153,11 +155,11 @@ impl Flow<'_> {
                 }
             }
         }
-        let starts = |(at, routine): (usize, &crate::program::script::Routine)| {
+        let starts = |(at, routine): (usize, &Routine)| {
             let starts = match routine.start {
                 Start::Main => true,
                 Start::Called => !is_called[at],
-                Start::Concurrent => false,
+                Start::Inner | Start::Concurrent => false,
             };
             starts.then_some(short(at))
         };
@@ -200,13 +202,14 @@ impl Flow<'_> {
         }
     }
 
-    /// Routines that only text calls that nothing reaches, and that the operator may start all the
-    /// same: those that no other of them calls.
+    /// Routines that only text calls that nothing reaches, or that nothing calls and that are part of
+    /// another: those that no other of them calls. The operator may start them all the same.
     fn never_called(&self) -> Vec<RoutineId> {
         let script = self.script;
         let reached: HashSet<RoutineId> = self.instances.iter().map(|of| of.routine).collect();
         let all = (0..).zip(&script.routines);
-        let unreached = all.filter(|(at, of)| of.start == Start::Called && !reached.contains(at));
+        let is_called = |of: &Routine| matches!(of.start, Start::Called | Start::Inner);
+        let unreached = all.filter(|(at, of)| is_called(of) && !reached.contains(at));
         let mut unreached: Vec<RoutineId> = unreached.map(|(at, _)| at).collect();
         let mut inner: HashSet<RoutineId> = HashSet::default();
         for &at in &unreached {

@@ -506,7 +506,7 @@ impl Resolver<'_, '_> {
             frame_written,
             external_state: listed.external_state,
             is_dead: listed.is_dead,
-            by_parameter: is_given,
+            is_given,
         });
     }
 }

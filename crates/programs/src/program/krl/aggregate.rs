@@ -161,6 +161,8 @@ pub(super) struct Aggregate {
     pub has_axes: u8,
     /// E1 to E6; not a number where it is an expression.
     pub external: [Option<f64>; 6],
+    /// It says that it is AXIS or E6AXIS.
+    pub is_of_axes: bool,
     /// A component is no number.
     pub computed: bool,
 }
@@ -175,7 +177,7 @@ pub(super) const TURN: u8 = 1 << 7;
 impl Aggregate {
     /// Whether its components are axes.
     pub(super) fn is_axes(&self) -> bool {
-        self.has_axes != 0
+        self.has_axes != 0 || self.is_of_axes
     }
 
     /// X Y Z A B C, where all stand there as numbers.
@@ -207,9 +209,10 @@ pub(super) fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
         axes: [NOTHING; 6],
         has_axes: 0,
         external: [None; 6],
+        is_of_axes: false,
         computed: false,
     };
-    each(cursor, |key, token, field| {
+    let of_type = each(cursor, |key, token, field| {
         let (list, mask, at): (&mut [Number], &mut u8, usize) = match *key {
             [letter] => {
                 let Some(at) = b"XYZABCST".iter().position(|&known| known == letter) else {
@@ -247,6 +250,13 @@ pub(super) fn read(cursor: &mut Cursor) -> Result<Aggregate, Fault> {
         }
         Ok(())
     })?;
+    found.is_of_axes = of_type.is_some_and(|token| {
+        let mut buffer = [0; 24];
+        matches!(
+            capitals(cursor.text(token), &mut buffer),
+            b"AXIS" | b"E6AXIS"
+        )
+    });
     Ok(found)
 }
 

@@ -4,8 +4,8 @@
 use super::names::{DataKind, Index, Stored, Turning};
 use super::reader::Reader;
 use super::remarks::{
-    ANGLE, CHOSEN, DECLARED_TWICE, FRAME_ASSIGNED, IGNORES_ORIENTATION, KEEPS_ORIENTATION, MOVING,
-    OF_ANOTHER_ROBOT, carried,
+    ANGLE, CHOSEN, DECLARED_TWICE, FRAME_ASSIGNED, IGNORES_ORIENTATION, KEEPS_ORIENTATION,
+    KEEPS_SAME_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
 };
 use super::targets::Owner;
 use super::tokens::capitals;
@@ -230,11 +230,15 @@ pub(super) struct States {
     external: ValueId,
     /// The orientation stays what it is.
     keeps: ValueId,
+    /// Likewise, of moves to the orientation that they start in.
+    keeps_same: ValueId,
     /// That of the point does not count.
     ignored: ValueId,
     /// Guards of moves: an angle (CA), and what `$ORI_TYPE` ignores.
     pub angle: VariableId,
     pub ignoring: VariableId,
+    /// What is said of moves to the orientation that they start in: by `$ORI_TYPE` and by `LDAT_ACT`.
+    pub keeping: [VariableId; 2],
     /// A sensor corrects moves (KUKA.RobotSensorInterface).
     pub sensor: VariableId,
     /// External axes that move independently of the program, and those that it does not move.
@@ -314,7 +318,12 @@ impl States {
         let external = script.value(Held::Remark(external));
         let angle = script.remark(ANGLE);
         let angle = script.value(Held::Remark(angle));
-        let [keeps, ignored] = [KEEPS_ORIENTATION, IGNORES_ORIENTATION].map(|remark| {
+        let remarks = [
+            KEEPS_ORIENTATION,
+            KEEPS_SAME_ORIENTATION,
+            IGNORES_ORIENTATION,
+        ];
+        let [keeps, keeps_same, ignored] = remarks.map(|remark| {
             let remark = script.remark(remark);
             script.value(Held::Remark(remark))
         });
@@ -323,6 +332,7 @@ impl States {
         Self {
             angle: variable("the move", angle),
             ignoring: variable("$ORI_TYPE", off),
+            keeping: ["$ORI_TYPE", "LDAT_ACT.ORI_TYP"].map(|name| variable(name, off)),
             sensor: variable("the sensor", off),
             apart: ["$ASYNC_AXIS", "$ACT_EX_AX"].map(|name| variable(name, on)),
             states,
@@ -335,6 +345,7 @@ impl States {
             off,
             external,
             keeps,
+            keeps_same,
             ignored,
         }
     }
@@ -573,6 +584,16 @@ impl Reader {
             Turning::Evenly => self.states.off,
             Turning::AsWrist => self.states.on,
         })
+    }
+
+    /// What is said of moves to the orientation that they start in, by what turns the tool.
+    pub(super) fn kept_same(&self, turning: Expr) -> Expr {
+        let [_, by_ldat] = self.states.keeping;
+        match turning {
+            Expr::Value(value) if value == self.states.keeps => Expr::Value(self.states.keeps_same),
+            _ if turning == self.states.expr(State::LdatOrientation) => Expr::Variable(by_ldat),
+            _ => Expr::Value(self.states.off),
+        }
     }
 
     /// What the chosen entry of a table holds.

@@ -74,6 +74,11 @@ impl Reader {
             let is_ignored = with.orientation == Some(self.ignored());
             if may_turn || is_ignored {
                 all.extend(self.guard(place, with.orientation, State::Orientation));
+            } else if self.keeps {
+                let [by_state, _] = self.states.keeping;
+                let own = with.orientation.map(|own| self.kept_same(own));
+                let own = own.unwrap_or(Expr::Variable(by_state));
+                all.extend(self.watched(place, own).1);
             }
             if with.orientation.is_none() && self.ignores {
                 all.push(self.states.ignoring);

@@ -24,6 +24,8 @@ pub(super) struct Reader {
     pub(super) guards: Guards,
     /// Some file says `#IGNORE`.
     pub(super) ignores: bool,
+    /// A text says `#CONSTANT`: the tool may keep its orientation.
+    pub(super) keeps: bool,
     /// Some file switches a sensor on.
     pub(super) senses: bool,
     /// Tools, bases and loads of data lists.
@@ -117,6 +119,7 @@ impl Reader {
             circles: Circles::new(&mut builder.script),
             guards: Guards::default(),
             ignores: false,
+            keeps: false,
             senses: false,
             builder,
             external: settings.external.clone(),
@@ -177,6 +180,7 @@ impl Reader {
         };
         self.declared.has_fixed_tools |= says(b"TCP");
         self.ignores |= says(b"IGNORE");
+        self.keeps |= says(b"CONSTANT");
         self.senses |= super::sensors::are_in(bytes);
         let is_submit = source.name.to_ascii_lowercase().ends_with(".sub");
         let mut open = None;

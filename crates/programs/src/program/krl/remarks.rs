@@ -82,6 +82,14 @@ pub(super) const KEEPS_ORIENTATION: Remark = Remark::error(
     "write A, B and C of the start into the target, or set $ORI_TYPE=#VAR",
 );
 
+/// Of a straight move or arc whose target has the orientation of where it starts.
+pub(super) const KEEPS_SAME_ORIENTATION: Remark = Remark::warning(
+    "orientation-not-corrected",
+    "with $ORI_TYPE=#CONSTANT the tool keeps the orientation that it has where the move starts: it does \
+         not turn by what the corrections of both ends differ",
+    "set $ORI_TYPE=#VAR before the move, which does the same between ends of one orientation",
+);
+
 /// Against a target whose orientation the controller leaves out.
 pub(super) const IGNORES_ORIENTATION: Remark = Remark::error(
     "orientation-kept",
@@ -165,7 +173,6 @@ pub(super) const TURNED: Remark = Remark::note(
     "",
 );
 
-/// Of a joint move to some of the axes.
 /// `XP = XQ:{Z 20}` on a track: which values of external axes XP has then is not documented.
 pub(super) const WITHOUT_AXES: Remark = Remark::error(
     "run-time-target",
@@ -175,6 +182,7 @@ pub(super) const WITHOUT_AXES: Remark = Remark::error(
      E1 to E6",
 );
 
+/// Of a joint move to some of the axes.
 pub(super) const SOME_AXES: Remark = Remark::warning(
     "partial-target",
     "this move leaves axes out, which stay where they are; it is left as it is",

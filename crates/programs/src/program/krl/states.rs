@@ -20,6 +20,15 @@ impl Reader {
         }
         let variable = self.states.states[state as usize];
         self.put(place, variable, value);
+        let [by_state, by_ldat] = self.states.keeping;
+        let keeping = match state {
+            State::Orientation => Some(by_state),
+            State::LdatOrientation => Some(by_ldat),
+            _ => None,
+        };
+        if let Some(keeping) = keeping.filter(|_| self.keeps) {
+            self.put(place, keeping, self.kept_same(value));
+        }
         if state == State::Orientation && self.ignores {
             let ignored = if value == self.ignored() {
                 value

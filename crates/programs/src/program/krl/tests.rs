@@ -205,6 +205,15 @@ fn partial_positions_are_refused_by_name() {
     assert_eq!(reported(&program), ["partial-target"]);
     let partial = program.findings.iter().find(|f| f.id == "partial-target");
     assert_eq!(partial.map(|f| f.severity), Some(Severity::Warning));
+    // of which kind `{E1 0.0}` is nobody knows
+    for (text, severity) in [
+        ("PTP {E6AXIS: E1 0.0}", Severity::Warning),
+        ("PTP {E1 0.0}", Severity::Error),
+    ] {
+        let program = path(text);
+        assert_eq!(reported(&program), ["partial-target"], "{text}");
+        assert_eq!(program.findings[0].severity, severity, "{text}");
+    }
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub struct Routine {
 pub enum Start {
     /// Calls; the operator where nothing calls it.
     Called,
+    /// Calls alone: it is part of another routine.
+    Inner,
     /// The controller or the operator, calls or not (`main`).
     Main,
     /// An event: it runs between any two statements, or concurrently with them.

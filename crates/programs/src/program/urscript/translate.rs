@@ -83,6 +83,7 @@ impl<'m, 'n, 'a> Translator<'m, 'n, 'a> {
             let start = match (function.name, function.thread) {
                 (None, _) => Start::Main,
                 (_, true) => Start::Concurrent,
+                (_, false) if function.parent != function.unit => Start::Inner,
                 (_, false) => Start::Called,
             };
             let name = function.name.map(|name| parsed.spelling(name));

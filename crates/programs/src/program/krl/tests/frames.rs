@@ -490,7 +490,10 @@ fn a_kept_orientation_is_refused_where_the_target_has_another() {
     let keeps = "$ORI_TYPE=#CONSTANT";
     let kept: &[&str] = &["orientation-kept"];
     for (text, expected) in [
-        (format!("{keeps}\n{points}{same}"), &[][..]),
+        (
+            format!("{keeps}\n{points}{same}"),
+            &["orientation-not-corrected"][..],
+        ),
         (format!("{keeps}\n{points}{other}"), kept),
         (format!("{points}{other}"), &[]),
         (format!("{keeps}\n{points}$ORI_TYPE=#VAR\n{other}"), &[]),

@@ -146,6 +146,7 @@ fn what_arcs_have_is_set_in_parts() {
 #[test]
 fn a_kept_orientation_is_that_in_the_same_base_for_the_same_tool() {
     let kept: &[&str] = &["orientation-kept"];
+    let same: &[&str] = &["orientation-not-corrected"];
     let spline = |fdat: &str, data: &str| {
         format!(
             " WITH $TOOL=STOOL2({fdat}), $BASE=SBASE({fdat}.BASE_NO), $ORI_TYPE=SORI_TYP({data})"
@@ -162,7 +163,7 @@ fn a_kept_orientation_is_that_in_the_same_base_for_the_same_tool() {
                 spline("FP1", "LX"),
                 spline("FP2", "LCPDAT1")
             ),
-            &[][..],
+            same,
         ),
         (
             format!(
@@ -190,7 +191,7 @@ fn a_kept_orientation_is_that_in_the_same_base_for_the_same_tool() {
                 "FDAT_ACT=FP1\nBAS(#PTP_PARAMS,100)\nPTP XP1\n{}",
                 form("XP2", "FP2")
             ),
-            &[],
+            same,
         ),
         (
             format!(
