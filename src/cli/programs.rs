@@ -573,7 +573,7 @@ pub(super) fn read_context(
         .filter(|path| !path.is_dir() && is_program(path))
     {
         screen::warn(&format!(
-            "--with {}: it is a program of this run, and is treated as one; --ignore leaves it out",
+            "--with {}: it is a program of this run already; --only names those that are written",
             name_of(path)
         ));
     }

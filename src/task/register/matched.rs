@@ -363,11 +363,12 @@ impl Sets<'_> {
 
     /// Refuses to leave touches out where all of them fit in the reverse order.
     fn refuse_reversed(&self, rejected: &[robust::BadTouch], spread_m: f64) -> Result<(), Failure> {
-        let farthest_m = rejected
-            .iter()
-            .fold(0.0, |most: f64, bad| most.max(bad.distance_m));
+        let distances = rejected.iter().map(|bad| bad.distance_m);
+        let Some(farthest_m) = distances.reduce(f64::max) else {
+            return Ok(());
+        };
         let limit_m = (UNLIKE * spread_m).min(CLEARLY_NEARER * farthest_m);
-        let Some(left_m) = self.reversed(limit_m).filter(|_| !rejected.is_empty()) else {
+        let Some(left_m) = self.reversed(limit_m) else {
             return Ok(());
         };
         let message = format!(

@@ -602,7 +602,7 @@ fn options_that_say_nothing_or_the_contrary_are_said() {
     let said = reported(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(
-        said.contains("--with in/Deburr.mod: it is a program of this run"),
+        said.contains("--with in/Deburr.mod: it is a program of this run already"),
         "{said}"
     );
 }

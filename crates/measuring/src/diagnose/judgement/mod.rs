@@ -16,6 +16,7 @@ pub mod whereabouts;
 use self::attempt::{ALIKE, Attempt, Louder};
 use crate::diagnose::diagnosis::{Alternative, Found, Verdict};
 use crate::diagnose::estimator::refit::{Beyond, Refit};
+use crate::diagnose::outside::chance;
 use crate::diagnose::proof::{FEWEST_PARTS, Proof};
 use crate::diagnose::search::MOST_EFFECTS;
 use crate::diagnose::search::candidates::{CannotTest, least, range};
@@ -357,10 +358,11 @@ fn overruled(found: &[Found], alternatives: &[Alternative]) -> Vec<String> {
     let mut reasons = Vec::new();
     for (i, one) in found.iter().enumerate().filter(|(_, f)| f.accepted) {
         let label = one.effect.label();
-        if one.p_value > SHOWN {
+        // nobody has chosen it among many
+        let p_value = chance(one.gain, one.sought.len().max(1));
+        if p_value > SHOWN {
             reasons.push(format!(
-                "the measurements do not show {label}, which was accepted: chance does as much (p = {:.2})",
-                one.p_value
+                "the measurements do not show {label}, which was accepted: chance does as much (p = {p_value:.2})"
             ));
         }
         let mut others = alternatives.iter().filter(|r| r.instead_of == i);
