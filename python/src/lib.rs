@@ -34,11 +34,11 @@ fn main(py: Python<'_>, arguments: Vec<String>) -> u8 {
     py.detach(|| poseshift::run_with(arguments))
 }
 
-/// Threads that computations use: `None` is one a core.
+/// Threads that computations use, up to 1024: `None` is one a core.
 #[pyfunction]
 #[pyo3(signature = (count=None))]
-fn set_threads(count: Option<usize>) {
-    threads::set(count);
+fn set_threads(count: Option<usize>) -> PyResult<()> {
+    threads::set(count)
 }
 
 /// poseshift for Python.

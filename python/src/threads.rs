@@ -1,5 +1,6 @@
 //! Threads: a pool of our own, made anew after a fork, and work that Ctrl-C stops.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -18,19 +19,33 @@ static COUNT: AtomicUsize = AtomicUsize::new(0);
 /// The pool and the process whose threads it has.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-fn count() -> usize {
+/// Threads that may be asked for: more only wait for each other.
+const MOST: usize = 1024;
+
+fn count() -> PyResult<usize> {
     let said = COUNT.load(Ordering::Relaxed);
     if said > 0 {
-        return said;
+        return Ok(said);
     }
-    let variable = std::env::var("POSESHIFT_THREADS").ok();
+    let Ok(text) = std::env::var("POSESHIFT_THREADS") else {
+        return Ok(0);
+    };
     // 0 is one a core
-    variable.and_then(|text| text.parse().ok()).unwrap_or(0)
+    let count = text.trim().parse().ok().filter(|count| *count <= MOST);
+    count.ok_or_else(|| {
+        let message = format!("POSESHIFT_THREADS is `{text}`: it is a number of threads up to {MOST}, 0 for one a core");
+        PyValueError::new_err(message)
+    })
 }
 
-pub(crate) fn set(count: Option<usize>) {
+pub(crate) fn set(count: Option<usize>) -> PyResult<()> {
+    if let Some(count) = count.filter(|count| *count > MOST) {
+        let message = format!("{count} threads: at most {MOST} can be had");
+        return Err(PyValueError::new_err(message));
+    }
     COUNT.store(count.unwrap_or(0), Ordering::Relaxed);
     forget(&mut POOL.lock().unwrap_or_else(PoisonError::into_inner));
+    Ok(())
 }
 
 /// A pool of another process has no threads here: nobody would answer its end.
@@ -51,7 +66,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
         return Ok(Arc::clone(pool));
     }
     forget(&mut kept);
-    let made = ThreadPoolBuilder::new().num_threads(count()).build();
+    let made = ThreadPoolBuilder::new().num_threads(count()?).build();
     let made = Arc::new(made.map_err(|error| {
         pyo3::exceptions::PyRuntimeError::new_err(format!("no threads can be started: {error}"))
     })?);

@@ -191,7 +191,12 @@ def test_refused_and_failing_robots_do_not_stop_the_others(backups: Path, capsys
         ("poseshift: fleet/1\nrobots: [{id: a}]", "profile is missing"),
         ("poseshift: fleet/1\nrobots: [{id: a, profil: p}]", "no key is called 'profil'"),
         ("poseshift: fleet/1\nrobots: [{id: ../a, profile: p}]", "must be letters"),
-        ("poseshift: fleet/1\nrobots: [{id: a, profile: none.yaml, programs: x}]", "there is no file"),
+        ("poseshift: fleet/1\nrobots: [{id: a, profile: p, programs: ../x.mod}]", "leaves the folder"),
+        ("poseshift: fleet/1\nrobots: [{id: a, profile: p, programs: /x/*.mod}]", "is absolute"),
+        ("poseshift: fleet/1\nrobots: [{folders: /x/*, profile: p, programs: a}]", "is absolute"),
+        ('poseshift: fleet/1\nrobots: [{id: a, profile: p, programs: ""}]', "is empty"),
+        ("poseshift: fleet/1\ndefaults: {check: {max_path_error_mm: .nan}}\nrobots: [{id: a, profile: p}]", "must be a finite number"),
+        ("poseshift: fleet/1\ndefaults: {diagnose: {accept: 2026-01-01}}\nrobots: [{id: a, profile: p}]", "must be a finite number, a text"),
         ("poseshift: fleet/1\ndefaults: {check: {tolerence: 1}}\nrobots: [{id: a, profile: p}]", "'tolerence'"),
         ("poseshift: fleet/1\ndefaults: {check: {max_path_error_mm: abc}}\nrobots: [{id: a, profile: p}]", "must be a number or null"),
         ("poseshift: fleet/1\ndefaults: {diagnose: {quick: 1}}\nrobots: [{id: a, profile: p}]", "must be true or false"),
@@ -203,6 +208,44 @@ def test_a_wrong_fleet_says_what_is_wrong(tmp_path: Path, capsys: pytest.Capture
     assert main(["run", str(tmp_path / "fleet.yaml"), "--store", str(tmp_path / "store")]) == 2
     assert message in capsys.readouterr().err
     assert not (tmp_path / "store").exists()
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ("{id: a, profile: none.yaml, programs: x.mod}", "there is no file"),
+        ("{id: a, profile: p.yaml, programs: [x.mod, y.mod]}", "there is no file"),
+        ("{id: a, profile: p.yaml, programs: x.mod, measurements: night.csv}", "there is no file"),
+        ('{id: a, profile: p.yaml, programs: [x.mod, "z*.mod"]}', "no file is called z*.mod"),
+        ("{id: a, profile: p.yaml}", "neither programs nor measurements"),
+        ("{id: a, profile: m.yaml, programs: x.mod}", "there is no file"),
+    ],
+)
+def test_a_robot_whose_files_are_not_there_has_no_answer_and_the_others_have(
+    tmp_path: Path, sources: dict[str, bytes], entry: str, message: str
+) -> None:
+    top, store = tmp_path / "plant", tmp_path / "store"
+    top.mkdir()
+    (top / "p.yaml").write_bytes(sources["profile.yaml"])
+    (top / "m.yaml").write_bytes(sources["profile.yaml"] + b"shapes: {base: {mesh: none.stl}}\n")
+    (top / "x.mod").write_bytes(sources["Deburr.mod"])
+    other = "{id: b, profile: p.yaml, programs: x.mod}"
+    (top / "fleet.yaml").write_text(f"poseshift: fleet/1\nrobots:\n  - {entry}\n  - {other}\n")
+    run = ["run", str(top / "fleet.yaml"), "--store", str(store)]
+    assert main(run) == 2
+    rows = {row["robot_id"]: row for row in _robots(store)}
+    assert rows["a"]["status"] == "error"
+    assert message in rows["a"]["message"]
+    assert rows["b"]["status"] == "done"
+    assert not (store / "out" / "a").exists()
+    # what was taken out of the store is put there again
+    (made,) = (store / "out" / "b").rglob("*.mod")
+    whole = made.read_bytes()
+    for damage in (lambda: made.write_bytes(b""), made.unlink):
+        damage()
+        assert main(run) == 2
+        assert made.read_bytes() == whole
+
 
 
 @pytest.mark.parametrize(
@@ -278,6 +321,8 @@ def test_what_changes_is_said_with_the_night(backups: Path, profile: ps.Profile,
     assert (row["nights"], row["changed_since"]) == (8, "2026-03-06")
     assert row["changed_noticed"] >= row["changed_since"]
     assert row["changed_before_mm"] < 0.04 < row["changed_after_mm"]
+    # programs by the profile that no longer holds are not to be loaded
+    assert [path.name for path in (store / "out/r1").rglob("*")] == ["better.yaml"]
     assert "joint_harmonic joint 3" in row["changed_effect"]
     for name in ("r0", "r2", "r3"):
         assert (by_robot[name]["status"], by_robot[name]["changed_since"]) == ("done", None)

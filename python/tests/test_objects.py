@@ -163,8 +163,18 @@ def test_two_threads_compute_at_once(profile: ps.Profile, q_rad: Floats) -> None
         thread.join()
     assert all(np.array_equal(found[key], wanted) for key in range(4))
     ps.set_threads(1)
+    with pytest.raises(ValueError, match="at most 1024"):
+        ps.set_threads(10**9)
     assert np.array_equal(arm.forward(many), wanted)
     ps.set_threads(None)
+
+
+@pytest.mark.parametrize("said", ["many", "-1", "1000000"])
+def test_threads_that_cannot_be_had_are_an_error(profile: ps.Profile, q_rad: Floats, monkeypatch: pytest.MonkeyPatch, said: str) -> None:
+    ps.set_threads(None)
+    monkeypatch.setenv("POSESHIFT_THREADS", said)
+    with pytest.raises(ValueError, match="POSESHIFT_THREADS"):
+        profile.arm().forward(np.repeat(q_rad, 600, axis=0))
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")

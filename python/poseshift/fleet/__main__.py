@@ -54,6 +54,9 @@ def main(words: Sequence[str] | None = None) -> int:
     except (PoseshiftError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+    except ImportError as error:
+        print(f"error: {error}\n  the fleet needs more than poseshift alone: pip install 'poseshift[fleet]'", file=sys.stderr)
+        return 2
     except sqlite3.Error as error:
         hint = "let the other run in this store end; where there is none, remove the file: it only saves time"
         print(f"error: {given.store / 'notes.db'}: {error}\n  {hint}", file=sys.stderr)

@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import IO, Any
 from xml.sax.saxutils import escape, quoteattr
 
+from poseshift.fleet.config import FleetError
 from poseshift.fleet.drift import Part
 from poseshift.fleet.notes import Notes
 from poseshift.fleet.page import ORDER, Page
@@ -197,8 +198,14 @@ class _Junit:
 def _place(part: Part, store: Store, notes: Notes, kind: str) -> None:
     """Each robot's files, the whole folder at once; where the answer is no, none stay from before."""
     top = store.folder / kind
-    wanted = {robot: _files(((u, part.results[u.key]) for u in units), kind) for robot, units in part.robots.items()}
-    stale = {robot for robot, files in wanted.items() if (notes.of(robot, kind) or {}) != files or bool(files) != (top / robot).is_dir()}
+    wanted = {}
+    for robot, units in part.robots.items():
+        of_robot = [(unit, part.results[unit.key]) for unit in units]
+        if kind == "out" and any(_status(result) != "done" for _, result in of_robot):
+            # programs by a profile that does not hold are none to load
+            of_robot = [(unit, result) for unit, result in of_robot if unit.job != "programs"]
+        wanted[robot] = _files(of_robot, kind)
+    stale = {robot for robot, files in wanted.items() if (notes.of(robot, kind) or {}) != files or not _is_whole(top / robot, files, store)}
     if not stale:
         return
     # whatever ends this process, a folder that is noted is whole
@@ -213,6 +220,8 @@ def _place(part: Part, store: Store, notes: Notes, kind: str) -> None:
         made = Path(tempfile.mkdtemp(dir=top, prefix=".new-"))
         try:
             for name, digest in wanted[robot].items():
+                if ".." in Path(name).parts:
+                    raise FleetError(f"robot {robot}: {name} would lie outside of {top / robot}")
                 (made / name).parent.mkdir(parents=True, exist_ok=True)
                 (made / name).write_bytes(store.blob(digest))
             made.chmod(0o755)
@@ -222,6 +231,16 @@ def _place(part: Part, store: Store, notes: Notes, kind: str) -> None:
             shutil.rmtree(made, ignore_errors=True)
         notes.put(robot, kind, wanted[robot])
     notes.keep()
+
+
+def _is_whole(folder: Path, files: Mapping[str, str], store: Store) -> bool:
+    """Whether a folder has these files, by their sizes."""
+    if not files:
+        return not folder.is_dir()
+    try:
+        return all((folder / name).stat().st_size == store.blob_place(digest).stat().st_size for name, digest in files.items())
+    except (FileNotFoundError, NotADirectoryError):
+        return False
 
 
 def _remove_others(store: Store, notes: Notes, kind: str) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import inspect
+import json
 import os
 import stat
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,8 @@ from poseshift.errors import PoseshiftError
 
 FORMAT = "fleet/1"
 KEYS = ("id", "folders", "profile", "programs", "measurements", "cell", "options")
+# keys that name files by patterns
+FILES = ("programs", "measurements")
 # what a task takes from the robot and not from its options
 _OWN = {"files", "profile", "context", "nominal", "cell", "baseline", "measurements", "despite_errors", "tool", "frame", "steps"} | {
     "runs", "as_calibrated", "folds", "level", "priors",
@@ -42,6 +45,8 @@ class Robot:
     measurements: tuple[str, ...]
     cell: str | None
     options: Mapping[str, Mapping[str, Any]]
+    fault: str | None = None
+    """Why there can be no answer: files that are not there."""
 
     def inputs(self) -> list[Path]:
         """Every file that is named."""
@@ -75,23 +80,16 @@ class Entry:
     options: Mapping[str, Mapping[str, Any]]
 
     def robot(self, name: str, place: str) -> Robot:
-        """The robot with its files, which are there."""
+        """The robot with its files; what is not there is its fault, and no other robot's."""
         said, folder = self.said, Path(place)
-        robot = Robot(
-            name,
-            folder,
-            str(said["profile"]),
-            _files(said.get("programs"), folder),
-            _files(said.get("measurements"), folder),
-            said.get("cell"),
-            self.options,
-        )
-        for file in robot.inputs():
-            if not file.is_file():
-                raise FleetError(f"{self.where}: robot {name}: there is no file {file}")
+        is_alone = "id" in said
+        (programs, no_program), (measurements, no_measurement) = (_files(said.get(key), folder, is_alone) for key in FILES)
+        robot = Robot(name, folder, str(said["profile"]), programs, measurements, said.get("cell"), self.options)
+        faults = [f"there is no file {file}" for file in robot.inputs() if not file.is_file()]
+        faults += [f"no file is called {pattern} in {folder}" for pattern in (*no_program, *no_measurement)]
         if not robot.programs and not robot.measurements:
-            raise FleetError(f"{self.where}: robot {name} has neither programs nor measurements in {folder}")
-        return robot
+            faults.append(f"there are neither programs nor measurements in {folder}")
+        return replace(robot, fault=faults[0]) if faults else robot
 
 
 class KeepOff:
@@ -105,6 +103,8 @@ class KeepOff:
     def judge(self, robot: Robot) -> None:
         """Refuses a robot whose files the store lies among."""
         for file in robot.inputs():
+            if not os.path.lexists(file):
+                continue
             folder = self._real(file)
             if _is_below(self._own, folder) or _is_below(folder, self._own):
                 raise FleetError(f"the store {self._store} lies among the files of robot {robot.id}", "choose a folder apart from the backups")
@@ -135,7 +135,7 @@ def read(path: Path) -> Fleet:
 
     try:
         said = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise FleetError(f"{path}: {error}") from error
     top = _mapping(said, f"{path}", ("poseshift", "defaults", "robots"))
     if top.get("poseshift") != FORMAT:
@@ -165,6 +165,9 @@ def _entry(entry: object, where: str, defaults: Mapping[str, Mapping[str, Any]])
         raise FleetError(f"{where}: give id, or folders where each folder is a robot")
     if "profile" not in said:
         raise FleetError(f"{where}: profile is missing")
+    for key in (*FILES, "folders"):
+        for pattern in _listed(said.get(key)):
+            _judge_pattern(pattern, f"{where}: {key}", is_output=key == "programs")
     return Entry(where, said, options)
 
 
@@ -183,12 +186,38 @@ def _places(entry: Entry, top: Path) -> Iterator[tuple[str, str]]:
         raise FleetError(f"{where}: no folder is called {said['folders']}")
 
 
-def _files(patterns: object, folder: Path) -> tuple[str, ...]:
+def _listed(patterns: object) -> list[str]:
     if patterns is None:
-        return ()
-    listed: Sequence[object] = patterns if isinstance(patterns, list) else [patterns]
-    found = {file.relative_to(folder).as_posix() for p in listed for file in folder.glob(str(p)) if file.is_file()}
-    return tuple(sorted(found))
+        return []
+    return [str(pattern) for pattern in (patterns if isinstance(patterns, list) else [patterns])]
+
+
+def _judge_pattern(pattern: str, where: str, *, is_output: bool) -> None:
+    """Refuses what names no file below the folder."""
+    if not pattern.strip():
+        raise FleetError(f"{where} is empty", "leave the key out, or name files")
+    if Path(pattern).is_absolute():
+        raise FleetError(f"{where}: {pattern!r} is absolute", "names are relative to the folder of the fleet file, or of the robot")
+    if is_output and ".." in Path(pattern).parts:
+        hint = "new programs lie in the store as these do in the folder: give the robot's own folder with `folders`, or put the fleet file above"
+        raise FleetError(f"{where}: {pattern!r} leaves the folder", hint)
+
+
+def _files(patterns: object, folder: Path, is_alone: bool) -> tuple[tuple[str, ...], list[str]]:
+    """The files that are named, and patterns that one robot alone has and that name nothing."""
+    found: set[str] = set()
+    empty = []
+    for pattern in _listed(patterns):
+        if not any(sign in pattern for sign in "*?["):
+            found.add(Path(pattern).as_posix())
+            continue
+        named = {file.relative_to(folder).as_posix() for file in folder.glob(pattern) if file.is_file()}
+        # in a name such a sign is one of the name
+        named |= {Path(pattern).as_posix()} if (folder / pattern).is_file() else set()
+        if is_alone and not named:
+            empty.append(pattern)
+        found |= named
+    return tuple(sorted(found)), empty
 
 
 def _options(said: object, where: str) -> dict[str, dict[str, Any]]:
@@ -215,6 +244,10 @@ def _kinds_of(task: str, key: str) -> tuple[type, ...] | None:
 
 
 def _check_kind(value: object, kinds: tuple[type, ...] | None, where: str) -> None:
+    try:
+        json.dumps(value, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise FleetError(f"{where} is {value}; it must be a finite number, a text, true or false, null, or a list of these") from error
     if kinds is None or (isinstance(value, kinds) and (bool in kinds or not isinstance(value, bool))):
         return
     names = {bool: "true or false", int: "a number", float: "a number", str: "a text", type(None): "null"}

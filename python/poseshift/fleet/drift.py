@@ -12,6 +12,7 @@ from itertools import groupby, islice
 from typing import Any
 
 import poseshift
+from poseshift.fleet.config import FleetError
 from poseshift.fleet.store import Store
 from poseshift.fleet.units import Unit, unit_of
 
@@ -122,7 +123,11 @@ class _History:
             return found
         robot, keys = dataset.field("robot_id"), [(name, "ascending") for name in ("robot_id", "profile_sha256", "run_date")]
         wanted = (robot >= first) & (robot <= last) & dataset.field("measured_key").is_valid()
-        table = self._files.to_table(filter=wanted).sort_by(keys)
+        try:
+            table = self._files.to_table(filter=wanted).sort_by(keys)
+        except (ValueError, OSError) as error:
+            # what pyarrow says of a damaged file is a ValueError
+            raise FleetError(f"the history cannot be read: {error}", "remove the night's folder from tables/history: its errors are lost") from error
         known: set[str] = set()
         for batch in table.to_batches(ROWS):
             rows = zip(*(batch[name].to_pylist() for name in (*_COLUMNS, "run_date")), strict=True)

@@ -6,6 +6,8 @@ Both give a worker some units at a time, lose nothing when a worker dies, and ho
 from __future__ import annotations
 
 import os
+import threading
+import time
 from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -132,7 +134,7 @@ def run_local(units: Iterable[Unit], store: Store, workers: int | None = None) -
 def _through_pool(waiting: Waiting, store: Store, count: int, ran: Keeper) -> Batch:
     """Runs batches until all are done or a worker dies: whose worker may have died."""
     broken: Batch = []
-    with ProcessPoolExecutor(min(count, len(waiting)), get_context("spawn"), _alone) as pool:
+    with ProcessPoolExecutor(min(count, len(waiting)), get_context("spawn"), _alone, (os.getpid(),)) as pool:
         running: dict[Future[Any], Batch] = {}
         while waiting or running:
             while waiting and not broken and len(running) < 2 * count:
@@ -155,10 +157,19 @@ def _through_pool(waiting: Waiting, store: Store, count: int, ran: Keeper) -> Ba
     return broken
 
 
-def _alone() -> None:
+def _alone(driver: int) -> None:
+    """A worker uses one thread, and ends with the process that started it, however that ends."""
     from poseshift import set_threads  # noqa: PLC0415
 
     set_threads(1)
+
+    def watch() -> None:
+        while os.getppid() == driver:
+            time.sleep(1.0)
+        os._exit(1)
+
+    if os.name == "posix":
+        threading.Thread(target=watch, daemon=True).start()
 
 
 def run_ray(units: Iterable[Unit], store: Store) -> Ran:
@@ -210,7 +221,7 @@ class Keeper:
     def seconds(self, unit: Unit) -> float:
         """How long a unit is thought to take."""
         known = self._notes.of(unit.robot, f"seconds {unit.job}")
-        return GUESS_S[unit.job] if known is None else float(known)
+        return GUESS_S.get(unit.job, 0.0) if known is None else float(known)
 
     def hear(self, batch: Batch, done: list[tuple[str, float]]) -> None:
         """Counts what a worker has made."""

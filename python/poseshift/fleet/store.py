@@ -93,7 +93,8 @@ class Store:
         """A file, as it was kept."""
         data = self.blob_place(digest).read_bytes()
         if sha256(data) != digest:
-            raise OSError(f"{self.blob_place(digest)} is damaged: remove it, and run again")
+            self.blob_place(digest).unlink(missing_ok=True)
+            raise OSError(f"{self.blob_place(digest)} was damaged, and is removed: run again, and it is made anew")
         return data
 
     def sweep(self) -> None:

@@ -13,13 +13,15 @@ from pathlib import Path
 from typing import Any
 
 import poseshift
-from poseshift.fleet.config import FleetError, KeepOff, Robot, options_of
+from poseshift.fleet.config import KeepOff, Robot, options_of
 from poseshift.fleet.notes import Hashes, Notes
 from poseshift.fleet.store import Store, sha256
 
 SCHEMA = "fleet-unit/2"
 # a line that is no comment and may name a mesh
 _MESH = re.compile(rb"^(?!\s*#).*mesh", re.MULTILINE)
+# the job of a robot that has no answer
+FAULT = "fault"
 # the tasks of a job
 JOBS = {"programs": ("compensate", "check"), "diagnose": ("validate", "diagnose")}
 
@@ -41,13 +43,17 @@ class Unit:
         return [name for of, name, _ in self.inputs if of == role]
 
     def digest(self, role: str) -> str:
-        """The hash of the first input of this role."""
-        return next(digest for of, _, digest in self.inputs if of == role)
+        """The hash of the first input of this role; empty where there is none."""
+        return next((digest for of, _, digest in self.inputs if of == role), "")
 
     def of(self, task: str) -> dict[str, Any]:
         """The options of a task."""
         found: dict[str, Any] = json.loads(self.options)[task]
         return found
+
+
+class FaultError(Exception):
+    """Why a robot has no answer."""
 
 
 class Plan:
@@ -92,12 +98,18 @@ def plan(robots: Iterable[Robot], store: Store, version: str = poseshift.__versi
         hashes, count = Hashes(notes), 0
         for robot in robots:
             keep_off.judge(robot)
-            by_job = _named(robot)
-            names = [name for named in by_job.values() for _, name in named]
+            folder = str(robot.folder.absolute())
             try:
+                by_job = _named(robot)
+                names = [name for named in by_job.values() for _, name in named]
                 found, new = hashes.of(robot.id, [robot.folder / name for name in names])
+            except FaultError as error:
+                made.add(unit_of(robot.id, FAULT, folder, (), {FAULT: str(error)}, version))
+                continue
             except FileNotFoundError as error:
-                raise FleetError(f"robot {robot.id}: there is no file {error.filename}") from error
+                fault = f"there is no file {error.filename}"
+                made.add(unit_of(robot.id, FAULT, folder, (), {FAULT: fault}, version))
+                continue
             digests = dict(zip(names, found, strict=True))
             if new is not None:
                 pickle.dump((robot.id, new), news)
@@ -105,7 +117,7 @@ def plan(robots: Iterable[Robot], store: Store, version: str = poseshift.__versi
             for job, named in by_job.items():
                 inputs = tuple((role, name, digests[name]) for role, name in named)
                 of_job = {task: {**options[task], **robot.options[task]} for task in JOBS[job]}
-                made.add(unit_of(robot.id, job, str(robot.folder.absolute()), inputs, of_job, version))
+                made.add(unit_of(robot.id, job, folder, inputs, of_job, version))
         news.seek(0)
         for _ in range(count):
             name, new = pickle.load(news)
@@ -115,6 +127,11 @@ def plan(robots: Iterable[Robot], store: Store, version: str = poseshift.__versi
 
 def _named(robot: Robot) -> dict[str, list[tuple[str, str]]]:
     """Role and name of the inputs of each job."""
+    if robot.fault is not None:
+        raise FaultError(robot.fault)
+    for name in (*robot.programs, *robot.measurements):
+        if not name.isprintable() or any("\ud800" <= sign <= "\udfff" for sign in name):
+            raise FaultError(f"the name {ascii(name)} is no text that every system can have: rename the file")
     common = [("profile", robot.profile)]
     cell = [("cell", robot.cell)] if robot.cell else []
     wanted = {

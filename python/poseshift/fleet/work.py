@@ -12,7 +12,7 @@ from typing import Any
 import poseshift as ps
 from poseshift.fleet.rows import rows_of
 from poseshift.fleet.store import Store, sha256
-from poseshift.fleet.units import SCHEMA, Unit, canonical
+from poseshift.fleet.units import FAULT, SCHEMA, Unit, canonical
 
 
 def work(store_folder: str, units: list[Unit]) -> list[tuple[str, float]]:
@@ -34,13 +34,16 @@ def crashed(unit: Unit, message: str) -> dict[str, Any]:
 def answer(unit: Unit, store: Store) -> dict[str, Any]:
     """What the library says of a unit. A file that has changed since the plan, or cannot be read, is an `OSError`."""
     # names are relative, in the result as in the backup
-    os.chdir(unit.folder)
+    if unit.job != FAULT:
+        os.chdir(unit.folder)
     data: dict[str, bytes] = {}
     for role, name, digest in unit.inputs:
         data[name] = store.blob(digest) if role == "kept" else Path(name).read_bytes()
         if sha256(data[name]) != digest:
             raise OSError(f"{unit.folder}/{name} has changed while the fleet was read: run again")
     options = json.loads(unit.options)
+    if unit.job == FAULT:
+        return _reported(unit, "error", {"class": "FleetError", "message": options[FAULT], "hint": ""})
     try:
         profile = ps.Profile.from_yaml(data[unit.named("profile")[0]].decode(), unit.named("profile")[0])
         return _JOBS[unit.job](unit, store, profile, data, options)

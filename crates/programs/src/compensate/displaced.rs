@@ -302,10 +302,14 @@ impl Base<'_> {
     fn overwritten(&self) -> Verdict {
         // of numbers that are all written over nothing is left, of others some
         let lost = self.uses.iter().flat_map(|of| {
-            let given = [of.numbers_in_frame(self.job), self.fake];
-            given.map(|given| landing_m(self.job, of, &given, &Shift::none()))
+            let numbers = of.numbers_in_frame(self.job);
+            [numbers, self.fake].map(|given| {
+                let off_m = landing_m(self.job, of, &given, &Shift::none());
+                // where the arm cannot be followed there, as on axis 1, by the numbers
+                off_m.unwrap_or_else(|| numbers.separation(&self.fake).distance_m)
+            })
         });
-        let off_m = lost.flatten().fold(0.0, f64::max);
+        let off_m = lost.fold(0.0, f64::max);
         Verdict {
             id: "target-overwritten",
             severity: self.severity_of(off_m),

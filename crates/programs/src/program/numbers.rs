@@ -224,6 +224,11 @@ impl<W> Numbers<W> {
         self.unbounded.insert(block);
     }
 
+    /// Whether a block runs no more often than where it begins says.
+    pub(super) fn is_bounded(&self, block: (u32, u32)) -> bool {
+        !self.unbounded.contains(&block)
+    }
+
     /// A routine calls another.
     pub(super) fn calls(&mut self, caller: u32, callee: u32) {
         self.calls.entry(caller).or_default().insert(callee);
@@ -382,7 +387,7 @@ impl<W> Numbers<W> {
         before.sort_unstable_by_key(|reset| reset.order);
         let inside = &site.blocks[before.last()?.blocks.len()..];
         inside.iter().try_fold(1_u32, |product, block| {
-            let is_bounded = !self.unbounded.contains(&(site.routine, block.number));
+            let is_bounded = self.is_bounded((site.routine, block.number));
             Some(product.saturating_mul(block.most.filter(|_| is_bounded)?))
         })
     }

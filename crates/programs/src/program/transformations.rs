@@ -169,6 +169,8 @@ struct Counter<'a> {
     is_whole: bool,
     /// From, to, and the step.
     texts: [&'a [u8]; 3],
+    /// How often it runs at most, where the text tells.
+    most: Option<u32>,
     block: (u32, u32),
     routine: u32,
     /// Where the loop begins, and where it ends.
@@ -444,6 +446,7 @@ impl<'a> Entries<'a> {
             number: counter,
             is_whole,
             texts: of,
+            most,
             block: self.blocks.last(),
             routine: self.routine,
             start: self.at,
@@ -481,6 +484,15 @@ impl<'a> Entries<'a> {
                 self.numbers.write(number, zero, site);
             }
         }
+    }
+
+    /// How often the loop that begins at a statement runs at most; `None` where the text does not tell.
+    pub(super) fn rounds(&self, at: At) -> Option<u32> {
+        let start = |of: &Counter| (of.routine, of.start);
+        let before = self.counters.partition_point(|of| start(of) < at);
+        let of = self.counters.get(before).filter(|of| start(of) == at)?;
+        let is_counted = of.is_whole && self.numbers.is_bounded(of.block);
+        of.most.filter(|_| is_counted)
     }
 
     /// What a number may be at a statement.

@@ -70,10 +70,26 @@ pub fn too_wide(line: usize, columns: usize) -> Option<NotCsv> {
     })
 }
 
+/// The cells of a line, between any of these signs. A cell that begins with a quote may hold them between its quotes.
+pub fn cells_of<'a>(line: &'a str, separators: &'a [u8]) -> impl Iterator<Item = &'a str> {
+    let (mut begins, mut has_quotes, mut is_open) = (true, false, false);
+    line.split(move |c: char| {
+        if !is_open && separators.iter().any(|sign| char::from(*sign) == c) {
+            (begins, has_quotes) = (true, false);
+            return true;
+        }
+        if c == '"' && (begins || has_quotes) {
+            (has_quotes, is_open) = (true, !is_open);
+        }
+        begins &= c.is_whitespace();
+        false
+    })
+}
+
 /// A row of twice as many cells as its header: every number with a decimal comma is two.
 #[must_use]
 pub fn doubled(line: usize, header: &str, first: Option<&str>) -> Option<NotCsv> {
-    let cells = |line: &str| line.split(',').count();
+    let cells = |line: &str| cells_of(line, b",").count();
     let (names, found) = (cells(header), first.map_or(0, cells));
     (names > 2 && found > names && found <= 2 * names).then(|| NotCsv {
         line: line + 1,
@@ -176,5 +192,15 @@ mod tests {
         let (line, column, message, hint) = reported(b"a,b\n1,\xb52\n");
         assert_eq!((line, column), (2, 3));
         assert!(message.contains("UTF-8") && hint.contains("iconv"));
+    }
+
+    #[test]
+    fn a_separator_in_quotes_separates_nothing() {
+        let cells = |line| cells_of(line, b",").collect::<Vec<_>>();
+        assert_eq!(cells("a, \"b, c\",d"), ["a", " \"b, c\"", "d"]);
+        assert_eq!(cells("\"a\"\", b\",,"), ["\"a\"\", b\"", "", ""]);
+        // an inch is no quote
+        assert_eq!(cells("1/2\",2,3\",4").len(), 4);
+        assert_eq!(not_csv(b"a,b,c\n\"1, 2, 3\",2,3\n"), None);
     }
 }

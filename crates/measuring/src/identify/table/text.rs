@@ -1,7 +1,7 @@
 //! A table's bytes as text, and how its cells are written: encoding, separator, decimal sign,
 //! header.
 
-use crate::identify::input_checks::csv::{NotCsv, doubled, empty, line_of_row, too_wide};
+use crate::identify::input_checks::csv::{NotCsv, cells_of, doubled, empty, line_of_row, too_wide};
 use std::ops::Range;
 
 /// What stands between cells.
@@ -101,9 +101,11 @@ fn is_number(cell: &str) -> bool {
 impl Separator {
     /// What separates the cells of a line, by the line itself.
     fn of(line: &str) -> Self {
-        let sign = SIGNS
-            .into_iter()
-            .find(|sign| line.bytes().any(|b| b == *sign));
+        let cells = cells_of(line, &SIGNS).map(|cell| range_in(line, cell));
+        let between: Vec<u8> = cells
+            .filter_map(|cell| line.as_bytes().get(cell.end).copied())
+            .collect();
+        let sign = SIGNS.into_iter().find(|sign| between.contains(sign));
         let several = line.split_whitespace().count() > 1;
         match sign {
             Some(sign) => Self::Sign(sign),
@@ -115,26 +117,18 @@ impl Separator {
     /// Where the cells of a line are, in bytes.
     #[must_use]
     pub fn cells(self, line: &str) -> Vec<Range<usize>> {
-        let mut cells = Vec::new();
-        let (mut start, mut quoted) = (0, false);
-        for (at, b) in line.bytes().enumerate() {
-            let ends = match self {
-                Self::Sign(sign) => b == sign && !quoted,
-                Self::Blanks => b.is_ascii_whitespace(),
-            };
-            quoted ^= b == b'"';
-            if ends {
-                if self != Self::Blanks || start < at {
-                    cells.push(start..at);
-                }
-                start = at + 1;
-            }
+        let range = |cell| range_in(line, cell);
+        match self {
+            Self::Sign(sign) => cells_of(line, &[sign]).map(range).collect(),
+            Self::Blanks => line.split_ascii_whitespace().map(range).collect(),
         }
-        if self != Self::Blanks || start < line.len() {
-            cells.push(start..line.len());
-        }
-        cells
     }
+}
+
+/// Where a part of a line is, in bytes.
+fn range_in(line: &str, part: &str) -> Range<usize> {
+    let start = part.as_ptr().addr() - line.as_ptr().addr();
+    start..start + part.len()
 }
 
 /// Whether a line tells nothing: blank, or a comment.
@@ -306,6 +300,15 @@ mod tests {
         let read = grid(b"a;b\n1,5;1.234\n");
         assert_eq!(read.number("1.234"), None);
         assert_eq!(read.place(2, 1), (5, 5));
+    }
+
+    #[test]
+    fn quoted_cells_may_hold_separators() {
+        let read = grid(b"note,x,\"y; mm\",z\n\"a, b, c; d\",1,2,3\n");
+        assert_eq!(read.separator, Separator::Sign(b','));
+        assert_eq!(read.header, ["note", "x", "y; mm", "z"]);
+        assert_eq!(read.rows[0].1, ["a, b, c; d", "1", "2", "3"][..]);
+        assert_eq!(read.place(2, 1), (14, 1));
     }
 
     #[test]

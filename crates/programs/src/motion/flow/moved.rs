@@ -122,11 +122,49 @@ impl Flow<'_> {
         vec![self.with_step(steps, added, is_exact)]
     }
 
-    /// What displaces a target that is displaced already, and then along one axis as if it were not,
-    /// but `by` something.
+    /// The steps of a displacement, and whether all of them are made.
+    fn steps_of(&self, id: DisplacementId) -> Option<(Vec<Added>, bool)> {
+        let Some(own) = (id as usize).checked_sub(self.script.displacements.len()) else {
+            return match self.displacement(id) {
+                Displacement::None => Some((Vec::new(), true)),
+                Displacement::By(_) | Displacement::Within(_) | Displacement::AtLeast(_) => {
+                    Some((vec![once(id, OF_MOVE)], true))
+                }
+                _ => None,
+            };
+        };
+        match &self.displacements.all[own].0 {
+            Moved::Exactly(steps) => Some((steps.to_vec(), true)),
+            Moved::Within(steps) => Some((steps.to_vec(), false)),
+            Moved::Somehow(_) => None,
+        }
+    }
+
+    /// Whether a displacement is one place.
+    fn is_one_place(&self, id: DisplacementId) -> bool {
+        matches!(
+            self.displacement(id),
+            Displacement::None | Displacement::By(_)
+        )
+    }
+
+    /// What displaces a target that is displaced already, and then along one axis as a copy of the
+    /// target is that something else displaces, and `by` something more.
     pub(super) fn replaced(
         &mut self,
-        before: DisplacementId,
+        (before, of): (DisplacementId, DisplacementId),
+        (axis, by): (usize, DisplacementId),
+        site: Site,
+    ) -> Vec<DisplacementId> {
+        if of != NOT_DISPLACED && of == before && self.is_one_place(of) {
+            return self.displaced_again(before, by, site);
+        }
+        vec![self.replaced_along((before, of), (axis, by), site)]
+    }
+
+    fn replaced_along(
+        &mut self,
+        (before, of): (DisplacementId, DisplacementId),
         (axis, by): (usize, DisplacementId),
         site: Site,
     ) -> DisplacementId {
@@ -135,21 +173,19 @@ impl Flow<'_> {
             Displacement::By(shift) => **shift == Shift::none(),
             _ => false,
         };
-        if before == NOT_DISPLACED && is_none {
-            return NOT_DISPLACED;
+        if before == NOT_DISPLACED && of == NOT_DISPLACED {
+            return match by {
+                _ if is_none => NOT_DISPLACED,
+                DISPLACED_SOMEHOW => DISPLACED_SOMEHOW,
+                _ => self.moved(Moved::Exactly(Box::new([once(by, site)]))),
+            };
         }
-        if before == NOT_DISPLACED && by == DISPLACED_SOMEHOW {
-            return DISPLACED_SOMEHOW;
-        }
-        if before == NOT_DISPLACED {
-            return self.moved(Moved::Exactly(Box::new([once(by, site)])));
-        }
-        let own = (before as usize).checked_sub(self.script.displacements.len());
-        let (mut steps, is_exact) = match own.map(|own| &self.displacements.all[own].0) {
-            Some(Moved::Exactly(steps)) => (steps.to_vec(), true),
-            Some(Moved::Within(steps)) => (steps.to_vec(), false),
-            _ => return UNBOUNDED,
+        let (Some((mut steps, of_before)), Some((along, of_other))) =
+            (self.steps_of(before), self.steps_of(of))
+        else {
+            return UNBOUNDED;
         };
+        let is_exact = of_before && of_other;
         let axes_of = |flow: &Self, id| match flow.displacement(id) {
             Displacement::By(shift) => axes(shift),
             Displacement::Within(of) | Displacement::AtLeast(of) => {
@@ -167,13 +203,15 @@ impl Flow<'_> {
         if !is_none && !axes_of(self, by).is_some_and(is_along) {
             return UNBOUNDED;
         }
-        // of what was added along the axis nothing is left
+        // of what was added along the axis nothing is left, and of the other one that alone is taken
         let mut is_mixed = false;
-        steps.retain(|step| {
-            let of = axes_of(self, step.by).unwrap_or([true; 3]);
+        let mut is_of_axis = |flow: &Self, step: &Added| {
+            let of = axes_of(flow, step.by).unwrap_or([true; 3]);
             is_mixed |= of[axis] && !is_along(of);
-            !of[axis]
-        });
+            of[axis]
+        };
+        steps.retain(|step| !is_of_axis(self, step));
+        steps.extend(along.into_iter().filter(|step| is_of_axis(self, step)));
         if is_mixed {
             return UNBOUNDED;
         }

@@ -117,7 +117,7 @@ impl Flow<'_> {
                         // of another joint the correction is another one
                         vec![UNBOUNDED]
                     } else if let Some((of, axis, by)) = of {
-                        vec![self.part_of(target, displacement, of, (axis, by), site)]
+                        self.part_of((target, displacement), of, (axis, by), site)
                     } else {
                         let by = Self::added_by(&write.how);
                         self.displaced_again(displacement, by, site)
@@ -179,16 +179,15 @@ impl Flow<'_> {
     }
 
     /// What displaces a copy of a target a part of which becomes that of another position and
-    /// something more: what is added, where the other one is that target as it stands.
+    /// something more: what is added, where the other one is that target, displaced or not.
     fn part_of(
         &mut self,
-        target: u32,
-        before: DisplacementId,
+        (target, before): (u32, DisplacementId),
         of: Holding,
         along: (usize, DisplacementId),
         site: Site,
-    ) -> DisplacementId {
-        let is_same = match self.holdings.of(of) {
+    ) -> Vec<DisplacementId> {
+        let of = match self.holdings.of(of) {
             [
                 (
                     Atom::Target {
@@ -197,13 +196,10 @@ impl Flow<'_> {
                     },
                     _,
                 ),
-            ] => *of == target && *displacement == NOT_DISPLACED,
-            _ => false,
+            ] if *of == target => *displacement,
+            _ => return vec![OVERWRITTEN],
         };
-        if !is_same {
-            return OVERWRITTEN;
-        }
-        self.replaced(before, along, site)
+        self.replaced((before, of), along, site)
     }
 
     /// What a write of a part adds to a copy of a target.

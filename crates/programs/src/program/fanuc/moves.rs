@@ -44,10 +44,11 @@ pub(super) struct Goal {
 /// The row of arcs that `A` moves belong to.
 #[derive(Debug)]
 pub(super) struct Row {
-    /// The instructions of its last point.
+    /// How many points it has.
+    points: u32,
+    /// The instructions of its last point, and of the one before that.
     last: Range<usize>,
-    /// It has no other point.
-    is_first: bool,
+    before: Range<usize>,
 }
 
 impl<'a> Reader<'a> {
@@ -212,7 +213,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The first point of a row is reached on a straight line, those after it lie on arcs.
+    /// The first point of a row is reached on a straight line. Three are an arc; of any other number the
+    /// controller alone knows how one arc goes over into the next.
     fn row(&mut self, is_row: bool, listed: usize) {
         let here = listed..self.builder.script.instructions.len();
         let open = self.state.row.take();
@@ -224,15 +226,27 @@ impl<'a> Reader<'a> {
                 instruction.motion = motion;
             }
         };
-        if let Some(open) = &open {
-            if !open.is_first {
-                set(&open.last, Motion::ArcVia);
+        let (points, last, before) = match open {
+            Some(open) => (open.points + 1, open.last, open.before),
+            None => (1, 0..0, 0..0),
+        };
+        match points {
+            1 => {}
+            2 => set(&here, Motion::Spline),
+            3 => {
+                set(&last, Motion::ArcVia);
+                set(&here, Motion::ArcEnd);
             }
-            set(&here, Motion::ArcEnd);
+            _ => {
+                for range in [&before, &last, &here] {
+                    set(range, Motion::Spline);
+                }
+            }
         }
         self.state.row = Some(Row {
+            points,
             last: here,
-            is_first: open.is_none(),
+            before: last,
         });
     }
 

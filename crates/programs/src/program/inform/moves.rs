@@ -264,11 +264,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The last point of an arc is its end.
+    /// A last point without another behind it is on an arc that the controller alone knows.
     pub(super) fn end_arc(&mut self) {
         let arc = std::mem::take(&mut self.here.arc);
-        if let Arc { points: 2.., last } = arc {
-            self.builder.script.instructions[last].motion = Motion::ArcEnd;
+        if let Arc { points: 2.., last } = arc
+            && arc.points.is_multiple_of(2)
+        {
+            self.builder.script.instructions[last].motion = Motion::Spline;
         }
     }
 

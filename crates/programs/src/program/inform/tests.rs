@@ -161,14 +161,14 @@ fn pulses_and_angles_are_joints() {
 
 #[test]
 fn arcs_go_through_each_two_points_behind_the_first() {
-    use Motion::{ArcEnd, ArcVia, Linear};
+    use Motion::{ArcEnd, ArcVia, Linear, Spline};
     let moves = "MOVL C00000\nMOVC C00001\nMOVC C00002\nTIMER T=1.00\nMOVC C00003\nMOVL \
         C00004\nMOVC C00005\nMOVC C00006";
     let program = read(&job(&format!("{USER}{}", points(7)), moves));
     let motions: Vec<_> = program.moves.iter().map(|m| m.motion).collect();
     assert_eq!(
         motions,
-        [Linear, Linear, ArcVia, ArcEnd, Linear, Linear, ArcEnd]
+        [Linear, Linear, ArcVia, ArcEnd, Linear, Linear, Spline]
     );
 }
 

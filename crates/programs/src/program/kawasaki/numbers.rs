@@ -112,6 +112,12 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// How often the loop runs at most that a statement begins.
+    pub(super) fn rounds(&self, statement: Words) -> Option<u32> {
+        let at = short(statement.span().start);
+        self.known().entries.rounds((self.here.routine, at))
+    }
+
     /// Whether nothing but calls writes a parameter of a program.
     pub(super) fn is_only_given(&self, routine: RoutineId, stem: &[u8]) -> bool {
         let known = self.known();

@@ -355,7 +355,11 @@ impl<'a> Reader<'a> {
                 self.builder.begin_switch(of);
             }
             "SCASE" => self.builder.begin_choice(),
-            "WHile" | "FOR" => self.builder.begin_loop(true),
+            "WHile" => self.builder.begin_loop(true),
+            "FOR" => {
+                let most = self.rounds(part);
+                self.builder.begin_rounds(true, most);
+            }
             "DO" => self.builder.begin_loop(false),
             "ENd" | "UNtil" => self.builder.end_block(),
             "GOto" => self.jump(part, has(b"IF")),
@@ -370,7 +374,12 @@ impl<'a> Reader<'a> {
     /// What `IF .n==1 THEN` asks of numbers that calls give.
     fn tests(&mut self, part: Words) -> Tests {
         let end = part.find(b"THEN").unwrap_or(part.len());
-        part.part(1..end.max(1)).compared().map(&mut |compared| {
+        self.asked(part.part(1..end.max(1)))
+    }
+
+    /// Likewise a condition.
+    fn asked(&mut self, condition: Words) -> Tests {
+        condition.compared().map(&mut |compared| {
             let (name, wanted) = (*compared)?;
             Some((self.given_number(name)?, wanted))
         })
@@ -378,12 +387,21 @@ impl<'a> Reader<'a> {
 
     /// `GOTO label`
     fn jump(&mut self, part: Words, may_go_on: bool) {
-        let label = find(part, "GOto").map(|at| part.text(at + 1));
-        match label.filter(|label| !label.is_empty()).map(key) {
-            Some(label) if may_go_on => self.builder.may_go_to(label),
-            Some(label) => self.builder.go_to(label),
-            None => {}
+        let Some(at) = find(part, "GOto") else { return };
+        let label = Some(part.text(at + 1)).filter(|label| !label.is_empty());
+        let Some(label) = label.map(key) else { return };
+        if !may_go_on {
+            return self.builder.go_to(label);
         }
+        // `IF n==1 GOTO 10`, `GOTO 10 IF n==1`
+        let asked = match part.find(b"IF") {
+            Some(of) if of > at => part.behind(of + 1),
+            _ => part.part(1..at.max(1)),
+        };
+        let tests = self.asked(asked);
+        self.builder.begin_if(tests);
+        self.builder.go_to(label);
+        self.builder.end_choice();
     }
 
     // ---- statements

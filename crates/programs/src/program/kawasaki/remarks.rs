@@ -125,18 +125,6 @@ pub(super) fn not_in_files(name: &str) -> Remark {
     }
 }
 
-/// An array of which the text names no element.
-pub(super) fn no_element(name: &str) -> Remark {
-    Remark::error_about(
-        "target-not-in-files",
-        format!(
-            "the program writes {name}, and neither .TRANS nor .JOINTS nor a statement names one of \
-             its elements by a number: where this move goes is not followed"
-        ),
-        "give the file with its .TRANS or .JOINTS too, or write and use elements by their numbers",
-    )
-}
-
 /// A target whose numbers a statement adds to those of others.
 pub(super) fn added_up(file: &str, line: usize) -> Remark {
     Remark::error_about(

@@ -2,7 +2,7 @@
 
 use super::plates::Object;
 use super::reader::Reader;
-use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, no_element, not_in_files};
+use super::remarks::{ASSIGNED, AXES, COMPUTED, PARTIAL, TOO_LARGE, not_in_files};
 use super::sections::Entry;
 use crate::geometry::Pose;
 use crate::program::contexts::{Varied, nothing};
@@ -353,8 +353,19 @@ impl<'a> Reader<'a> {
         self.add_variable(name, place, declared)
     }
 
-    /// All elements of a name, of which only the running program knows the one.
+    /// All elements of a name, of which only the running program knows the one. Where statements write
+    /// such elements alone one variable stands for all of them.
     pub(super) fn table(&mut self, name: &Name) -> Option<TableId> {
+        let is_written = name.key.is_none() && self.is_assigned(name, self.here.routine);
+        if is_written && self.elements(name).is_none() {
+            let declared = self.unknown(COMPUTED);
+            let place = self.place(self.here.at);
+            let whole = Name {
+                stem: name.stem.clone(),
+                key: Some(Vec::new()),
+            };
+            self.add_variable(&whole, place, declared);
+        }
         self.elements(name).map(|elements| elements.table)
     }
 
@@ -366,9 +377,6 @@ impl<'a> Reader<'a> {
         let is_local = self.is_local(name);
         match self.table(name) {
             None if is_local => self.unknown(COMPUTED),
-            None if self.is_assigned(name, self.here.routine) => {
-                self.unknown(no_element(&name.text()))
-            }
             None => self.unknown(not_in_files(&name.text())),
             Some(table) => {
                 // others of the program's own may follow in the text

@@ -101,11 +101,10 @@ impl Reader {
                 let alone = ahead.peek().kind == Kind::End;
                 self.count(name, at, value.filter(|_| alone));
             }
-            Some(DataKind::Fdat) => {
-                if let Some(part) = part {
-                    self.write_fdat(name, at, part, &mut cursor);
-                }
-            }
+            Some(DataKind::Fdat) => match part {
+                Some(part) => self.write_fdat(name, at, part, &mut cursor),
+                None => self.write_whole_fdat(name, at, &mut cursor)?,
+            },
             Some(kind) if kind.is_place() => {
                 let owner = Owner::Datum(datum.expect("it has a kind"));
                 self.write_position(owner, at, part, cursor)?;
@@ -215,7 +214,7 @@ impl Reader {
 
     /// What `p.Z=` makes of a position: it displaces it by 200 mm where `p.Z+200` is behind it, or
     /// that of the position that it is a copy of.
-    fn part_becomes(&mut self, part: &[u8], mut cursor: Cursor) -> How {
+    fn part_becomes(&mut self, part: &[u8], cursor: Cursor) -> How {
         let remark = self.builder.script.remark(COMPUTED);
         let letters = |text: &[u8]| -> Vec<u8> {
             let letters = text.iter().filter(|b| !b.is_ascii_whitespace());
@@ -230,16 +229,15 @@ impl Reader {
         let names = [&b"X"[..], b"Y", b"Z", b"C", b"B", b"A"];
         let at = names.into_iter().position(is_named);
         if let Some(at) = at
-            && let Some((term, by)) = self.term_and_rest(value, &own, &letters)
+            && let Some((term, of, by)) = self.term_and_rest(value, &own, &letters)
             && let Some(displacement) = grown_by_any(at, by)
         {
             if term == own {
                 return self.builder.script.part_by(remark, displacement);
             }
-            let start = cursor.at;
-            if let Some(other) = self.part_of(&mut cursor, &part)
-                && at < 3
-                && letters(&cursor.bytes[start..cursor.at]) == term
+            let mut other = cursor.part(cursor.at + of.start, cursor.at + of.end);
+            if at < 3
+                && let Some(other) = self.part_of(&mut other, &part)
             {
                 let by = self.builder.script.displacement(displacement);
                 return How::PartOf {
@@ -261,6 +259,7 @@ impl Reader {
         let is_name = name.kind == Kind::Name && cursor.take(b'.');
         let field = cursor.next();
         let is_part = is_name && cursor.text(field).eq_ignore_ascii_case(part);
+        let is_part = is_part && cursor.peek().kind == Kind::End;
         let symbol = self.symbol(cursor, name);
         is_part.then(|| self.named(symbol, Index::of(at, cursor)))?
     }

@@ -4,7 +4,7 @@
 use super::aggregate::{self, Aggregate, STATUS, TURN, WHOLE};
 use super::frames::{Table, pose_of, write_pose};
 use super::names::{DataKind, Datum, Fdat, Index, Ldat, Stored, Turning, whole};
-use super::reader::Reader;
+use super::reader::{AsDeclared, Reader};
 use super::remarks;
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
 use super::turning::Arc;
@@ -24,7 +24,7 @@ impl Reader {
     pub(super) fn declared(
         &mut self,
         kind: DataKind,
-        global: bool,
+        AsDeclared { global, constant }: AsDeclared,
         mut cursor: Cursor,
     ) -> Read<()> {
         let in_data = self.in_data.is_some();
@@ -45,6 +45,7 @@ impl Reader {
                 kind,
                 place: self.place(name),
                 kept: in_data,
+                constant,
             };
             let is_global = in_data && (global || system);
             let of = datum;

@@ -58,12 +58,12 @@ impl Reader {
         }
     }
 
-    /// The variable of a part of an FDAT whose parts alone are written, one by one.
+    /// The variable of a part of an FDAT that no routine is given.
     fn fdat_variable(&mut self, name: Symbol, at: Index, part: Part) -> Option<VariableId> {
         let datum = self.names.datum(name, self.context())?;
         let of = self.names.data[datum as usize];
-        let is_followed = at == Index::Whole && !self.names.handed.contains(&of.name);
-        if of.kind != DataKind::Fdat || !is_followed || self.names.handed.contains(&name) {
+        let is_followed = at == Index::Whole && !self.names.given_away.contains(&of.name);
+        if of.kind != DataKind::Fdat || !is_followed || self.names.given_away.contains(&name) {
             return None;
         }
         if let Some(known) = self.fdats.get(&(datum, part)) {
@@ -151,21 +151,44 @@ impl Reader {
 
     /// `FDAT_ACT=FP1`, `FDAT_ACT={...}`; the cursor stands behind `=`.
     pub(super) fn activate(&mut self, place: Place, cursor: &mut Cursor) -> Read<()> {
-        let values = if cursor.blanks() == b'{' {
-            let found = fdat(cursor)?;
-            PARTS.map(|part| self.part_of_fdat(found, part))
-        } else {
-            let token = cursor.next();
-            let name = self.symbol(cursor, token);
-            let at = Index::of(cursor.brackets()?, cursor);
-            PARTS.map(|part| self.fdat_value(name, at, part))
-        };
+        let values = self.fdat_values(cursor)?;
         for (part, value) in PARTS.into_iter().zip(values) {
             self.set(place, part.state(), value);
         }
         let [tool, base, _] = values;
         let is_known = matches!((tool, base), (Expr::Value(_), Expr::Value(_)));
         self.active = is_known.then_some((tool, base));
+        Ok(())
+    }
+
+    /// The parts of an FDAT as it is written: numbers, a name, or what a function returns.
+    fn fdat_values(&mut self, cursor: &mut Cursor) -> Read<[Expr; 3]> {
+        if cursor.blanks() == b'{' {
+            let found = fdat(cursor)?;
+            return Ok(PARTS.map(|part| self.part_of_fdat(found, part)));
+        }
+        let token = cursor.next();
+        let name = self.symbol(cursor, token);
+        let at = Index::of(cursor.brackets()?, cursor);
+        if cursor.blanks() == b'(' {
+            return Ok(PARTS.map(|part| self.part_of_fdat(Fdat::default(), part)));
+        }
+        Ok(PARTS.map(|part| self.fdat_value(name, at, part)))
+    }
+
+    /// `F=FP1`, `F={...}`; the cursor stands behind `=`.
+    pub(super) fn write_whole_fdat(
+        &mut self,
+        name: Symbol,
+        at: Index,
+        cursor: &mut Cursor,
+    ) -> Read<()> {
+        let values = self.fdat_values(cursor)?;
+        for (part, value) in PARTS.into_iter().zip(values) {
+            if let Some(variable) = self.fdat_variable(name, at, part) {
+                self.put(self.here, variable, value);
+            }
+        }
         Ok(())
     }
 

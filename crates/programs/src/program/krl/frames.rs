@@ -1,7 +1,7 @@
 //! Tools, bases, loads and modes: `$TOOL`, `$BASE`, `$LOAD`, `$IPO_MODE`, the tables they are taken
 //! from, BAS and FDAT.
 
-use super::names::{DataKind, Index, Stored, Turning};
+use super::names::{Index, Stored, Turning};
 use super::reader::Reader;
 use super::remarks::{
     ANGLE, CHOSEN, DECLARED_TWICE, FRAME_ASSIGNED, IGNORES_ORIENTATION, KEEPS_ORIENTATION,
@@ -539,7 +539,7 @@ impl Reader {
             }
         }
         let context = self.context();
-        if self.names.kind(name, context) != Some(DataKind::Frame) {
+        if !self.names.kind(name, context)?.is_pose() {
             return None;
         }
         match self.names.constant(name, at, context)? {

@@ -135,6 +135,8 @@ pub(super) struct Datum {
     pub place: Place,
     /// It stands in a data list, which the controller keeps.
     pub kept: bool,
+    /// It is declared CONST.
+    pub constant: bool,
 }
 
 /// How the tool rotates on straight moves and arcs.
@@ -250,6 +252,8 @@ pub(super) struct Names {
     pub touched: HashSet<Symbol>,
     /// Names that are written as a whole, or given to routines.
     pub handed: HashSet<Symbol>,
+    /// Those that are given to routines.
+    pub given_away: HashSet<Symbol>,
     /// Types of the files.
     pub structures: Vec<(Symbol, Structure)>,
     pub imports: Vec<Import>,

@@ -16,6 +16,7 @@ use crate::program::numbers::{
 use crate::program::quantity::{Arithmetic, Quantity, evaluate, is_letter};
 use crate::program::script::{Place, short};
 use foldhash::{HashMap, HashSet};
+use std::ops::Range;
 
 /// Variables that routines declare have their number above this.
 pub(super) const OF_ROUTINE: u32 = 1 << 31;
@@ -34,6 +35,8 @@ struct Counting {
     inside: (u32, u32),
     /// In capitals, from `=` on.
     text: Box<[u8]>,
+    /// How often it runs at most, where the text tells.
+    most: Option<u32>,
     /// Its number among the blocks of its routine.
     block: (u32, u32),
 }
@@ -114,6 +117,15 @@ impl Known {
         let routine = self.blocks.last().0;
         let assigned = self.assigned.get(&number);
         assigned.is_some_and(|routines| routines.iter().any(|one| *one != routine))
+    }
+
+    /// How often the loop runs at most whose first line ends there.
+    pub(super) fn rounds(&self, file: u32, end: usize) -> Option<u32> {
+        let start = |of: &Counting| (of.file, of.inside.0);
+        let at = (file, short(end));
+        let before = self.loops.partition_point(|of| start(of) < at);
+        let of = self.loops.get(before).filter(|of| start(of) == at)?;
+        of.most.filter(|_| self.numbers.is_bounded(of.block))
     }
 
     fn counting(&self, name: u32, at: Place) -> Option<usize> {
@@ -282,6 +294,7 @@ impl Reader {
                     file: self.file,
                     inside: (short(cursor.end), u32::MAX),
                     text: text.into(),
+                    most: None,
                     block: (0, 0),
                 });
                 known.open.push(at);
@@ -295,8 +308,9 @@ impl Reader {
                 // one that other routines change counts otherwise
                 let is_counted = !known.is_assigned_elsewhere(counter);
                 known.numbers.writes_elsewhere(counter);
-                known.blocks.open_loop(most.filter(|_| is_counted));
-                known.loops[at].block = known.blocks.last();
+                let most = most.filter(|_| is_counted);
+                known.blocks.open_loop(most);
+                (known.loops[at].most, known.loops[at].block) = (most, known.blocks.last());
             }
             b"ANIN" | b"DIGIN" => {
                 cursor.next();
@@ -394,15 +408,18 @@ impl Reader {
         self.names.known.numbers.value(number, &written)
     }
 
-    /// The one part of a position that stands in a sum, and the rest of that.
+    /// The one part of a position that stands in a sum: its letters, where it is in the text, and the
+    /// rest of the sum.
     pub(super) fn term_and_rest(
         &self,
         value: &[u8],
         own: &[u8],
         letters: &dyn Fn(&[u8]) -> Vec<u8>,
-    ) -> Option<(Vec<u8>, Quantity)> {
+    ) -> Option<(Vec<u8>, Range<usize>, Quantity)> {
         let (mut term, mut is_one) = (None, true);
-        let value = self.quantity(value, &mut |operand| {
+        let quantity = self.quantity(value, &mut |operand| {
+            let start = operand.as_ptr().addr() - value.as_ptr().addr();
+            let range = start..start + operand.len();
             let operand = letters(operand);
             let name = operand.split(|b| matches!(b, b'.' | b'[')).next();
             let name = name.and_then(|name| self.names.symbols.find(name));
@@ -413,12 +430,12 @@ impl Reader {
                 return None;
             }
             is_one &= term.is_none();
-            term = Some(operand);
+            term = Some((operand, range));
             Some(Quantity::own())
         });
-        let (count, rest) = value.apart();
-        term.filter(|_| is_one && count == 1.0)
-            .map(|term| (term, rest))
+        let (count, rest) = quantity.apart();
+        let (term, range) = term.filter(|_| is_one && count == 1.0)?;
+        Some((term, range, rest))
     }
 
     fn written_value(&self, what: &Written, of: &mut dyn FnMut(u32) -> Quantity) -> Quantity {

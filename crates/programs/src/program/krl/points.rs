@@ -241,10 +241,13 @@ impl Reader {
         let at = match (positions.as_slice(), frames.as_slice()) {
             ([at], _) => *at,
             ([], [at]) if inline + 1 == operands.len() => *at,
-            _ => {
-                point.target = self.computed(!positions.is_empty());
-                return;
-            }
+            _ => match self.displaced_one(operands, &positions) {
+                Some(at) => at,
+                None => {
+                    point.target = self.computed(!positions.is_empty());
+                    return;
+                }
+            },
         };
         if let Some(Operand::Inline(last)) = operands[at + 1..].last()
             && self
@@ -262,6 +265,10 @@ impl Reader {
         let exactly = before
             .zip(behind)
             .map(|(in_frame, in_tool)| Shift { in_frame, in_tool });
+        if exactly.is_none() && positions.len() > 1 {
+            point.target = self.computed(true);
+            return;
+        }
         let exactly = exactly.map(|shift| Displacement::By(Box::new(shift)));
         let displacement = exactly.or_else(|| self.amounts(bytes, operands, at));
         let others = (0..operands.len()).filter(|other| *other != at);
@@ -282,6 +289,19 @@ impl Reader {
             };
         }
         point.displacement = self.builder.script.displacement(displacement);
+    }
+
+    /// Which of several positions the others displace, where these are declared CONST.
+    fn displaced_one(&self, operands: &[Operand], positions: &[usize]) -> Option<usize> {
+        let context = self.context();
+        let mut others = positions.iter().filter(|&&at| match operands[at] {
+            Operand::Named(name, _) => {
+                let datum = self.names.datum(name, context);
+                !datum.is_some_and(|datum| self.names.data[datum as usize].constant)
+            }
+            _ => true,
+        });
+        others.next().copied().filter(|_| others.next().is_none())
     }
 
     /// Whether a frame is one of the text, and not of the running robot or of files that are not

@@ -86,6 +86,13 @@ pub(super) struct Reader {
     pub(super) is_referred: bool,
 }
 
+/// The words in front of a type.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct AsDeclared {
+    pub global: bool,
+    pub constant: bool,
+}
+
 /// What a line is.
 enum Line<'a> {
     Nothing,
@@ -102,7 +109,7 @@ enum Line<'a> {
     /// Names behind a type.
     Typed {
         of: Token,
-        global: bool,
+        as_declared: AsDeclared,
         rest: Cursor<'a>,
     },
     Import(Cursor<'a>),
@@ -219,9 +226,13 @@ impl Reader {
                 }
                 Line::EndData => self.in_data = None,
                 Line::Import(rest) => self.import(rest),
-                Line::Typed { of, global, rest } => {
+                Line::Typed {
+                    of,
+                    as_declared,
+                    rest,
+                } => {
                     let kind = self.kind_of_type(of, &rest);
-                    self.declared(kind, global, rest)?;
+                    self.declared(kind, as_declared, rest)?;
                     if matches!(kind, DataKind::Number | DataKind::Other) {
                         self.numbers_declared(rest);
                     }
@@ -340,7 +351,7 @@ impl Reader {
             {
                 Line::Typed {
                     of: first,
-                    global: false,
+                    as_declared: AsDeclared::default(),
                     rest: cursor,
                 }
             }
@@ -376,6 +387,7 @@ impl Reader {
                 kind: DataKind::Other,
                 place: self.place(token),
                 kept: false,
+                constant: false,
             };
             let datum = self.names.declare(datum, false);
             let mut by_reference = true;
@@ -424,12 +436,13 @@ impl Reader {
 /// `[GLOBAL] [DECL] [GLOBAL] [CONST] type names`, or `[GLOBAL] DEF`, `GLOBAL INTERRUPT DECL`.
 fn declaration(first: Token, mut cursor: Cursor) -> Line {
     let mut token = first;
-    let mut global = false;
+    let mut as_declared = AsDeclared::default();
     loop {
         let mut buffer = [0; 24];
         match capitals(cursor.text(token), &mut buffer) {
-            b"GLOBAL" => global = true,
-            b"DECL" | b"PUBLIC" | b"CONST" => {}
+            b"GLOBAL" => as_declared.global = true,
+            b"CONST" => as_declared.constant = true,
+            b"DECL" | b"PUBLIC" => {}
             word @ (b"DEF" | b"DEFFCT") => {
                 let returns = (word == b"DEFFCT").then(|| cursor.next());
                 let name = cursor.next();
@@ -439,7 +452,7 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
                 return Line::Define {
                     name,
                     returns,
-                    global,
+                    global: as_declared.global,
                     rest: cursor,
                 };
             }
@@ -448,7 +461,7 @@ fn declaration(first: Token, mut cursor: Cursor) -> Line {
             _ => {
                 return Line::Typed {
                     of: token,
-                    global,
+                    as_declared,
                     rest: cursor,
                 };
             }

@@ -283,6 +283,7 @@ impl Reader {
                             self.touch(name, at);
                         }
                         self.names.handed.insert(name);
+                        self.names.given_away.insert(name);
                         cursor = after;
                     }
                     fresh = false;
@@ -551,7 +552,8 @@ impl Reader {
             b"FOR" => {
                 let name = cursor.next();
                 let name = self.symbol(&cursor, name);
-                self.builder.begin_loop(true);
+                let most = self.names.known.rounds(self.file, cursor.end);
+                self.builder.begin_rounds(true, most);
                 self.count(name, Index::Whole, None);
             }
             b"ENDLOOP" | b"ENDWHILE" => self.builder.end_loop(true),

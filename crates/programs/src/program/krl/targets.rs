@@ -122,7 +122,8 @@ impl Reader {
         made
     }
 
-    /// Elements with a value in a data list, or that statements write.
+    /// Elements with a value in a data list, or that statements write; one in the place of all where
+    /// only the running program knows which they write.
     fn elements(&self, datum: u32) -> Vec<Index> {
         let values = self.names.values(datum, Index::Variable).iter();
         let mut all: Vec<Index> = values.map(|&(_, at, _)| at).collect();
@@ -130,6 +131,9 @@ impl Reader {
         let written = (name, Index::At([0; 3]))..(name, Index::Variable);
         let written = self.names.elements.range(written);
         all.extend(written.map(|&(_, at)| at));
+        if all.is_empty() && self.names.elements.contains(&(name, Index::Variable)) {
+            all.push(Index::Variable);
+        }
         all.sort_unstable();
         all.dedup();
         all

@@ -195,6 +195,11 @@ impl<'a> Reader<'a> {
 
     // ---- values
 
+    /// How often the loop runs at most that the present statement begins.
+    pub(super) fn rounds(&self) -> Option<u32> {
+        self.entries.rounds((self.here.routine, self.here.at))
+    }
+
     fn value(&self, number: u32) -> Quantity {
         let at = (self.here.routine, self.here.at);
         self.entries.value(number, at, self)

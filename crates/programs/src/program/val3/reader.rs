@@ -277,7 +277,8 @@ impl<'a> Reader<'a> {
             }
             b"for" => {
                 self.uses(line);
-                self.builder.begin_loop(true);
+                let most = self.rounds();
+                self.builder.begin_rounds(true, most);
             }
             b"do" => self.builder.begin_loop(false),
             b"endWhile" | b"endFor" | b"until" => {

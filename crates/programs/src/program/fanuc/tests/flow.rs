@@ -357,8 +357,18 @@ fn rows_of_arcs_start_with_a_straight_line() {
         FINE ;\nC P[4]\n : P[5] 9mm/sec FINE ;";
     let program = read(lines, &points);
     let motions: Vec<Motion> = program.moves.iter().map(|used| used.motion).collect();
-    use Motion::{ArcEnd, ArcVia, Linear};
+    use Motion::{ArcEnd, ArcVia, Linear, Spline};
     assert_eq!(motions, [Linear, ArcVia, ArcEnd, ArcVia, ArcEnd]);
+    // of other numbers than three the controller alone knows the curve
+    for count in [2, 4, 5] {
+        let lines: String = (1..=count)
+            .map(|k| format!("A P[{k}] 9mm/sec FINE ;\n"))
+            .collect();
+        let program = read(&lines, &points);
+        let motions = program.moves.iter().map(|used| used.motion);
+        let expected = std::iter::once(Linear).chain(std::iter::repeat_n(Spline, count - 1));
+        assert!(motions.eq(expected), "{count}");
+    }
 }
 
 #[test]

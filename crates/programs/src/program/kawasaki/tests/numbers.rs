@@ -466,3 +466,32 @@ fn a_position_that_a_call_works_out_displaces_its_target() {
     let behind = ".PROGRAM go(.p)\nLMOVE .p\nLMOVE p1+.p\n.END\n";
     assert_eq!(blocked(behind), [true]);
 }
+
+#[test]
+fn what_a_loop_adds_to_a_copy_counts_as_often_as_the_text_says() {
+    let grown = |most| {
+        let shift = Shift::along([0.012, 0.0, 0.0]);
+        Displacement::Within(Box::new([Stride::By { shift, most }]))
+    };
+    let step = "POINT q = SHIFT(q BY 12,0,0)\nLMOVE q\nEND";
+    for (text, most) in [
+        (format!("FOR i = 1 TO 3\n{step}"), Some(3)),
+        (format!("FOR i = 3 TO 1 STEP -1\n{step}"), Some(3)),
+        (format!("FOR i = 1 TO n\n{step}"), None),
+        (
+            format!("FOR i = 1 TO 3\nIF SIG(1) THEN\ni = 1\nEND\n{step}"),
+            None,
+        ),
+        (
+            format!("FOR i = 1 TO 3\n10 TWAIT 1\nIF SIG(1) GOTO 10\n{step}"),
+            None,
+        ),
+        (format!("WHILE SIG(1) DO\n{step}"), None),
+    ] {
+        assert_eq!(
+            by(&format!("POINT q = p1\n{text}"), ""),
+            grown(most),
+            "{text}"
+        );
+    }
+}

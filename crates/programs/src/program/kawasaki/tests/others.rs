@@ -142,17 +142,6 @@ fn numbers_of_a_target_that_are_only_shown_do_not_refuse_it() {
 }
 
 #[test]
-fn an_array_without_a_named_element_is_said_to_be_that() {
-    let program = read("TOOL NULL\nBASE NULL\nPOINT w[i] = p[i]\nLMOVE w[i]");
-    let found = program
-        .findings
-        .iter()
-        .find(|f| f.id == "target-not-in-files");
-    let message = &found.expect("an error").message;
-    assert!(message.contains("one of its elements"), "{message}");
-}
-
-#[test]
 fn what_a_process_gives_the_monitor_to_set_is_set() {
     let frames = |line: &str| -> Vec<String> {
         let text = format!(

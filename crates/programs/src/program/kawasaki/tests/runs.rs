@@ -556,3 +556,44 @@ fn an_element_that_the_running_program_chooses_is_what_programs_make_of_it() {
     let goes = ".PROGRAM rd(.x)\nLMOVE .x\n.END\n";
     assert_eq!(last("CALL rd(p[i])\nLMOVE p[1]", goes), "p[1] p[2]");
 }
+
+#[test]
+fn an_array_of_which_only_chosen_elements_are_written_holds_what_is_written() {
+    for name in ["w", ".w"] {
+        let copy = format!("FOR .i = 1 TO 2\nPOINT {name}[.i] = p[.i]\nEND");
+        for goes in [format!("LMOVE {name}[.i]"), format!("LMOVE {name}[1]")] {
+            let text =
+                format!(".PROGRAM main()\nTOOL grip\nBASE NULL\n{copy}\n{goes}\n.END\n{POINTS}");
+            let program = read_files(&[&text]).expect("a program");
+            assert_eq!(targets(&program), ["p[1]", "p[2]"], "{goes}");
+        }
+    }
+}
+
+#[test]
+fn a_jump_asks_the_number_that_a_call_gives() {
+    for ask in ["IF .n==1 GOTO 10", "GOTO 10 IF .n==1", "IF .n<>2 GOTO 10"] {
+        let text = format!(
+            ".PROGRAM main()\nBASE NULL\nCALL sw(1)\nLMOVE p1\nCALL sw(2)\nLMOVE p[1]\n.END\n\
+             .PROGRAM sw(.n)\n{ask}\nTOOL TRANS(0,0,150)\nRETURN\n10 TOOL TRANS(20,0,100)\n.END\n\
+             {POINTS}"
+        );
+        let program = read_files(&[&text]).expect("programs");
+        let tools = program.moves.iter().map(|motion| {
+            let tool = program.tools[motion.tool].flange_from_tool.expect("a tool");
+            (
+                target(&program, motion).expect("a target"),
+                tool.translation,
+            )
+        });
+        let expected = [("p1", [0.02, 0.0, 0.1]), ("p[1]", [0.0, 0.0, 0.15])];
+        assert_eq!(tools.collect::<Vec<_>>(), expected, "{ask}");
+        assert!(
+            program
+                .findings
+                .iter()
+                .all(|of| of.severity == Severity::Note),
+            "{ask}"
+        );
+    }
+}

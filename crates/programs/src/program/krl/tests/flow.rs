@@ -60,6 +60,22 @@ fn elements_are_handed_to_routines_of_the_files() {
 }
 
 #[test]
+fn an_array_of_which_only_chosen_elements_are_written_holds_what_is_written() {
+    for text in [
+        "w[k]=XP2\nPTP w[k]",
+        "FOR k=1 TO 2\nw[k]=XP2\nENDFOR\nPTP w[1]",
+        "w[k]=XP1\nw[k]=XP2\nPTP w[n]",
+    ] {
+        let text = format!(
+            "DEF M()\nDECL INT k,n\nDECL E6POS w[2]\n$TOOL=$NULLFRAME\n$BASE=$WORLD\n{text}\nEND\n"
+        );
+        let program = read_files(&[("m.src", &text), ("m.dat", DATA)]);
+        assert!(to(&program).contains(&"XP2"), "{text}: {:?}", to(&program));
+        assert_eq!(reported(&program), ["computed-target"], "{text}");
+    }
+}
+
+#[test]
 fn what_a_routine_writes_through_a_parameter_comes_back() {
     let text = "DEF M()\nDECL E6POS near\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nabove(near,XP1)\nLIN \
         near\nLIN XP1\nEND\n\

@@ -131,6 +131,73 @@ fn a_frame_that_displaces_is_no_target() {
 }
 
 #[test]
+fn positions_that_are_offsets_displace_others() {
+    let by = |data: &str, point: &str| {
+        let text = format!("DEF M()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nLIN XP1\nLIN {point}\nEND\n");
+        let data = format!("DEFDAT M\nDECL POS XP1={{X 1,Y 0,Z 0,A 0,B 90,C 0}}\n{data}\nENDDAT\n");
+        read_files(&[("m.src", &text), ("m.dat", &data)])
+    };
+    let (off, turned) = (
+        "={X 0,Y 0,Z 50,A 0,B 0,C 0}",
+        Pose::from_translation(0.0, 0.0, 0.05),
+    );
+    let (frame, tool) = (
+        Shift::along([0.0, 0.0, 0.05]),
+        Shift {
+            in_tool: turned,
+            ..Shift::none()
+        },
+    );
+    for (kind, point, shift) in [
+        ("FRAME", "off:XP1", frame),
+        ("CONST POS", "off:XP1", frame),
+        ("CONST POS", "XP1:off", tool),
+        ("CONST E6POS", "off:XP1", frame),
+    ] {
+        let program = by(&format!("DECL {kind} off{off}"), point);
+        let last = program.moves.last().expect("a move");
+        let name = program.targets[last.target.expect("known")].name.clone();
+        assert_eq!(name.as_deref(), Some("XP1"), "{kind} {point}");
+        assert_eq!(
+            last.displacement,
+            Displacement::By(Box::new(shift)),
+            "{kind} {point}"
+        );
+        assert_eq!(reported(&program), [""; 0], "{kind} {point}");
+    }
+    // one that moves go to would displace by other numbers
+    let program = by(&format!("DECL CONST POS off{off}"), "off\nLIN off:XP1");
+    assert_eq!(reported(&program), ["target-used-as-frame"]);
+    // and of two that may be taught either may be one
+    let program = by(&format!("DECL POS off{off}"), "off:XP1");
+    assert_eq!(reported(&program), ["target-copied"]);
+}
+
+#[test]
+fn fdat_are_written_as_a_whole() {
+    for (text, tool, base) in [
+        ("FW=FP1", TOOL, BASE),
+        ("FW=FP1\nFW.BASE_NO=2", TOOL, [0, 200, 0]),
+        (
+            "FW={TOOL_NO 2,BASE_NO 1,IPO_FRAME #BASE}\nFW.BASE_NO=2",
+            [0, 0, 50],
+            [0, 200, 0],
+        ),
+        ("FP1=FP2\nFW=FP1", [0, 0, 50], [0, 200, 0]),
+    ] {
+        let text = format!("DECL FDAT FW\n{text}\nFDAT_ACT=FW\nBAS(#FRAMES)\nLIN XP1");
+        let program = with(&text, &Settings::default());
+        assert_eq!(places(&program), [tool, base], "{text}");
+        assert_eq!(reported(&program), [""; 0], "{text}");
+    }
+    for text in ["FW=chosen(1)", "FW=FP1\nfill(FW)"] {
+        let text = format!("DECL FDAT FW\n{text}\nFDAT_ACT=FW\nBAS(#FRAMES)\nLIN XP1");
+        let program = with(&text, &Settings::default());
+        assert_eq!(blocked(&program), ["XP1"], "{text}");
+    }
+}
+
+#[test]
 fn fdat_are_written_part_by_part() {
     let go = "FDAT_ACT=FP1\nBAS(#PTP_PARAMS,100)\nLIN XP1";
     for (text, tool, base) in [
@@ -145,7 +212,7 @@ fn fdat_are_written_part_by_part() {
         assert_eq!(reported(&program), [""; 0], "{text}");
     }
     for text in [
-        "FP1=FP2",
+        "FP1=chosen()",
         "FP1.BASE_NO=n",
         "other(FP1)",
         "FP1.BASE_NO=2\nother(FP1)",

@@ -208,7 +208,46 @@ fn parts_of_points_are_those_of_the_points_that_are_named() {
     assert_eq!(last("q.X=XP1.X").1, Displacement::Overwritten);
     assert_eq!(last("q.X=XP3.X+5").1, Displacement::Overwritten);
     let along = Shift::along([0.005, 0.0, 0.0]);
-    assert_eq!(last("q.X=XP2.X+5").1, Displacement::By(Box::new(along)));
+    for write in [
+        "q.X=XP2.X+5",
+        "q.X=5+XP2.X",
+        "q.X=(XP2.X)+5",
+        "q.X=2+XP2.X+3",
+        "q.X=+XP2.X+5",
+    ] {
+        assert_eq!(last(write).1, Displacement::By(Box::new(along)), "{write}");
+    }
+    // a copy of what is displaced itself
+    let both = Shift::along([0.005, 0.0, 0.08]);
+    for write in [
+        "q.X=XP2.X+5\nu=q\nu.Z=q.Z+80\nq=u",
+        "q.X=XP2.X+5\nu=q\nu.Z=80+XP2.Z\nq=u",
+        "u=XP2\nu.Z=u.Z+50\nq.X=q.X+5\nq.Z=u.Z+30",
+        "u=XP2\nu.Y=u.Y+9\nq.X=q.X+5\nq.Z=u.Z+80",
+    ] {
+        let write = format!("DECL E6POS u\n{write}");
+        assert_eq!(last(&write).1, Displacement::By(Box::new(both)), "{write}");
+    }
+    // as far as the rounds of a loop lead
+    let by = |round: &str| last(&format!("DECL INT i\n{round}")).1;
+    let grown = |most| {
+        let shift = Shift::along([0.012, 0.0, 0.0]);
+        Displacement::Within(Box::new([Stride::By { shift, most }]))
+    };
+    let step = "q.X=q.X+12\nLIN q\nENDFOR";
+    assert_eq!(by(&format!("FOR i=1 TO 3\n{step}")), grown(Some(3)));
+    assert_eq!(by(&format!("FOR i=9 TO 1 STEP -4\n{step}")), grown(Some(3)));
+    assert_eq!(by(&format!("FOR i=1 TO n\n{step}")), grown(None));
+    assert_eq!(
+        by(&format!("FOR i=1 TO 3\nIF a THEN\ni=1\nENDIF\n{step}")),
+        grown(None)
+    );
+    assert_eq!(
+        by(&format!(
+            "FOR i=1 TO 3\nagain:\nIF a THEN\nGOTO again\nENDIF\n{step}"
+        )),
+        grown(None)
+    );
     // a coordinate that is read of one of them
     let (program, by) = last("r=XP3.Z/4\nq.Z=q.Z+r");
     let Displacement::Within(strides) = by else {

@@ -95,6 +95,15 @@ fn arithmetic_of_a_copy_displaces_it_by_what_the_text_says() {
             along([0.0, 0.0, -0.025]),
         ),
         ("q.trans.z:=p1.trans.z+up;", along([0.0, 0.0, 0.03])),
+        // a copy of what is displaced itself
+        (
+            "VAR robtarget u;\nq.trans.x:=p1.trans.x+80;\nu:=q;\nu.trans.z:=q.trans.z+150;\nq:=u;",
+            along([0.08, 0.0, 0.15]),
+        ),
+        (
+            "VAR robtarget u;\nu:=Offs(p1,80,0,50);\nq.trans.z:=u.trans.z+20;",
+            Displacement::Unbounded,
+        ),
         ("Add Q.trans.z, 2*up;", along([0.0, 0.0, 0.06])),
         ("Add q.trans.y,-20;", along([0.0, -0.02, 0.0])),
         ("Incr q.trans.x;", along([0.001, 0.0, 0.0])),

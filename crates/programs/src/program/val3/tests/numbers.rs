@@ -502,3 +502,20 @@ fn points_that_a_frame_is_made_of_keep_their_numbers() {
     // nothing uses it
     assert_eq!(severities(&format!("{go}\n{set}")), [Severity::Note]);
 }
+
+#[test]
+fn what_a_loop_adds_to_a_copy_counts_as_often_as_the_text_says() {
+    let grown = |most| {
+        let shift = Shift::along([0.012, 0.0, 0.0]);
+        Displacement::Within(Box::new([Stride::By { shift, most }]))
+    };
+    let step = "pB.trsf.x=pB.trsf.x+12\nmovel(pB,tA,mA)\nendFor";
+    for (text, most) in [
+        (format!("for nI=1 to 3\n{step}"), Some(3)),
+        (format!("for nI=3 to 1 step -1\n{step}"), Some(3)),
+        (format!("for nI=1 to nUp\n{step}"), None),
+        (format!("for nI=1 to 3\nif bA\nnI=1\nendIf\n{step}"), None),
+    ] {
+        assert_eq!(by(&format!("pB=pA\n{text}")), grown(most), "{text}");
+    }
+}
