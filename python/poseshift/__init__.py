@@ -26,7 +26,7 @@ from poseshift.errors import (
     Refused,
     RegisterError,
 )
-from poseshift.inputs import Files, Measurements, read_files, read_one
+from poseshift.inputs import Files, Measurements, paths_of, read_files, read_one
 from poseshift.results import (
     Axes,
     Calibration,
@@ -117,6 +117,12 @@ def diff(a: Profile, b: Profile) -> Table:
     return Table.of_rows(json.loads(a.diff_json(b))["differences"], ("key", "a", "b"))
 
 
+def _shift(max_shift: Sequence[float]) -> tuple[float, float]:
+    if len(max_shift) != 2:  # noqa: PLR2004
+        raise ValueError("max_shift must be two numbers: mm and degrees")
+    return max_shift[0], max_shift[1]
+
+
 def compensate(
     files: Files,
     profile: Profile,
@@ -131,7 +137,7 @@ def compensate(
     decimals: int | None = None,
     max_path_error_mm: float | None = None,
     max_derived_error_mm: float | None = None,
-    max_shift: tuple[float, float] | None = None,
+    max_shift: Sequence[float] | None = None,
     language: str | None = None,
     force: bool = False,
     accept: Sequence[str] = (),
@@ -158,7 +164,7 @@ def compensate(
         decimals=decimals,
         max_path_error_mm=max_path_error_mm,
         max_derived_error_mm=max_derived_error_mm,
-        max_shift=max_shift,
+        max_shift=None if max_shift is None else _shift(max_shift),
         language=language,
         force=force,
         accept=list(accept),
@@ -168,7 +174,8 @@ def compensate(
         start_joints_rad=start_joints_rad,
         despite_errors=despite_errors,
     )
-    return Compensation(document, refused, dict(made))
+    read = () if isinstance(files, Mapping) else tuple(Path(path).resolve() for path in paths_of(files))
+    return Compensation(document, refused, dict(made), read)
 
 
 def check(

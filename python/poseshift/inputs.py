@@ -25,9 +25,12 @@ def read_files(files: Files) -> list[tuple[str, bytes]]:
     """Names and bytes of files, in their order."""
     if isinstance(files, Mapping):
         return [(str(name), bytes(data)) for name, data in files.items()]
-    if isinstance(files, str | os.PathLike):
-        files = [files]
-    return [(os.fspath(path), Path(path).read_bytes()) for path in files]
+    return [(os.fspath(path), Path(path).read_bytes()) for path in paths_of(files)]
+
+
+def paths_of(files: _Path | Sequence[_Path]) -> Sequence[_Path]:
+    """One path, or several."""
+    return [files] if isinstance(files, str | os.PathLike) else files
 
 
 def read_one(file: bytes | _Path, name: str) -> tuple[str, bytes]:
@@ -63,7 +66,9 @@ class Measurements:
         driven_in_order: bool = False,
     ) -> Measurements:
         """Tables in files or in bytes, one after another."""
-        files = tuple(read_one(one, "measurements.csv") for one in data)
+        # each table has a name of its own: runs are told apart by it
+        names = ["measurements.csv"] if len(data) == 1 else [f"measurements{number + 1}.csv" for number in range(len(data))]
+        files = tuple(read_one(one, name) for one, name in zip(data, names, strict=True))
         return cls(files, columns, units, euler, driven_in_order)
 
     @classmethod
@@ -73,13 +78,13 @@ class Measurements:
         return cls(files, joined=True, **said)
 
     @classmethod
-    def from_table(cls, columns: Mapping[str, ArrayLike] | Any, name: str = "measurements.csv", **said: Any) -> Measurements:
-        """Columns with the names of files (`q1_deg`, `x_mm`), or whatever speaks Arrow."""
-        if not isinstance(columns, Mapping):
+    def from_table(cls, table: Mapping[str, ArrayLike] | Any, /, name: str = "measurements.csv", **said: Any) -> Measurements:
+        """Columns with the names of files (`q1_deg`, `x_mm`), or whatever speaks Arrow; `columns` names others."""
+        if not isinstance(table, Mapping):
             import pyarrow  # noqa: PLC0415
 
-            columns = pyarrow.table(columns).to_pydict()
-        lists = {key: list(column) for key, column in columns.items()}  # type: ignore[arg-type]
+            table = pyarrow.table(table).to_pydict()
+        lists = {key: list(column) for key, column in table.items()}  # type: ignore[arg-type]
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(lists)

@@ -108,6 +108,7 @@ class Compensation(Result):
 
     refused: bool
     _files: dict[str, bytes] = field(repr=False)
+    _read: tuple[Path, ...] = field(default=(), repr=False)
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -130,8 +131,16 @@ class Compensation(Result):
         return dict(self._files)
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Writes the files into a folder, all or none: into one next to it first, then each into its place."""
-        return write_all(self.files, Path(folder))
+        """Writes the files into a folder, all or none: into one next to it first, then each into its place.
+
+        No file takes the place of one that was read.
+        """
+        files = self.files
+        for name in files:
+            place = Path(folder) / Path(name).name
+            if place.exists() and any(read.exists() and place.samefile(read) for read in self._read):
+                raise ValueError(f"{place} was read and would be written over: choose another folder")
+        return write_all(files, Path(folder))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -3,7 +3,7 @@
 use crate::arrays::{Array, Numbers, array, matrix, one_pose, poses, rows, whole};
 use crate::errors::Kind;
 use crate::threads::{FEW, on_rows};
-use numpy::{AllowTypeChange, PyArrayLikeDyn, PyUntypedArrayMethods};
+use numpy::PyUntypedArrayMethods;
 use poseshift::inverse::{Branch, Inverse, Outcome, Status, Targets, solve_batch};
 use poseshift::model::profile::{Mounted, Profile};
 use poseshift::model::{Conditions, Model, forward_batch};
@@ -13,9 +13,6 @@ use poseshift::task::ik::{inverse, middle};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-
-/// Branches by number.
-type Branches<'py> = PyArrayLikeDyn<'py, u8, AllowTypeChange>;
 
 /// An arm with a tool under conditions that stay.
 #[pyclass(frozen, module = "poseshift")]
@@ -123,8 +120,9 @@ fn solutions(
     })
 }
 
-fn branch(number: u8) -> PyResult<Branch> {
-    let found = Branch::ALL.into_iter().find(|b| b.number() == number);
+fn branch(number: f64) -> PyResult<Branch> {
+    let is_it = |of: &Branch| f64::from(of.number()) == number;
+    let found = Branch::ALL.into_iter().find(is_it);
     found.ok_or_else(|| {
         PyValueError::new_err(format!("branch {number} is not a whole number from 0 to 7"))
     })
@@ -165,7 +163,7 @@ impl Arm {
         &self,
         py: Python<'_>,
         world_from_tool: Numbers<'_>,
-        branch: Option<Branches<'_>>,
+        branch: Option<Numbers<'_>>,
         near_rad: Option<Numbers<'_>>,
     ) -> PyResult<Solutions> {
         let inverse = self.inverse(py)?;
@@ -194,7 +192,7 @@ impl Arm {
         let branches = match &branch {
             None => near.iter().map(|q| inverse.arm.posture(q).0).collect(),
             Some(given) if given.ndim() <= 1 => {
-                let numbers: Vec<u8> = given.as_array().iter().copied().collect();
+                let numbers: Vec<f64> = given.as_array().iter().copied().collect();
                 each(numbers.len(), "branches")?;
                 let found = numbers.into_iter().map(self::branch);
                 let mut found = found.collect::<PyResult<Vec<Branch>>>()?;

@@ -97,6 +97,17 @@ pub(crate) fn fixed<const N: usize>(name: &str, array: &Numbers<'_>) -> PyResult
     }
 }
 
+/// Directions in which joints last moved are -1, 0 or 1; speeds or increments are none.
+pub(crate) fn judge_directions(rows: &[[f64; 6]]) -> PyResult<()> {
+    let is_none = |value: &&f64| ![-1.0, 0.0, 1.0].contains(*value);
+    match rows.iter().flatten().find(is_none) {
+        Some(value) => Err(PyValueError::new_err(format!(
+            "direction {value} is none of -1, 0 and 1: numpy.sign makes it one"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Poses, (n, 4, 4) or (4, 4), and whether it is one.
 pub(crate) fn poses(name: &str, array: &Numbers<'_>) -> PyResult<(Vec<Pose>, bool)> {
     let shape = array.shape();

@@ -1,6 +1,6 @@
 //! Measurements: `calibrate`, `validate`, `diagnose`, `plan`, `simulate`.
 
-use crate::arrays::{Array, Numbers, array, column, poses, rows};
+use crate::arrays::{Array, Numbers, array, column, judge_directions, poses, rows};
 use crate::document::Document;
 use crate::errors::Kind;
 use crate::profile::Profile;
@@ -406,6 +406,7 @@ pub(crate) fn simulate(
         seed,
     };
     let directions = each("direction", direction.as_ref(), q.len())?;
+    judge_directions(directions.as_deref().unwrap_or_default())?;
     let forces = each("force_n", force_n.as_ref(), q.len())?;
     let commands: Vec<Command> = q
         .iter()
@@ -484,6 +485,7 @@ pub(crate) fn measurements_of_arrays(
         .map(|array| column("sigma_m", array))
         .transpose()?;
     let directions = each::<6>("direction", direction.as_ref(), n)?;
+    judge_directions(directions.as_deref().unwrap_or_default())?;
     let counts = [
         ("what was measured", Some(observed.len())),
         ("sigma_m", sigma.as_ref().map(|all| all.len())),

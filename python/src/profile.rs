@@ -1,7 +1,7 @@
 //! Profiles.
 
 use crate::arm::Arm;
-use crate::arrays::{Array, Numbers, array, fixed};
+use crate::arrays::{Array, Numbers, array, fixed, judge_directions};
 use crate::errors::Kind;
 use poseshift::model::Conditions;
 use poseshift::model::profile::{SHIPPED, catalogue};
@@ -10,7 +10,7 @@ use poseshift::task::diagnose::Effect;
 use poseshift::task::fk::Which;
 use poseshift::task::profile::diff;
 use poseshift::task::{Document as _, ProfileFile};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -54,7 +54,10 @@ impl Profile {
     /// The profile in this file.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let bytes = std::fs::read(&path)?;
+        let bytes = std::fs::read(&path).map_err(|error| {
+            // OSError makes the class of the number
+            PyOSError::new_err((error.raw_os_error(), error.to_string(), path.clone()))
+        })?;
         let file = ProfileFile::read(&Source::new(path.to_string_lossy(), bytes))
             .map_err(|failure| Kind::Profile.raise(py, &failure))?;
         Ok(Self {
@@ -177,7 +180,10 @@ impl Profile {
                 return Err(PyValueError::new_err(format!("{name} is not finite")));
             }
         }
-        let direction = direction.map(|array| fixed("direction", &array));
+        let direction = direction.map(|array| {
+            let direction = fixed("direction", &array)?;
+            judge_directions(&[direction]).map(|()| direction)
+        });
         let force_n = force_n.map(|array| fixed("force_n", &array));
         let conditions = Conditions {
             direction: direction.transpose()?.unwrap_or_default(),

@@ -219,6 +219,10 @@ pub(crate) fn compensate<'py>(
             "max_shift must be two finite numbers above 0: mm and degrees",
         ));
     }
+    if max_derived_error_mm.is_some_and(|mm| !(mm.is_finite() && mm > 0.0)) {
+        let message = "max_derived_error_mm must be a finite number above 0";
+        return Err(PyValueError::new_err(message));
+    }
     let work_offset = work_offset.map(|array| one_pose("work_offset", &array));
     let options = Options {
         given: given(profile, tools, frames)?,

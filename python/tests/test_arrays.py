@@ -72,7 +72,7 @@ def test_wrong_joints_name_their_place(arm: ps.Arm, q_rad: Floats, change: objec
         arm.forward(change(q_rad))
 
 
-def test_wrong_poses_name_their_place(arm: ps.Arm, q_rad: Floats) -> None:
+def test_wrong_poses_name_their_place(arm: ps.Arm, profile: ps.Profile, q_rad: Floats) -> None:
     poses = arm.forward(q_rad[:5])
     bent = poses.copy()
     bent[3, 0, 0] += 0.1
@@ -93,6 +93,13 @@ def test_wrong_poses_name_their_place(arm: ps.Arm, q_rad: Floats) -> None:
     with pytest.raises((TypeError, ValueError)):
         arm.forward("six numbers")
     assert arm.solve(poses.astype(np.float32), near_rad=q_rad[:5]).converged.all()
+    for wrong in (float("nan"), 1.5, -1, [256]):
+        with pytest.raises(ValueError, match="is not a whole number from 0 to 7"):
+            arm.solve(poses[0], branch=wrong)
+    with pytest.raises(ValueError, match="direction 2 is none"):
+        profile.arm(direction=[0, 0, 2, 0, 0, 0])
+    with pytest.raises(ValueError, match="direction 0.5 is none"):
+        ps.simulate(profile, np.zeros((1, 6)), direction=[[0.5, 0, 0, 0, 0, 0]])
 
 
 def test_conditions_reach_the_model(profile: ps.Profile, q_rad: Floats) -> None:

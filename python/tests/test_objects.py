@@ -37,12 +37,27 @@ def test_errors_say_where_and_what_to_do(root: Path, profile: ps.Profile) -> Non
     with pytest.raises(ps.MeasurementError, match="not_a_number"):
         csv = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n1,2,3,4,5,6,not_a_number,2,3\n"
         ps.calibrate(profile, ps.Measurements.from_csv(csv.encode()))
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError) as missing:
         ps.Profile.load(root / "robots/none.yaml")
+    assert missing.value.filename == str(root / "robots/none.yaml")
     with pytest.raises(KeyError):
         ps.Profile.shipped("none")
     assert len(ps.Profile.names()) > 20
     assert ps.Profile.shipped("abb_irb120_thesis").to_yaml() == profile.to_yaml()
+
+
+def test_no_program_that_was_read_is_written_over(root: Path, profile: ps.Profile, tmp_path: Path) -> None:
+    place = tmp_path / "Deburr.mod"
+    place.write_bytes((root / "programs/rapid/olp/in/Deburr.mod").read_bytes())
+    before = place.read_bytes()
+    found = ps.compensate(place, profile, max_shift=[20, 2])
+    with pytest.raises(ValueError, match="would be written over"):
+        found.write(tmp_path)
+    assert place.read_bytes() == before
+    assert [path.name for path in found.write(tmp_path / "out")] == ["Deburr.mod"]
+    for wrong in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="max_derived_error_mm"):
+            ps.compensate(place, profile, max_derived_error_mm=wrong)
 
 
 def test_a_refused_program_has_findings_and_no_files(root: Path, profile: ps.Profile, tmp_path: Path) -> None:
@@ -115,7 +130,10 @@ def test_measurements_from_arrays_tables_and_files_are_the_same(profile: ps.Prof
     columns = {f"q{k + 1}_deg": np.rad2deg(q[:, k]) for k in range(6)}
     columns |= {name: position[:, k] * 1000 for k, name in enumerate(("x_mm", "y_mm", "z_mm"))}
     by_table = ps.Measurements.from_table(columns)
-    a, b = (ps.validate(profile, rows).document for rows in (by_arrays, by_table))
+    renamed = {"J1" if name == "q1_deg" else name: column for name, column in columns.items()}
+    named = ps.Measurements.from_table(renamed, columns="q1=J1", units="deg")
+    a, b, c = (ps.validate(profile, rows).document for rows in (by_arrays, by_table, named))
+    assert c["position"] == b["position"]
     assert a["rows"] == b["rows"] == 60
     assert a["position"]["real"]["max_mm"] < 1e-9
     assert b["position"]["real"]["max_mm"] < 1e-9
