@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -245,6 +246,18 @@ def test_a_robot_whose_files_are_not_there_has_no_answer_and_the_others_have(
         damage()
         assert main(run) == 2
         assert made.read_bytes() == whole
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="this system has no such names")
+def test_a_name_that_is_no_text_is_the_fault_of_its_robot(backups: Path) -> None:
+    os.rename(backups / "r1/Deburr.mod", os.fsencode(backups / "r1") + b"/Gr\xfcn.mod")
+    fleet = backups / "fleet.yaml"
+    fleet.write_text(fleet.read_text().replace("Deburr.mod", "*.mod"))
+    status, store = run(backups)
+    rows = {row["robot_id"]: row for row in _robots(store)}
+    assert status == 2
+    assert "no UTF-8" in rows["r1"]["message"]
+    assert rows["r0"]["status"] == "done"
 
 
 

@@ -130,8 +130,9 @@ def _named(robot: Robot) -> dict[str, list[tuple[str, str]]]:
     if robot.fault is not None:
         raise FaultError(robot.fault)
     for name in (*robot.programs, *robot.measurements):
-        if not name.isprintable() or any("\ud800" <= sign <= "\udfff" for sign in name):
-            raise FaultError(f"the name {ascii(name)} is no text that every system can have: rename the file")
+        # bytes that are no UTF-8 are surrogates
+        if any("\ud800" <= sign <= "\udfff" for sign in name):
+            raise FaultError(f"the name {ascii(name)} is no UTF-8: rename the file")
     common = [("profile", robot.profile)]
     cell = [("cell", robot.cell)] if robot.cell else []
     wanted = {
