@@ -238,16 +238,14 @@ impl Reader {
         // a FRAME alone with numbers is a position as well
         let is_inline = |operand: &&Operand| matches!(operand, Operand::Inline(_));
         let inline = operands.iter().filter(is_inline).count();
-        let at = match (positions.as_slice(), frames.as_slice()) {
-            ([at], _) => *at,
-            ([], [at]) if inline + 1 == operands.len() => *at,
-            _ => match self.displaced_one(operands, &positions) {
-                Some(at) => at,
-                None => {
-                    point.target = self.computed(!positions.is_empty());
-                    return;
-                }
-            },
+        let displaced = match (positions.as_slice(), frames.as_slice()) {
+            ([at], _) => Some(*at),
+            ([], [at]) if inline + 1 == operands.len() => Some(*at),
+            _ => self.displaced_one(operands, &positions),
+        };
+        let Some(at) = displaced else {
+            point.target = self.computed(!positions.is_empty());
+            return;
         };
         if let Some(Operand::Inline(last)) = operands[at + 1..].last()
             && self
