@@ -39,7 +39,7 @@ def test_errors_say_where_and_what_to_do(root: Path, profile: ps.Profile) -> Non
         ps.calibrate(profile, ps.Measurements.from_csv(csv.encode()))
     with pytest.raises(FileNotFoundError) as missing:
         ps.Profile.load(root / "robots/none.yaml")
-    assert missing.value.filename == str(root / "robots/none.yaml")
+    assert Path(missing.value.filename) == root / "robots/none.yaml"
     with pytest.raises(KeyError):
         ps.Profile.shipped("none")
     assert len(ps.Profile.names()) > 20
