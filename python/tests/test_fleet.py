@@ -260,7 +260,6 @@ def test_a_name_that_is_no_text_is_the_fault_of_its_robot(backups: Path) -> None
     assert rows["r0"]["status"] == "done"
 
 
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -242,8 +242,8 @@ impl Job<'_> {
                 "the tool rotates on this path as the joints of the wrist do: it was looked at as \
                  if it rotated evenly from beginning to end"
             } else if is_spline {
-                "the controller alone knows the curve of a spline, or of a row of arcs: its points are exact, between \
-                 them straight lines were looked at"
+                "the controller alone knows the curve of a spline, or of a row of arcs: its points are \
+                 exact, between them straight lines were looked at"
             } else {
                 "bounds between samples cannot be guaranteed here: the move passes near a \
                  singularity, external axes lean the base or begin nobody knows where, the \
