@@ -1,12 +1,14 @@
 //! The axes of positioners from circles of a reflector on the plate.
 
 use super::Circle;
-use crate::geometry::norm;
 use crate::geometry::units::{DEG, mm_from_m};
+use crate::geometry::{Pose as Motion, norm};
 use crate::identify::external::{column_of, from_files};
 use crate::model::external::Listed;
 use crate::model::profile::Profile;
 use crate::register::axes::positioner::{Found, PositionerError, Row as Seen, Sweep, find};
+use crate::register::frame_file::Sigma as Six;
+use crate::register::uncertainty::PoseCovariance;
 use crate::task::failure::Failure;
 use crate::task::parts::{Pose, Sigma};
 use crate::task::table::{Row, Table};
@@ -31,7 +33,8 @@ pub struct PositionerAxis {
     /// frame of the axis before. What a circle does not show, along and about the axis, is the
     /// profile's.
     pub at: Pose,
-    /// Its standard uncertainties; `null` where the noise is not known.
+    /// Its standard uncertainties: of the origin along the axes in which `at` is given, of rotations
+    /// about its own x, y and z; `null` where the noise is not known.
     pub at_sigma: Option<Sigma>,
     /// How far it is from where the profile has it.
     pub moved_mm: f64,
@@ -120,8 +123,19 @@ fn one(profile: &Profile, found: &Found, sweep: &Sweep) -> PositionerAxis {
         direction: found.circle.line.direction,
         circle: Circle::of(&found.circle, angles),
         at: (&found.at).into(),
-        at_sigma: found.covariance.as_ref().map(super::as_sigma),
+        at_sigma: found.covariance.as_ref().map(|of| sigma(of, &found.at)),
         moved_mm: mm_from_m(norm(gap.translation)),
         rotated_deg: gap.rotation.angle() / DEG,
     }
+}
+
+/// Of the origin as it is given, and of rotations about the axis's own axes.
+fn sigma(covariance: &PoseCovariance, at: &Motion) -> Sigma {
+    let position_m = covariance.sigma_at_m(covariance.centre_m);
+    let rotation_rad = [0, 1, 2].map(|k| covariance.rotation_sigma_about_rad(at.rotation.axis(k)));
+    (&Six {
+        position_m,
+        rotation_rad,
+    })
+        .into()
 }

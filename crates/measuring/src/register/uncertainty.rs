@@ -1,6 +1,6 @@
 //! What the noise of points does to a pose, and to points that the pose carries.
 
-use crate::geometry::{Rotation, Vector, sub};
+use crate::geometry::{Rotation, Vector, dot, sub};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 
 /// The covariance of a rigid motion: a small rotation vector ω (radians) and a small displacement τ
@@ -50,6 +50,13 @@ impl PoseCovariance {
     #[must_use]
     pub fn rotation_sigma_rad(&self) -> [f64; 3] {
         std::array::from_fn(|i| self.matrix[i][i].sqrt())
+    }
+
+    /// Standard uncertainty of the rotation about a unit vector of the frame mapped into, radians.
+    #[must_use]
+    pub fn rotation_sigma_about_rad(&self, axis: Vector) -> f64 {
+        let about = |i: usize| dot(axis, [0, 1, 2].map(|j| self.matrix[i][j]));
+        dot(axis, [0, 1, 2].map(about)).max(0.0).sqrt()
     }
 
     /// Covariance of a point of the frame mapped into (metres), from the motion alone, m².

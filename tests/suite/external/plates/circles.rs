@@ -1,6 +1,8 @@
 //! The axes of a positioner by the circles of one reflector.
 
 use super::*;
+use poseshift::geometry::{Pose, Rotation};
+use poseshift::register::axes::positioner::{Row, Sweep, find};
 
 /// A line along z of a frame.
 fn line(m: &M4) -> ([f64; 3], [f64; 3]) {
@@ -135,5 +137,69 @@ fn circles_of_a_reflector_give_the_axes_of_a_positioner() {
         let sweeps = csv.to_string_lossy();
         let reported = refused(&["axes", &sweeps], &[("--profile", &profile)]);
         assert!(reported.contains(says), "{reported}");
+    }
+}
+
+#[test]
+fn uncertainties_of_axes_are_the_scatter_of_what_is_found_again_and_again() {
+    let external = "external_axes:\n  positioners:\n    - name: s\n      axes:\n        \
+        - {axis: E1, at: {x_mm: 900, y_mm: 100, z_mm: 400, rx_deg: -90, ry_deg: 0, rz_deg: 20}, \
+        min_deg: -180, max_deg: 180}\n        \
+        - {axis: E2, at: {x_mm: 20, y_mm: -300, z_mm: 50, rx_deg: 90, ry_deg: 0, rz_deg: 0}, \
+        min_deg: -360, max_deg: 360}\n";
+    let axes = super::super::profile(external, &[]).external;
+    let (first, second) = (
+        axes.positioners[0].axes[0].at,
+        axes.positioners[0].axes[1].at,
+    );
+    let point = [0.25, 0.0, 0.1];
+    let mut random = StdRng::seed_from_u64(31);
+    let mut normal = move || (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
+    let mut sweep = |axis: usize| {
+        let rows = (0..25).map(|k| {
+            let turned = (-120.0 + 10.0 * f64::from(k)).to_radians();
+            let values = if axis == 0 {
+                vec![turned, 0.3]
+            } else {
+                vec![-0.4, turned]
+            };
+            let on_first = first * Pose::from_rotation(Rotation::about_z(values[0]));
+            let on_second = on_first * second * Pose::from_rotation(Rotation::about_z(values[1]));
+            let point_m = on_second.transform(point).map(|x| x + 3e-5 * normal());
+            Row { values, point_m }
+        });
+        let rows = rows.collect();
+        Sweep { axis, rows }
+    };
+    // by axis: three of the place, three of the rotation about its own axes
+    let mut squares = [[0.0; 6]; 2];
+    let mut stated = [[0.0; 6]; 2];
+    let count = 150;
+    for _ in 0..count {
+        let found = find(&axes, &[sweep(0), sweep(1)]).expect("axes");
+        for (k, (found, truth)) in found.iter().zip([first, second]).enumerate() {
+            let covariance = found.covariance.as_ref().expect("noise");
+            let place = covariance.sigma_at_m(covariance.centre_m);
+            let turned = (truth.inverse() * found.at).rotation.vector();
+            for i in 0..3 {
+                let off = found.at.translation[i] - truth.translation[i];
+                let about = covariance.rotation_sigma_about_rad(found.at.rotation.axis(i));
+                squares[k][i] += off * off;
+                squares[k][3 + i] += turned[i] * turned[i];
+                stated[k][i] += place[i] * place[i];
+                stated[k][3 + i] += about * about;
+            }
+        }
+    }
+    for (k, (squares, stated)) in squares.iter().zip(&stated).enumerate() {
+        for (i, (is, said)) in squares.iter().zip(stated).enumerate() {
+            let [is, said] = [is, said].map(|x| (x / f64::from(count)).sqrt());
+            if is < 1e-7 {
+                assert!(said < 1e-7, "{k} {i}: {said}");
+            } else {
+                let ratio = said / is;
+                assert!((0.8..1.25).contains(&ratio), "{k} {i}: {said} for {is}");
+            }
+        }
     }
 }

@@ -115,29 +115,75 @@ fn of_positioner(axes: &ExternalAxes, axis: usize) -> (&[RotaryAxis], usize) {
 pub fn find(axes: &ExternalAxes, sweeps: &[Sweep]) -> Result<Vec<Found>, PositionerError> {
     let mut sorted: Vec<&Sweep> = sweeps.iter().collect();
     sorted.sort_by_key(|sweep| sweep.axis);
-    let mut found: Vec<Found> = Vec::new();
-    for sweep in sorted {
-        let one = of_sweep(axes, sweep, &found)?;
-        found.push(one);
+    let each = sorted.iter().enumerate();
+    each.map(|(n, sweep)| of_sweep(axes, sweep, &sorted[..n]))
+        .collect()
+}
+
+/// The axis of a sweep and those before it that were swept, by the points of all these sweeps.
+struct Chain<'a> {
+    own: &'a [RotaryAxis],
+    first: usize,
+    /// One of each axis that was swept, in the order of the axes.
+    sweeps: Vec<&'a Sweep>,
+}
+
+impl Chain<'_> {
+    /// By what an axis is turned in the rows of a sweep.
+    fn turned(&self, sweep: &Sweep, k: usize) -> Vec<f64> {
+        let values = sweep.rows.iter().map(|row| row.values[self.first + k]);
+        let RotaryAxis { sign, zero_rad, .. } = &self.own[k];
+        values.map(|e| sign * (e - zero_rad)).collect()
     }
-    Ok(found)
+
+    /// Where the axis of the last sweep is, and its circle, from these points of all.
+    fn place(&self, points: &[Vector]) -> Result<(Pose, Circle), FeatureError> {
+        let mut found: Vec<(usize, Pose)> = Vec::new();
+        let mut rest = points;
+        let mut last = None;
+        for sweep in &self.sweeps {
+            let (points, behind) = rest.split_at(sweep.rows.len());
+            rest = behind;
+            let index = sweep.axis - self.first;
+            // the frame of the axis before, as it stands in this sweep
+            let mut carrier = Pose::identity();
+            for k in 0..index {
+                let known = found.iter().find(|(axis, _)| *axis == k);
+                let at = known.map_or(self.own[k].at, |(_, at)| *at);
+                let turn = Rotation::about_z(self.turned(sweep, k)[0]);
+                carrier = carrier * at * Pose::from_rotation(turn);
+            }
+            let circle = Circle::of(points, &self.turned(sweep, index))?;
+            let nominal = carrier * self.own[index].at;
+            let at = carrier.inverse() * moved_to(&nominal, &circle.line);
+            found.push((index, at));
+            last = Some((at, circle));
+        }
+        Ok(last.expect("its own sweep"))
+    }
 }
 
 fn of_sweep(
     axes: &ExternalAxes,
     sweep: &Sweep,
-    before: &[Found],
+    before: &[&Sweep],
 ) -> Result<Found, PositionerError> {
     let (own, first) = of_positioner(axes, sweep.axis);
     let index = sweep.axis - first;
     let name = |k: usize| own[k].axis.clone();
     let axis = name(index);
-    let turned = |k: usize| -> Vec<f64> {
-        let values = sweep.rows.iter().map(|row| row.values[first + k]);
-        values
-            .map(|e| own[k].sign * (e - own[k].zero_rad))
-            .collect()
+    let is_before = |of: &&&Sweep| (first..sweep.axis).contains(&of.axis);
+    let chain = Chain {
+        own,
+        first,
+        sweeps: before
+            .iter()
+            .filter(is_before)
+            .copied()
+            .chain([sweep])
+            .collect(),
     };
+    let turned = |k: usize| chain.turned(sweep, k);
     for other in (0..own.len()).filter(|k| *k != index) {
         let moved_rad = span(&turned(other));
         if moved_rad.is_nan() || moved_rad > STILL_RAD {
@@ -158,21 +204,13 @@ fn of_sweep(
             limit_deg: SHORT_RAD.to_degrees(),
         });
     }
-    // the frame of the axis before, as it stands in this sweep
-    let mut carrier = Pose::identity();
-    for k in 0..index {
-        let known = before.iter().find(|found| found.axis == first + k);
-        let at = known.map_or(own[k].at, |found| found.at);
-        carrier = carrier * at * Pose::from_rotation(Rotation::about_z(turned(k)[0]));
-    }
-    let points: Vec<Vector> = sweep.rows.iter().map(|row| row.point_m).collect();
     let failed = |error| PositionerError::Circle {
         axis: axis.clone(),
         error,
     };
-    let nominal = carrier * own[index].at;
-    let at = |circle: &Circle| carrier.inverse() * moved_to(&nominal, &circle.line);
-    let circle = Circle::of(&points, &angle).map_err(failed)?;
+    let points_of = |of: &&Sweep| of.rows.iter().map(|row| row.point_m).collect::<Vec<_>>();
+    let points: Vec<Vector> = chain.sweeps.iter().flat_map(points_of).collect();
+    let (at, circle) = chain.place(&points).map_err(failed)?;
     if circle.is_unlike(&angle) {
         return Err(PositionerError::Unlike {
             axis,
@@ -180,17 +218,22 @@ fn of_sweep(
             commanded_deg: turned_rad.to_degrees(),
         });
     }
-    let covariance = match circle.noise_m {
-        None => None,
-        Some(noise) => {
-            let sigmas = vec![noise; points.len()];
-            let place = |points: &[Vector]| Ok(at(&Circle::of(points, &angle)?));
-            Some(propagate(&points, &sigmas, place).map_err(failed)?)
-        }
+    // of each point the noise of its own circle
+    let noise_of = |of: &&Sweep| {
+        let own = Circle::of(&points_of(of), &chain.turned(of, of.axis - first)).ok()?;
+        Some(vec![own.noise_m?; of.rows.len()])
     };
+    let sigmas: Option<Vec<_>> = chain.sweeps.iter().map(noise_of).collect();
+    let covariance = sigmas
+        .map(|sigmas| {
+            let place = |points: &[Vector]| chain.place(points).map(|(at, _)| at);
+            propagate(&points, &sigmas.concat(), place)
+        })
+        .transpose()
+        .map_err(failed)?;
     Ok(Found {
         axis: sweep.axis,
-        at: at(&circle),
+        at,
         covariance,
         circle,
     })
