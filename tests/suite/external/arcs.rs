@@ -8,9 +8,11 @@ use super::landing::{inverse, joints};
 use super::measured::put;
 use super::programs::{Said, numbers_of, pose_of};
 use super::{rapid, run, tool, written};
+use crate::physics::external::Rail;
 use crate::physics::matrix::{M4, frame, times, turn_x, turn_z};
 use crate::physics::{Moment, tool_pose};
 use crate::support::{poseshift, scratch, text};
+use crate::trial::truth::robot_of;
 use poseshift::model::profile::Profile;
 
 /// Where the rail stands at the ends, metres.
@@ -370,4 +372,82 @@ fn a_rail_with_backlash_comes_to_the_point_as_it_goes_on_the_arc() {
     let passed = ENDS[0] + PART * (ENDS[1] - ENDS[0]);
     // written behind the beginning, as if the rail went back
     assert_eq!(point(0.3), point(passed));
+}
+
+#[test]
+fn the_point_is_corrected_for_where_the_arc_through_the_written_points_passes_it() {
+    let external = "external_axes:\n  track: [{axis: E1, direction: [1, 0, 0], min_mm: 0, max_mm: \
+        3000}]\n";
+    let ripple = "{effect: track_ripple, axis: 1, along: x, period_mm: 25, cos_mm: 0, sin_mm: 0.2}";
+    let profile = super::profile(external, &[ripple]);
+    let rail = Rail {
+        direction: [1.0, 0.0, 0.0],
+        up: [0.0, 0.0, 1.0],
+        zero: 0.0,
+        low: 0.0,
+        high: 3.0,
+        faults: Vec::new(),
+    };
+    let plain = robot_of(&profile, &tool());
+    let start = at(&plain, &rail, 1.525);
+    let q_deg = [0.0, 20.0, -10.0, 0.0, 60.0, 0.0];
+    let pose = tool_pose(&start, &[], &q_deg.map(f64::to_radians), &Moment::default());
+    let numbers = numbers_of(Said::Krl, &pose);
+    let point = |by: [f64; 2], e: f64| {
+        let n = &numbers;
+        format!(
+            "{{X {:.4},Y {:.4},Z {:.4},A {:.5},B {:.5},C {:.5},E1 {e:.3}}}",
+            n[0] + by[0],
+            n[1] + by[1],
+            n[2],
+            n[3],
+            n[4],
+            n[5]
+        )
+    };
+    let ends = [1525.0, 1625.0];
+    let text = format!(
+        "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 20,A3 -10,A4 0,A5 60,A6 0,E1 1525}}\nLIN \
+         {}\nCIRC {},{}\nEND\n",
+        point([0.0, 0.0], ends[0]),
+        point([15.0, 8.660_254], ends[0] + 200.0 / 3.0),
+        point([20.0, 0.0], ends[1])
+    );
+    let done = written(&profile, &[("t.src", &text)]);
+    let found: Vec<[f64; 3]> = done
+        .split("{X ")
+        .skip(1)
+        .map(|rest| {
+            let all = rest.split([',', ' ']);
+            [0, 2, 4].map(|at: usize| {
+                let mut own = all.clone();
+                own.nth(at).expect("a number").parse().expect("a number")
+            })
+        })
+        .collect();
+    let [from, via, end] = found[..] else {
+        panic!("{done}")
+    };
+    // the angles at the centre of the circle through the three, in its plane
+    let sub = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i: usize| a[i] - b[i]);
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
+    let (a, b) = (sub(via, from), sub(end, from));
+    let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
+    let area = 2.0 * (aa * bb - ab * ab);
+    let (s, t) = (bb * (aa - ab) / area, aa * (bb - ab) / area);
+    let centre = [0, 1, 2].map(|i: usize| from[i] + s * a[i] + t * b[i]);
+    let turned = |to: [f64; 3]| {
+        let (one, two) = (sub(from, centre), sub(to, centre));
+        (dot(one, two) / (dot(one, one) * dot(two, two)).sqrt()).acos()
+    };
+    // the end lies about half a circle from the beginning, on either side
+    let whole = turned(via) + {
+        let (one, two) = (sub(via, centre), sub(end, centre));
+        (dot(one, two) / (dot(one, one) * dot(two, two)).sqrt()).acos()
+    };
+    let e = ends[0] + turned(via) / whole * (ends[1] - ends[0]);
+    let off = 0.2 * (std::f64::consts::TAU * (e - 1500.0) / 25.0).sin();
+    let wanted = [numbers[0] + 15.0, numbers[1] + 8.660_254];
+    let miss = (via[0] + off - wanted[0]).hypot(via[1] - wanted[1]);
+    assert!(miss < 0.003, "{miss}: {done}");
 }

@@ -1,8 +1,9 @@
 //! What something else carries or moves is refused, each with its reason: conveyors, other robots,
 //! groups without geometry, a seventh joint.
 
-use super::programs::{Said, numbers_of};
-use super::{profile, profile_at_home, rapid, run, tool};
+use super::landing::inverse;
+use super::programs::{Said, numbers_of, pose_of, written_numbers};
+use super::{profile, profile_at_home, rapid, run, tool, written};
 use crate::physics::external::{Rail, carried};
 use crate::physics::matrix::{shift, times, turn_z};
 use crate::physics::{Moment, Robot, tool_pose};
@@ -292,4 +293,104 @@ fn a_base_elsewhere_is_refused_where_the_controller_counts_from_its_own() {
         assert_eq!(is_refused(base, "t.script", script), of_script, "{base:?}");
         assert_eq!(is_refused(base, "T.JBI", job), of_job, "{base:?}");
     }
+}
+
+#[test]
+fn robot_coordinates_of_inform_stand_where_the_base_does_and_ride_on_the_rail() {
+    let external = "external_axes:\n  track: [{axis: BC1, direction: [0.6, 0.8, 0], min_mm: 0, \
+        max_mm: 2000}]\n";
+    let robot = profile(external, &[ARM, "{effect: base_frame, x_mm: 1}"]);
+    let truth = robot_of(&robot, &tool());
+    let rail = Rail {
+        direction: [0.6, 0.8, 0.0],
+        up: [0.0, 0.0, 1.0],
+        zero: 0.0,
+        low: 0.0,
+        high: 2.0,
+        faults: Vec::new(),
+    };
+    let q_deg = [30.0, 20.0, -10.0, 15.0, 60.0, 20.0];
+    let base = carried(&rail, &truth.base, 0.5, 1.0);
+    let there = Robot {
+        base,
+        ..truth.clone()
+    };
+    let place = tool_pose(&there, &[], &q_deg.map(f64::to_radians), &Moment::default());
+    let fake = |system: &str, pose: &[[f64; 4]; 4]| {
+        let numbers = numbers_of(Said::Inform, pose);
+        let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:.5}")).collect();
+        let numbers = numbers.join(",");
+        let job = format!(
+            "/JOB\n//NAME T\n//POS\n///NPOS 2,2,0,0,0,0\n///TOOL 1\n///POSTYPE ANGLE\n///ANGLE\n\
+             C00000=30,20,-10,15,60,20\nBC00000=500\n///TOOL 1\n///POSTYPE {system}\n///RECTAN\n\
+             ///RCONF 0,0,0,0,0,0,0,0\nC00001={numbers}\nBC00001=500\n//INST\n///DATE \
+             2024/01/01 10:00\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 BC00000 VJ=5.00\n\
+             MOVL C00001 BC00001 V=30.0\nEND\n"
+        );
+        let text = written(&robot, &[("T.JBI", &job)]);
+        pose_of(Said::Inform, &written_numbers(Said::Inform, &text)[0])
+    };
+    let in_base = fake("BASE", &place);
+    let in_robot = times(&base, &fake("ROBOT", &times(&inverse(&base), &place)));
+    let moved = [0, 1, 2].map(|i: usize| (in_base[i][3] - place[i][3]).abs());
+    assert!(moved.iter().sum::<f64>() > 1e-3, "{moved:?}");
+    for i in 0..3 {
+        for j in 0..4 {
+            let apart = (in_base[i][j] - in_robot[i][j]).abs();
+            assert!(apart < 5e-6, "{i} {j}: {apart}");
+        }
+    }
+}
+
+#[test]
+fn what_a_relative_move_of_krl_adds_goes_onto_a_value_that_was_kept() {
+    let external = "external_axes:\n  track: [{axis: E1, direction: [1, 0, 0], min_mm: 0, max_mm: \
+        3000}]\n";
+    let robot = profile(
+        external,
+        &[ARM, "{effect: track_scale, axis: 1, ratio: 0.001}"],
+    );
+    let rail = Rail {
+        direction: [1.0, 0.0, 0.0],
+        up: [0.0, 0.0, 1.0],
+        zero: 0.0,
+        low: 0.0,
+        high: 3.0,
+        faults: Vec::new(),
+    };
+    let truth = robot_of(&robot, &tool());
+    let there = Robot {
+        base: carried(&rail, &truth.base, 0.15, 1.0),
+        ..truth
+    };
+    let q_deg = [0.0, 10.0, -10.0, 0.0, 60.0, 0.0];
+    let pose = tool_pose(&there, &[], &q_deg.map(f64::to_radians), &Moment::default());
+    let n = numbers_of(Said::Krl, &pose);
+    let target = |x: f64| {
+        let along = n[0] + x;
+        format!(
+            "X {along:.4},Y {:.4},Z {:.4},A {:.5},B {:.5},C {:.5}",
+            n[1], n[2], n[3], n[4], n[5]
+        )
+    };
+    let text = |kept: &str, last: &str| {
+        format!(
+            "DEF t()\n$TOOL=TOOL_DATA[1]\n$BASE=$WORLD\nPTP {{A1 0,A2 10,A3 -10,A4 0,A5 60,A6 0,E1 \
+             150}}\nLIN {{{}{kept}}}\nLIN_REL {{X 10,E1 10}}\nLIN_REL {{X 10,E1 10}}\nLIN \
+             {{{}{last}}}\nEND\n",
+            target(0.0),
+            target(40.0)
+        )
+    };
+    let first = |done: &str| -> Vec<String> {
+        let lines = done.lines().filter(|line| line.starts_with("LIN {X"));
+        lines
+            .map(|line| line.split(",E1").next().expect("numbers").replace('}', ""))
+            .collect()
+    };
+    let kept = written(&robot, &[("t.src", &text("", ""))]);
+    let said = written(&robot, &[("t.src", &text(",E1 150", ",E1 170"))]);
+    let other = written(&robot, &[("t.src", &text(",E1 150", ",E1 160"))]);
+    assert_eq!(first(&kept), first(&said));
+    assert_ne!(first(&kept), first(&other));
 }

@@ -15,6 +15,7 @@ use crate::motion::course::{Course, ToolCourse, ToolRotation};
 use crate::motion::external;
 use crate::motion::ground::Ground;
 use crate::motion::leg::Leg;
+use crate::motion::passed::Fakes;
 use crate::motion::placed::Placed;
 use crate::motion::plausibility;
 use crate::motion::ride::{Ride, through};
@@ -176,6 +177,7 @@ impl Walk {
             sources,
             (profile, plates),
             (&options.given, &options.start_external),
+            &Fakes::new(),
             &mut findings,
         );
         let has_numbers = |program: &Program, motion: &Move| {

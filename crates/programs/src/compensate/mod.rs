@@ -86,6 +86,7 @@ pub use crate::inverse::Methods;
 use crate::inverse::Unsupported;
 use crate::model::effects::Effect;
 use crate::motion::ground::Ground;
+use crate::motion::passed::Fakes;
 use crate::motion::sides::{self, LEAST_SIDE_M};
 use crate::motion::walk::{self, WalkOptions};
 pub use crate::motion::{Given, GivenError, MeasuredFrameError, PlacementError};
@@ -93,7 +94,7 @@ use crate::motion::{external, plausibility, setting, unreached};
 use crate::profile::Profile;
 pub use crate::program::meaning;
 use crate::program::{Language, Move, ReadError, Source, sha256};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far points that are derived from a target may land off their wanted pose by default, metres.
 const LIMIT_DERIVED_M: f64 = 0.05 * MM;
@@ -293,7 +294,25 @@ struct Job<'a> {
     ground: Ground<'a>,
     options: &'a Options,
     limits: Limits,
+    /// Targets of arcs on which external axes move.
+    ridden: BTreeSet<usize>,
 }
+
+/// Where the controller passes the points of arcs on which external axes move follows from their fake
+/// targets, and these from where it passes them.
+#[derive(Default)]
+struct Rounds {
+    /// The fake targets of the last round.
+    fakes: Fakes,
+    /// Whether there are such arcs.
+    is_ridden: bool,
+    /// Part of a trial, which asks nothing of other profiles itself.
+    is_trial: bool,
+}
+
+/// Rounds in which the fake targets of such arcs and the places where they are passed are found: the
+/// corrections of two places hardly differ, so each leaves little of what the one before was off.
+const MOST_ROUNDS: usize = 3;
 
 /// Computes fake targets for a program and the edits that put them in its files.
 ///
@@ -310,16 +329,23 @@ pub fn compensate(
     profile: &Profile,
     options: &Options,
 ) -> Result<Compensation, CompensateError> {
-    with(language, sources, profile, options, false)
+    let mut rounds = Rounds::default();
+    for _ in 1..MOST_ROUNDS {
+        let done = with(language, sources, profile, options, &mut rounds)?;
+        if !rounds.is_ridden {
+            return Ok(done);
+        }
+    }
+    with(language, sources, profile, options, &mut rounds)
 }
 
-/// As [`compensate`]; a trial asks nothing of other profiles itself.
+/// A round of [`compensate`].
 fn with(
     language: &dyn Language,
     sources: &[Source],
     profile: &Profile,
     options: &Options,
-    is_trial: bool,
+    rounds: &mut Rounds,
 ) -> Result<Compensation, CompensateError> {
     let settings = external::settings_of(profile, options.accept_absolutely_accurate);
     // the files are hashed while they are read
@@ -341,14 +367,16 @@ fn with(
     }
     let joints = options.correct_joint_targets;
     context::leave(&mut program, sources, joints, &mut findings);
-    external::settle(
+    let ridden = external::settle(
         (language, &settings),
         &mut program,
         sources,
         (profile, &[]),
         (&options.given, &options.start_external),
+        &rounds.fakes,
         &mut findings,
     );
+    rounds.is_ridden = !ridden.is_empty();
     setting::check_measured(&program, &options.given)?;
     setting::check_given(language, profile, &[&program], &options.given)?;
     unreached::leave(
@@ -399,6 +427,7 @@ fn with(
         ground,
         options,
         limits,
+        ridden,
     };
     let walk_options = WalkOptions {
         start_joints: options.start_joints,
@@ -409,9 +438,14 @@ fn with(
     };
     let arrivals = walk::walk(&job.ground, &walk_options, &mut findings);
     let mut approaches = approach::gather(&job, &arrivals, &mut findings);
-    if !is_trial {
+    if !rounds.is_trial {
         let strange = strange::look(&job, &findings, &|profile: &Profile| {
-            with(language, sources, profile, options, true).map(|found| found.findings)
+            let mut trial = Rounds {
+                is_trial: true,
+                ..Rounds::default()
+            };
+            let found = with(language, sources, profile, options, &mut trial);
+            found.map(|found| found.findings)
         });
         findings.extend(strange?);
     }
@@ -458,6 +492,8 @@ fn with(
     limit::advise(&mut findings, &needed);
     let derived_off = displaced::check(&job, &derived, &approaches, &fakes, &mut findings);
     deciding::check(&job, &shifts, &mut findings);
+    rounds.fakes = fakes;
+    rounds.fakes.retain(|target, _| job.ridden.contains(target));
     drop((approaches, outcomes));
     outcome::name_places(&job, &mut targets);
     let (compensated, summary) = tally.finish();

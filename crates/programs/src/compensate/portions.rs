@@ -102,7 +102,10 @@ impl Rewritten {
         for portion in portions {
             for (target, report) in portion.reports {
                 self.tally.add(job, target, &report);
-                if let Some(fake) = report.fake.filter(|_| portion.bases.contains(&target)) {
+                if let Some(fake) = report
+                    .fake
+                    .filter(|_| portion.bases.contains(&target) || job.ridden.contains(&target))
+                {
                     self.fakes.insert(target, fake);
                 }
                 // a target that is written out at its moves keeps its numbers

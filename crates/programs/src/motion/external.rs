@@ -9,7 +9,7 @@
 //! frames only, and that a wanted pose of the real arm is another than the nominal one's.
 
 use super::external_values::{CameFrom, Known, directed, followed, has_backlash, width};
-use super::passed::Arcs;
+use super::passed::{Arcs, Fakes};
 use super::setting::{Given, Setting};
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
@@ -20,9 +20,9 @@ use crate::profile::Profile;
 use crate::program::script::short;
 use crate::program::{
     ExternalNames, ExternalState, Frame, FrameId, Language, Move, Program, Settings, Shape, Source,
-    Stand,
+    Stand, TargetId,
 };
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// How far beyond its limits a value may be: files round. Metres and radians.
 const BORDER: f64 = 1e-6;
@@ -37,6 +37,8 @@ pub fn settings_of(profile: &Profile, accept_absolutely_accurate: bool) -> Setti
     let ignored = ignored.map(|axis| axis.axis.clone());
     Settings {
         world_from_base: (external.track.is_empty()).then(|| profile.world_from_foot()),
+        world_from_base_at_home: (external.listed().next().is_some())
+            .then_some(profile.world_from_base),
         gravity_m_s2: (profile.real_effects().iter())
             .any(|of| !of.is_zero() && of.definition().needs.contains(&Need::Masses))
             .then_some(profile.gravity_m_s2),
@@ -80,15 +82,16 @@ pub(crate) fn settle(
     sources: &[Source],
     (profile, positioners): (&Profile, &[usize]),
     (given, start): (&Given, &[f64]),
+    fakes: &Fakes,
     findings: &mut Vec<Finding>,
-) {
+) -> BTreeSet<TargetId> {
     program.stands_at_start = start.iter().copied().map(Some).collect();
     let axes: Vec<Listed> = profile.external.listed().collect();
     if axes.is_empty() && !program.frames.iter().any(Frame::is_carried) {
-        return;
+        return BTreeSet::new();
     }
-    let own = own_values(language, program, &axes);
-    let mut values = followed(program, &own, axes.len());
+    let (own, added) = own_values(language, program, &axes);
+    let mut values = followed(program, &own, &added, axes.len());
     let arcs = Arcs {
         language,
         settings,
@@ -97,8 +100,9 @@ pub(crate) fn settle(
         profile,
         setting: Setting::of(language, program, profile, given),
         axes: &axes,
+        fakes,
     };
-    arcs.pass(&own, &mut values, findings);
+    let ridden = arcs.pass(&own, &mut values, findings);
     let directions = directed(program, profile, &values, axes.len());
     let is = |known: &Known| match known {
         Known::Is(value) => Some(*value),
@@ -130,10 +134,16 @@ pub(crate) fn settle(
         let range = at..at + axes.len();
         settler.motion(motion, &values[range.clone()], &directions[range]);
     }
+    ridden
 }
 
-/// What each move says itself of each axis, in metres and radians; `None` where it says nothing.
-fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Vec<Option<f64>> {
+/// What each move says itself of each axis, in metres and radians; `None` where it says nothing. Next
+/// to it what it adds to a value that is kept.
+fn own_values(
+    language: &dyn Language,
+    program: &Program,
+    axes: &[Listed],
+) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
     let offset_of: Vec<Option<usize>> = axes
         .iter()
         .map(|axis| {
@@ -144,6 +154,7 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
         })
         .collect();
     let mut own = vec![None; program.moves.len() * axes.len()];
+    let mut added = vec![None; own.len()];
     let each = own.chunks_mut(axes.len().max(1));
     for (at, (motion, slots)) in program.moves.iter().zip(each).enumerate() {
         let of_target = match motion.target {
@@ -164,8 +175,16 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
             slots[usize::from(external.axis)] = Some(external.value);
         }
         for (_, shift) in part_of(&program.external_shifts, motion.instruction) {
-            let slot = &mut slots[usize::from(shift.axis)];
-            *slot = Some(slot.map_or(f64::NAN, |value| value + shift.value));
+            let k = usize::from(shift.axis);
+            match &mut slots[k] {
+                Some(value) => *value += shift.value,
+                kept => {
+                    let by = in_si(&axes[k], shift.value);
+                    added[at * axes.len() + k] = Some(by);
+                    // an amount that nobody knows
+                    *kept = by.is_nan().then_some(by);
+                }
+            }
         }
         let state = state_of(program, motion);
         for (k, ((slot, axis), name)) in slots.iter_mut().zip(axes).zip(&offset_of).enumerate() {
@@ -173,16 +192,19 @@ fn own_values(language: &dyn Language, program: &Program, axes: &[Listed]) -> Ve
             if state.off & 1 << k != 0 {
                 *slot = Some(f64::NAN);
             }
-            *slot = slot.map(|value| {
-                if axis.is_linear() {
-                    m_from_mm(value + by)
-                } else {
-                    (value + by) * DEG
-                }
-            });
+            *slot = slot.map(|value| in_si(axis, value + by));
         }
     }
-    own
+    (own, added)
+}
+
+/// A value of an axis in metres or radians, from millimetres or degrees.
+fn in_si(axis: &Listed, value: f64) -> f64 {
+    if axis.is_linear() {
+        m_from_mm(value)
+    } else {
+        value * DEG
+    }
 }
 
 /// What the program does to external axes besides the target of a move.

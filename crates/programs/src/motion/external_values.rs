@@ -19,6 +19,13 @@ pub(super) enum Known {
 }
 
 impl Known {
+    fn plus(self, by: f64) -> Self {
+        match self {
+            Self::Is(value) => Self::Is(value + by),
+            other => other,
+        }
+    }
+
     fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Open, known) | (known, Self::Open) => known,
@@ -70,7 +77,13 @@ impl CameFrom {
 }
 
 /// The value of each axis at each move, kept from the moves before where it says nothing itself.
-pub(super) fn followed(program: &Program, own: &[Option<f64>], count: usize) -> Vec<Known> {
+/// `added` is what relative moves add to one that is kept, in all since the last move that is none.
+pub(super) fn followed(
+    program: &Program,
+    own: &[Option<f64>],
+    added: &[Option<f64>],
+    count: usize,
+) -> Vec<Known> {
     let mut values: Vec<Known> = own
         .iter()
         .map(|value| match value {
@@ -106,15 +119,26 @@ pub(super) fn followed(program: &Program, own: &[Option<f64>], count: usize) -> 
                 if own[here].is_some() {
                     continue;
                 }
+                let by_here = added[here].unwrap_or(0.0);
                 let mut value = Known::Open;
                 for (_, to) in led_by.iter().filter(|(of, _)| !is_own(of)) {
-                    value = value.and(to[k]);
+                    value = value.and(to[k].plus(by_here));
                 }
                 match stood_with_axes(program, at) {
-                    Some(stood) => value = value.and(values[stood * count + k]),
+                    Some(stood) => {
+                        value = value.and(values[stood * count + k].plus(by_here));
+                    }
                     None => {
                         for before in program.before(motion) {
-                            value = value.and(from_of(program, &values, before, (k, count)));
+                            let from = from_of(program, &values, before, (k, count));
+                            let by = match before {
+                                // both add to the same place
+                                Before::One(before) if added[here].is_some() => {
+                                    added[*before as usize * count + k]
+                                }
+                                _ => None,
+                            };
+                            value = value.and(from.plus(by_here - by.unwrap_or(0.0)));
                         }
                     }
                 }

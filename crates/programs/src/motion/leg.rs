@@ -13,6 +13,8 @@ use std::sync::Arc;
 const SHORTEST: f64 = 1.0 / 512.0;
 /// Pieces in which a joint with backlash may turn back are not shorter.
 const SHORTEST_TURN: f64 = 1.0 / 256.0;
+/// The part of a piece about its middle in which rates are bounded for the middle.
+const MIDDLE_PART: f64 = 1.0 / 32.0;
 /// A joint whose rate is less than this stands, radians per metre.
 pub(super) const STANDSTILL_RAD_M: f64 = 1e-3;
 /// A joint that moves by less keeps the direction in which it moved before, radians.
@@ -230,7 +232,10 @@ impl Leg<'_> {
         piece.certified &= piece.holds(near) && piece.holds(&end);
         piece.start = *near;
         let long = to - from;
-        let sides = self.sides(&piece, stands);
+        let mut sides = self.sides(&piece.joints, stands);
+        if piece.certified && sides.iter().any(|sides| sides.len() > 1) {
+            sides = self.sides(&self.narrowed(&piece, &middle), stands);
+        }
         let is_one_sided = sides.iter().all(|sides| sides.len() == 1);
         let steady = piece.joints.iter().all(|joint| {
             let change = joint.bend.magnitude() * long;
@@ -256,13 +261,32 @@ impl Leg<'_> {
 }
 
 impl Leg<'_> {
-    /// From which sides each joint may come in a piece. A joint that stands on the whole move keeps
-    /// the side that it has at its end.
-    fn sides(&self, piece: &Piece, stands: [bool; 6]) -> [Vec<f64>; 6] {
+    /// The joints in a piece with rates that are those in its middle and what they change by from
+    /// there, where these bounds are the narrower ones.
+    fn narrowed(&self, piece: &Piece, middle: &[f64; 6]) -> [Jet; 6] {
+        let (half, at) = (0.5 * (piece.to - piece.from), 0.5 * (piece.from + piece.to));
+        let near = MIDDLE_PART * half;
+        let inner = self.enclose(at - near, at + near, middle);
+        let mut joints = piece.joints;
+        if !inner.certified || !inner.holds(middle) {
+            return joints;
+        }
+        for (joint, inner) in joints.iter_mut().zip(&inner.joints) {
+            let radius = inner.slope.radius + joint.bend.magnitude() * half;
+            if radius < joint.slope.radius {
+                (joint.slope.middle, joint.slope.radius) = (inner.slope.middle, radius);
+            }
+        }
+        joints
+    }
+
+    /// From which sides each joint may come in a piece where they are so. A joint that stands on the
+    /// whole move keeps the side that it has at its end.
+    fn sides(&self, joints: &[Jet; 6], stands: [bool; 6]) -> [Vec<f64>; 6] {
         let Course::Tool(_) = &self.course else {
             return self.conditions.direction.map(|side| vec![side]);
         };
-        let turning = self.equipped.mechanism.commanded(&piece.joints);
+        let turning = self.equipped.mechanism.commanded(joints);
         std::array::from_fn(|i| {
             let slope = &turning[i].slope;
             let (low, high) = (slope.middle - slope.radius, slope.middle + slope.radius);

@@ -21,19 +21,27 @@ use crate::model::external::Listed;
 use crate::profile::Profile;
 use crate::program::script::short;
 use crate::program::{
-    Before, Displacement, FrameId, Language, Motion, Program, Settings, Source, Stand, Value,
+    Before, Displacement, FrameId, Language, Motion, Program, Settings, Source, Stand, TargetId,
+    Value,
 };
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Values that differ by less are the same: metres, and radians.
 const SAME_M: f64 = 1e-3;
 const SAME_RAD: f64 = 0.1 * DEG;
 
-/// An arc through a point: the moves where it begins and ends, and the part of it at the point.
+/// An arc through a point: the moves where it begins and ends, and the part of it at the point; that
+/// of the arc through the fake targets too, where these are known.
 struct Arc {
     start: usize,
     end: usize,
     part: f64,
+    fake_part: f64,
 }
+
+/// The fake targets of arcs on which external axes move, in their work frames: the controller passes
+/// the point at another part of the arc through these.
+pub(crate) type Fakes = BTreeMap<TargetId, Pose>;
 
 /// The arcs of a program.
 pub(super) struct Arcs<'a> {
@@ -44,18 +52,20 @@ pub(super) struct Arcs<'a> {
     pub profile: &'a Profile,
     pub setting: Setting,
     pub axes: &'a [Listed<'a>],
+    pub fakes: &'a Fakes,
 }
 
 impl Arcs<'_> {
     /// Puts the values with which arcs pass their points in the place of those that are written, or
-    /// kept where nothing is.
+    /// kept where nothing is. The targets of the arcs on which an axis moves.
     pub(super) fn pass(
         &self,
         own: &[Option<f64>],
         values: &mut [Known],
         findings: &mut Vec<Finding>,
-    ) {
+    ) -> BTreeSet<TargetId> {
         let count = self.axes.len();
+        let mut ridden = BTreeSet::new();
         for via in 0..self.program.moves.len() {
             let arcs = self.through(via, values);
             let mut is_reported = false;
@@ -68,17 +78,26 @@ impl Arcs<'_> {
                     Known::Is(value) => Some(value),
                     _ => None,
                 };
-                let passed = arcs.iter().filter_map(|arc| {
+                let ends = arcs.iter().filter_map(|arc| {
                     let (from, to) = (value(arc.start)?, value(arc.end)?);
-                    Some(from + arc.part * (to - from))
+                    if differ(axis, from, to) {
+                        let targets =
+                            [arc.start, via, arc.end].map(|at| self.program.moves[at].target);
+                        ridden.extend(targets.into_iter().flatten());
+                    }
+                    Some((arc, from, to))
                 });
-                let passed: Vec<f64> = passed.collect();
+                let ends: Vec<_> = ends.collect();
+                let passed: Vec<f64> = (ends.iter())
+                    .map(|(arc, from, to)| from + arc.part * (to - from))
+                    .collect();
                 let here = via * count + k;
                 let written = own[here].and(value(via));
                 // of several the one that it is written for
                 let off = |passed: &f64| written.map_or(0.0, |written| (passed - written).abs());
-                let nearest = passed.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-                let Some(&first) = nearest else {
+                let nearest =
+                    (0..passed.len()).min_by(|a, b| off(&passed[*a]).total_cmp(&off(&passed[*b])));
+                let Some(nearest) = nearest else {
                     if let (Some(kept), false) = (value(via), is_reported)
                         && self
                             .may_move(via, |at| value(at).is_none_or(|at| differ(axis, at, kept)))
@@ -88,7 +107,9 @@ impl Arcs<'_> {
                     }
                     continue;
                 };
-                values[here] = Known::Is(first);
+                let first = passed[nearest];
+                let (arc, from, to) = ends[nearest];
+                values[here] = Known::Is(from + arc.fake_part * (to - from));
                 let differs = |other: &f64| differ(axis, *other, first);
                 let several = passed.iter().copied().find(differs);
                 if let Some(other) = several.filter(|_| is_error(k)) {
@@ -109,6 +130,7 @@ impl Arcs<'_> {
                 }
             }
         }
+        ridden
     }
 
     /// Whether it matters to an arc where an axis stands: it carries the base, or what the arc is on.
@@ -153,21 +175,34 @@ impl Arcs<'_> {
         let ends = || ends_of(self.program, via);
         let arcs = starts.flat_map(|start| ends().map(move |end| (start, end)));
         arcs.filter_map(|(start, end)| {
-            let part = self.part_at([start, via, end], values)?;
-            Some(Arc { start, end, part })
+            let part = self.part_at([start, via, end], values, None)?;
+            let fake = (!self.fakes.is_empty())
+                .then(|| self.part_at([start, via, end], values, Some(self.fakes)))
+                .flatten();
+            Some(Arc {
+                start,
+                end,
+                part,
+                fake_part: fake.unwrap_or(part),
+            })
         })
         .collect()
     }
 
     /// The part of an arc at the point on its way; `None` where one of its three points is not known.
-    fn part_at(&self, [start, via, end]: [usize; 3], values: &[Known]) -> Option<f64> {
+    fn part_at(
+        &self,
+        [start, via, end]: [usize; 3],
+        values: &[Known],
+        fakes: Option<&Fakes>,
+    ) -> Option<f64> {
         let [point, last] = [via, end].map(|at| &self.program.moves[at]);
         if (point.frame, point.tool) != (last.frame, last.tool) {
             return None;
         }
         let stands_as = self.program.stands_as(short(start)) as usize;
-        let from = self.start_of(stands_as, via, values)?;
-        let [via, end] = [via, end].map(|at| match self.value(at) {
+        let from = self.start_of(stands_as, via, values, fakes)?;
+        let [via, end] = [via, end].map(|at| match self.value(at, fakes) {
             Some(Value::Pose(pose)) => Some(pose.translation),
             _ => None,
         });
@@ -180,8 +215,14 @@ impl Arcs<'_> {
     }
 
     /// Where an arc begins in its own work frame: its own tool where the move before ends.
-    fn start_of(&self, start: usize, via: usize, values: &[Known]) -> Option<Vector> {
-        let value = self.value(start)?;
+    fn start_of(
+        &self,
+        start: usize,
+        via: usize,
+        values: &[Known],
+        fakes: Option<&Fakes>,
+    ) -> Option<Vector> {
+        let value = self.value(start, fakes)?;
         let [start_move, arc] = [start, via].map(|at| &self.program.moves[at]);
         if let Value::Pose(pose) = &value
             && (start_move.frame, start_move.tool) == (arc.frame, arc.tool)
@@ -208,12 +249,16 @@ impl Arcs<'_> {
         Some(from.translation)
     }
 
-    /// What the target of a move means, displaced as the text says; `None` where only the running
-    /// program knows.
-    fn value(&self, at: usize) -> Option<Value> {
+    /// What the target of a move means, or its fake target, displaced as the text says; `None` where
+    /// only the running program knows.
+    fn value(&self, at: usize, fakes: Option<&Fakes>) -> Option<Value> {
         let motion = &self.program.moves[at];
         let target = motion.target?;
-        let value = crate::program::value(self.language, self.program, self.settings, target)?;
+        let fake = fakes.and_then(|fakes| fakes.get(&target));
+        let value = match fake {
+            Some(fake) => Value::Pose(*fake),
+            None => crate::program::value(self.language, self.program, self.settings, target)?,
+        };
         match (value, &motion.displacement) {
             (value, Displacement::None) => Some(value),
             (Value::Pose(pose), Displacement::By(shift)) => Some(Value::Pose(shift.apply(&pose))),

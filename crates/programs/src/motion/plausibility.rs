@@ -216,19 +216,44 @@ pub(crate) fn units(ground: &Ground, severity: Severity, findings: &mut Vec<Find
         }
         let (payload, load) = (ground.profile.payload_kg, tool.load);
         if let (Some(payload), Some((mass_kg, _))) = (payload, load)
-            && mass_kg > payload
+            && let Some(load) = beyond_payload(ground.profile, &tool.name, mass_kg, payload)
         {
             findings.push(ground.at_move(
                 "load-beyond-payload",
                 severity,
                 motion,
                 format!(
-                    "the load of {named} is {mass_kg} kg; robot.payload_kg of the profile is \
+                    "the load of {named} is {load}; robot.payload_kg of the profile is \
                     {payload} kg"
                 ),
                 "masses are in kg; correct the load, or robot.payload_kg",
             ));
         }
+    }
+}
+
+/// A load beyond the payload in words: by itself, or with what effects of the profile add to it
+/// without a reason for that.
+fn beyond_payload(profile: &Profile, tool: &str, mass_kg: f64, payload: f64) -> Option<String> {
+    let reasons = &profile.large;
+    let is_reasoned = |effect: &Effect| {
+        let all = [&reasons.controller, &reasons.calibration];
+        all.iter().any(|of| of.contains_key(&effect.label()))
+    };
+    let mut effects = profile.real_effects();
+    effects.retain(|effect| effect.site.is_of_tool(tool) && !is_reasoned(effect));
+    let added = effects
+        .iter()
+        .filter_map(|effect| Some(effect.parameters[effect.definition().search.mass?]));
+    let added = added.sum::<f64>().max(0.0);
+    if mass_kg > payload {
+        Some(format!("{mass_kg} kg"))
+    } else if mass_kg + added > payload {
+        Some(format!(
+            "{mass_kg} kg, and {added} kg more by effects of the profile"
+        ))
+    } else {
+        None
     }
 }
 

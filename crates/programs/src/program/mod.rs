@@ -159,6 +159,9 @@ pub struct Settings {
     pub external: ExternalNames,
     /// Where the profile has the base of an arm that stands still.
     pub world_from_base: Option<Pose>,
+    /// Where the profile has the base with every axis of a track at zero, where it describes external
+    /// axes.
+    pub world_from_base_at_home: Option<Pose>,
     /// Gravity along the axes of the base as the profile has it, where its effects depend on loads.
     pub gravity_m_s2: Option<Vector>,
     /// Encoder pulses of one degree of each joint, where programs count in pulses.

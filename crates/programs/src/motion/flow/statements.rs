@@ -396,7 +396,11 @@ impl<'a> Flow<'a> {
         let is_silent = |(atom, _): &(Atom, Site)| match atom {
             Atom::Value(value) => matches!(
                 self.value(*value),
-                Held::Flag(_) | Held::Number(_) | Held::Load(_) | Held::Carried(_)
+                Held::Flag(_)
+                    | Held::Number(_)
+                    | Held::Load(_)
+                    | Held::LoadOf { .. }
+                    | Held::Carried(_)
             ),
             _ => false,
         };

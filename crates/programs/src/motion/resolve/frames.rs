@@ -45,6 +45,7 @@ impl Resolver<'_, '_> {
                 | Held::NearActual
                 | Held::Shift(_)
                 | Held::Load(_)
+                | Held::LoadOf { .. }
                 | Held::Carried(_)
                 | Held::Flag(_)
                 | Held::ExternalOffset(_)
@@ -96,12 +97,19 @@ impl Resolver<'_, '_> {
     pub(super) fn tool(
         &mut self,
         atom: Atom,
-        load: Option<ValueId>,
+        (load, set): (Option<ValueId>, Place),
     ) -> Result<Result<ToolId, Refused>, ReadError> {
         if let Some(known) = self.tools.get(&(atom, load)) {
             return Ok(*known);
         }
         let named = self.named(atom, true)?;
+        if let (Ok(frame), Some(load)) = (&named, load)
+            && let Held::LoadOf { tool, otherwise } = self.flow.value(load)
+            && frame.name != *tool
+        {
+            let remark = &self.script.remarks[*otherwise as usize];
+            self.report.say_once(remark, set);
+        }
         let (own_load, carried) = match load.map(|load| self.flow.value(load)) {
             Some(Held::Load(load)) => (Some(*load), None),
             Some(Held::Carried(part)) => (None, *part),

@@ -232,7 +232,7 @@ impl Resolver<'_, '_> {
             at,
             stop,
             instruction,
-            choices: self.choices(reached.modes)?,
+            choices: self.choices(reached.modes, instruction.place)?,
             guards,
             external_state,
             is_dead: reached.is_dead,
@@ -282,8 +282,9 @@ impl Resolver<'_, '_> {
         shifts
     }
 
-    /// The tools, frames and modes that a move may have: mostly those of others, too.
-    fn choices(&mut self, modes: u32) -> Result<Rc<Choices>, ReadError> {
+    /// The tools, frames and modes that a move may have: mostly those of others, too; `first` is the
+    /// first move that has them.
+    fn choices(&mut self, modes: u32, first: Place) -> Result<Rc<Choices>, ReadError> {
         let at = modes as usize;
         if let Some(Some(choices)) = self.choices.get(at) {
             return Ok(Rc::clone(choices));
@@ -300,8 +301,9 @@ impl Resolver<'_, '_> {
             if atom == Atom::Uncertain {
                 continue;
             }
-            for &load in &loads {
-                match self.tool(atom, load)? {
+            for &(load, set) in &loads {
+                let set = self.flow.place_of(set).unwrap_or(first);
+                match self.tool(atom, (load, set))? {
                     Ok(tool) => choices.tools.push((tool, site)),
                     Err(why) => choices.refused.push((why, site, "tool")),
                 }
@@ -419,19 +421,20 @@ impl Resolver<'_, '_> {
         (refused, index)
     }
 
-    fn loads(&self, holding: Holding) -> Vec<Option<ValueId>> {
+    /// The loads that a holding may be, and where each is set.
+    fn loads(&self, holding: Holding) -> Vec<(Option<ValueId>, Site)> {
         let loads = self.flow.holdings.of(holding).iter();
-        let mut loads: Vec<Option<ValueId>> = loads
-            .filter_map(|(atom, _)| match atom {
-                Atom::Value(value) => Some(Some(*value)),
+        let mut loads: Vec<_> = loads
+            .filter_map(|(atom, site)| match atom {
+                Atom::Value(value) => Some((Some(*value), *site)),
                 Atom::Uncertain => None,
-                _ => Some(None),
+                _ => Some((None, *site)),
             })
             .collect();
         if loads.is_empty() {
-            loads.push(None);
+            loads.push((None, DECLARED));
         }
-        loads.dedup();
+        loads.dedup_by_key(|(load, _)| *load);
         loads
     }
 

@@ -7,6 +7,7 @@
 
 use super::lines::{Line, Lines, add_numbers, after, other_than_moves, unexpected, words};
 use super::{DEGREES, PULSES, rconf};
+use crate::geometry::Pose;
 use crate::program::kit::Fault;
 use crate::program::script::{Place, Span, short};
 use crate::program::{Layout, Number, ReadError, Shape, Source, Target, TargetId, number};
@@ -226,6 +227,9 @@ pub(super) struct Positions<'a> {
     pub headers: Vec<Header<'a>>,
     /// Whether the profile tells the pulses of a degree.
     pub pulses_known: bool,
+    /// Where ROBOT coordinates are with every axis of a track at zero; at the origin of BASE ones
+    /// where there are no external axes.
+    pub world_from_robot: Option<Pose>,
 }
 
 impl<'a> Positions<'a> {

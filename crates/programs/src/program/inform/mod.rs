@@ -209,6 +209,7 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
     let usable = |pulses: &[f64; 6]| pulses.iter().all(|p| p.is_finite() && *p != 0.0);
     let mut positions = job::Positions {
         pulses_known: settings.pulses_per_deg.as_ref().is_some_and(usable),
+        world_from_robot: settings.world_from_base_at_home,
         ..job::Positions::default()
     };
     for (file, source) in sources.iter().enumerate() {
@@ -219,7 +220,7 @@ fn script(sources: &[Source], settings: &Settings) -> Result<Script, ReadError> 
         }
     }
     let mut script = reader::script(sources, positions, &conditions, &settings.external);
-    // BASE counts from the height of axis 2; what a station carries is in the world
+    // BASE counts from the height of axis 2; with external axes the world is that of BASE
     if settings.external.listed.is_empty() {
         judge_base(
             &mut script,

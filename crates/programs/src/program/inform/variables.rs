@@ -117,7 +117,7 @@ impl Variables {
         let fixed = Some((Pose::identity(), None));
         let none = frame(builder, NO_TOOL.into(), None);
         let base = frame(builder, "BASE".into(), fixed);
-        let robot = riding(builder);
+        let robot = riding(builder, positions.world_from_robot);
         let mut unknown = |cause: Cause| builder.script.unknown(cause.remark());
         let (relative, not_named) = (
             unknown(Cause::ToolCoordinates),
@@ -250,11 +250,12 @@ fn constant(builder: &mut Builder, value: Held) -> VariableId {
         .variable(Variable::new("", Place::NOWHERE, declared))
 }
 
-/// The coordinates of the robot itself, which ride on the axes of its base.
-fn riding(builder: &mut Builder) -> Expr {
+/// The coordinates of the robot itself, which ride on the axes of its base, from where that stands
+/// with all of them at zero.
+fn riding(builder: &mut Builder, world_from_robot: Option<Pose>) -> Expr {
     let value = builder.script.value(Held::Frame(NamedFrame {
         on: [BASE_UNIT.into()].into(),
-        ..NamedFrame::still("ROBOT", Some(Pose::identity()))
+        ..NamedFrame::still("ROBOT", Some(world_from_robot.unwrap_or(Pose::identity())))
     }));
     Expr::Value(value)
 }

@@ -168,6 +168,9 @@ impl Reader {
             return Ok(PARTS.map(|part| self.part_of_fdat(found, part)));
         }
         let token = cursor.next();
+        if cursor.text(token).eq_ignore_ascii_case(b"FDAT_ACT") {
+            return Ok(PARTS.map(|part| self.states.expr(part.state())));
+        }
         let name = self.symbol(cursor, token);
         let at = Index::of(cursor.brackets()?, cursor);
         if cursor.blanks() == b'(' {

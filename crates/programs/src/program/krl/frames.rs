@@ -5,7 +5,7 @@ use super::names::{Index, Stored, Turning};
 use super::reader::Reader;
 use super::remarks::{
     ANGLE, CHOSEN, DECLARED_TWICE, FRAME_ASSIGNED, IGNORES_ORIENTATION, KEEPS_ORIENTATION,
-    KEEPS_SAME_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried,
+    KEEPS_SAME_ORIENTATION, MOVING, OF_ANOTHER_ROBOT, carried, not_in_files,
 };
 use super::targets::Owner;
 use super::tokens::capitals;
@@ -488,6 +488,20 @@ impl Reader {
             // the tool's own, if any
             None => self.states.off,
         })
+    }
+
+    /// An entry of loads that neither the files have nor a statement writes: that of the tool of its
+    /// number, as far as is known.
+    pub(super) fn load_of_nobody(&mut self, at: u32) -> Option<Expr> {
+        let name = self.names.symbols.find(b"load_data");
+        let is_written = name.is_some_and(|name| self.names.touched.contains(&name));
+        if at == 0 || is_written || self.declared.loads.contains_key(&at) {
+            return None;
+        }
+        let script = &mut self.builder.script;
+        let otherwise = script.remark(not_in_files(at));
+        let tool = format!("{}[{at}]", Table::Tool.name()).into();
+        Some(Expr::Value(script.value(Held::LoadOf { tool, otherwise })))
     }
 
     /// A number that may choose an entry: that is one, then.

@@ -204,6 +204,17 @@ pub(super) const ANGLE: Remark = Remark::error(
     "write the arc without CA, with the point where it ends",
 );
 
+/// An entry of `LOAD_DATA` that the files do not have, behind another tool than that of its number.
+pub(super) fn not_in_files(entry: u32) -> Remark {
+    Remark::warning_about(
+        "load-chosen-at-run-time",
+        format!(
+            "`LOAD_DATA[{entry}]` is not in the files: moves are taken with the load of the tool"
+        ),
+        "give the $config.dat that has it (--with), or write the load with numbers",
+    )
+}
+
 /// A load that the text does not say.
 pub(super) fn carried() -> Remark {
     kit::load_chosen(

@@ -321,6 +321,10 @@ impl Reader {
                 cursor.skip();
                 self.unknown(carried())
             }
+            Some(Choice::Entry(at)) => {
+                let of_nobody = self.load_of_nobody(at);
+                of_nobody.unwrap_or_else(|| self.element(Table::Load, choice))
+            }
             choice => self.element(Table::Load, choice),
         })
     }

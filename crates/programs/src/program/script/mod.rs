@@ -257,6 +257,13 @@ pub enum Held {
     },
     /// The load of the flange; none where it is set to nothing.
     Load(Option<Load>),
+    /// That of the tool of this name; with another tool only the running program knows it.
+    LoadOf {
+        /// The tool's name in the program.
+        tool: Box<str>,
+        /// What is to be said of another one.
+        otherwise: RemarkId,
+    },
     /// What the tool carries as well as its own load; none where it is empty.
     Carried(Option<Load>),
     /// The number of a tool or frame.

@@ -114,3 +114,39 @@ fn two_configs_with_different_loads_are_refused_where_one_is_used() {
         assert_eq!(reported(&read_files(&files)), ids, "{change:?}");
     }
 }
+
+#[test]
+fn an_entry_that_the_files_do_not_have_is_the_load_of_its_own_tool_alone() {
+    let data = "DEFDAT $CONFIG\nTOOL_DATA[1]={X 0,Y 0,Z 100,A 0,B 0,C 0}\nTOOL_DATA[5]={X 0,Y 0,Z \
+        150,A 0,B 0,C 0}\nLOAD_DATA[2]={M -1,CM {X 0,Y 0,Z 0},J {X 0,Y 0,Z 0}}\nENDDAT\n";
+    let said = |text: &str| {
+        let text = format!("DEF M()\n$BASE=$WORLD\n{text}\nEND\n");
+        let program = read_files(&[("$config.dat", data), ("m.src", &text)]);
+        let all = program.findings.iter();
+        all.filter(|of| of.id == "load-chosen-at-run-time")
+            .map(|of| (of.line, of.message.contains("LOAD_DATA[5]")))
+            .collect::<Vec<_>>()
+    };
+    let go = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
+    for (text, expected) in [
+        (
+            format!("$TOOL=TOOL_DATA[1]\n$LOAD=LOAD_DATA[5]\n{go}"),
+            &[(4, true)][..],
+        ),
+        (format!("$TOOL=TOOL_DATA[5]\n$LOAD=LOAD_DATA[5]\n{go}"), &[]),
+        (format!("$LOAD=LOAD_DATA[5]\n$TOOL=TOOL_DATA[5]\n{go}"), &[]),
+        (format!("BAS(#TOOL,5)\n{go}"), &[]),
+        // an entry that nobody has filled in
+        (format!("$TOOL=TOOL_DATA[1]\n$LOAD=LOAD_DATA[2]\n{go}"), &[]),
+        (
+            format!("$TOOL=TOOL_DATA[1]\nS{go} WITH $LOAD=LOAD_DATA[5]"),
+            &[(4, true)],
+        ),
+        (
+            format!("$TOOL=TOOL_DATA[5]\n$LOAD=LOAD_DATA[5]\n{go}\n$TOOL=TOOL_DATA[1]\n{go}"),
+            &[(4, true)],
+        ),
+    ] {
+        assert_eq!(said(&text), expected, "{text}");
+    }
+}

@@ -184,6 +184,7 @@ fn fdat_are_written_as_a_whole() {
             [0, 200, 0],
         ),
         ("FP1=FP2\nFW=FP1", [0, 0, 50], [0, 200, 0]),
+        ("FDAT_ACT=FP1\nFW=FDAT_ACT\nFDAT_ACT=FP2", TOOL, BASE),
     ] {
         let text = format!("DECL FDAT FW\n{text}\nFDAT_ACT=FW\nBAS(#FRAMES)\nLIN XP1");
         let program = with(&text, &Settings::default());
