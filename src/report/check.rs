@@ -55,7 +55,9 @@ pub(crate) fn text(found: &Checked) -> String {
             &mut at_poses
         };
         larger(worst, &one, &at_target);
-        larger(&mut along, &one, &|one| path_error(one).unwrap_or(0.0));
+        if path_error(&one).is_some() {
+            larger(&mut along, &one, &|one| path_error(one).unwrap_or(0.0));
+        }
     }
     if let Some(worst) = at_poses {
         let worst = shown(worst.target_error_mm, &worst);

@@ -36,10 +36,15 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
             "  {joint_targets} joint targets stay as they are (--joint-targets correct shifts them)"
         ));
     }
-    let is_shared = found
-        .findings
-        .iter()
-        .any(|f| f.accepted && f.id == "target-shared");
+    let has = |is_so: &dyn Fn(&Finding) -> bool| found.findings.iter().any(is_so);
+    // what else than decimals leaves a target off
+    let mut also = String::new();
+    if has(&|f| f.accepted && f.id == "target-shared") {
+        also += ", and targets that serve several moves";
+    }
+    if has(&|f| f.id == "at-singularity") {
+        also += ", and targets that --at-singularity settled";
+    }
     if compensated > 0 {
         lines.push(format!(
             "  real tool off by  mean {before_mm:.3} mm, largest {max_before_mm:.3} mm before; \
@@ -53,12 +58,7 @@ pub(crate) fn text(found: &Compensated, language: &dyn Language) -> String {
         ));
         lines.push(format!(
             "  rounding  largest {max_rounding_mm:.4} mm, {max_rounding_deg:.4} deg (what the \
-             file's decimals cost{})",
-            if is_shared {
-                ", and targets that serve several moves"
-            } else {
-                ""
-            }
+             file's decimals cost{also})"
         ));
     }
     let MethodCounts { pose_shift, newton } = methods;

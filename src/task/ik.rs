@@ -119,10 +119,17 @@ pub fn ik_telling(
         } else {
             middle(profile)
         };
-        let mut add = |branch, root, near: &[f64; 6]| {
-            let outcome = within_limits(inverse, &wanted, branch, near);
+        let mut put = |branch, root, outcome: &Outcome| {
             found += usize::from(outcome.status == Status::Converged);
-            solutions.push(solution(row.id(number + 1), branch, root, &outcome));
+            solutions.push(solution(row.id(number + 1), branch, root, outcome));
+        };
+        if !all && !table.has("branch") {
+            let (branch, outcome) = nearest(inverse, &wanted, &near);
+            put(branch, None, &outcome);
+            continue;
+        }
+        let mut add = |branch, root, near: &[f64; 6]| {
+            put(branch, root, &within_limits(inverse, &wanted, branch, near));
         };
         if all && inverse.arm.has_offset_wrist() {
             // the real arm's answer is sought from the nominal one
@@ -132,10 +139,8 @@ pub fn ik_telling(
         } else {
             let branches = if all {
                 Branch::ALL.to_vec()
-            } else if table.has("branch") {
-                vec![branch(&row)?]
             } else {
-                vec![nearest_branch(inverse, &wanted, &near)]
+                vec![branch(&row)?]
             };
             for branch in branches {
                 add(branch, None, &near);
@@ -174,21 +179,29 @@ fn within_limits(inverse: &Inverse, wanted: &Pose, branch: Branch, near: &[f64; 
     }
 }
 
-/// The branch of the solution nearest to joints that are given; near the border of two it is not
-/// always theirs.
-fn nearest_branch(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> Branch {
-    let own = inverse.arm.posture(near).0;
-    let others = Branch::ALL.into_iter().filter(|branch| *branch != own);
-    let far = |branch: Branch| {
-        let outcome = within_limits(inverse, wanted, branch, near);
-        let apart = outcome.q.iter().zip(near).map(|(q, near)| (q - near).abs());
-        let apart = apart.fold(0.0, f64::max);
-        (outcome.status == Status::Converged).then_some(apart)
+/// The solution nearest to joints that are given, whatever its branch.
+fn nearest(inverse: &Inverse, wanted: &Pose, near: &[f64; 6]) -> (Branch, Outcome) {
+    let arm = &inverse.arm;
+    let own = arm.posture(near).0;
+    let of = |asked: Branch| {
+        let outcome = within_limits(inverse, wanted, asked, near);
+        let is_elsewhere = outcome.status == Status::BranchLost
+            && arm.mechanism().beyond_limit(&outcome.q, 0.0).is_none();
+        if is_elsewhere {
+            let status = Status::Converged;
+            return (arm.posture(&outcome.q).0, Outcome { status, ..outcome });
+        }
+        (asked, outcome)
     };
-    let all = std::iter::once(own).chain(others);
-    let reached = all.filter_map(|branch| Some((branch, far(branch)?)));
-    let nearest = reached.min_by(|a, b| a.1.total_cmp(&b.1));
-    nearest.map_or(own, |(branch, _)| branch)
+    let apart = |outcome: &Outcome| {
+        let apart = outcome.q.iter().zip(near).map(|(q, near)| (q - near).abs());
+        apart.fold(0.0, f64::max)
+    };
+    let others = Branch::ALL.into_iter().filter(|branch| *branch != own);
+    let reached = std::iter::once(own).chain(others).map(of);
+    let reached = reached.filter(|(_, outcome)| outcome.status == Status::Converged);
+    let nearest = reached.min_by(|a, b| apart(&a.1).total_cmp(&apart(&b.1)));
+    nearest.unwrap_or_else(|| (own, within_limits(inverse, wanted, own, near)))
 }
 
 fn branch(row: &Row) -> Result<Branch, Failure> {

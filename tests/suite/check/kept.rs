@@ -59,3 +59,38 @@ fn what_is_said_of_a_path_from_a_kept_target_has_all_of_it() {
     assert!((between - path).abs() < 0.002, "{between} {path}");
     assert!(between > 1.5 * ends, "{between} {ends}");
 }
+
+/// Joint 2 goes from 35.06 to 33.42 degrees and never turns back: its offset, -0.015 degrees from that
+/// side, is just that of its link.
+#[test]
+fn a_joint_that_goes_slowly_at_the_end_does_not_turn_back() {
+    let folder = scratch();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let (profile, program) = (at("p.yaml"), at("e.ls"));
+    let made = run(&["profile", "new", "--robot", "fanuc_crx10ia", "-o", &profile]);
+    assert_eq!(made.0, 0, "{}", made.2);
+    let text = std::fs::read_to_string(&profile).expect("a profile").replace(
+        "effects: []",
+        "effects: [{effect: backlash, joint: 2, width_deg: 0.03}, {effect: link_geometry, link: 2, \
+         theta_deg: 0.015}]",
+    );
+    std::fs::write(&profile, text).expect("scratch");
+    let text = "/PROG  E3\n/ATTR\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n   1:  UFRAME_NUM=0 ;\n   2:  \
+        UTOOL_NUM=0 ;\n   3:J P[1] 20% FINE ;\n   4:L P[2] 200mm/sec FINE ;\n/POS\nP[1]{\n   GP1:\n\t\
+        UF : 0, UT : 0,\n\tJ1= 24.45 deg,\tJ2= 35.06 deg,\tJ3= -11.12 deg,\n\tJ4= 20.96 deg,\tJ5= \
+        -99.72 deg,\tJ6= 45.83 deg\n};\nP[2]{\n   GP1:\n\tUF : 0, UT : 0,\tCONFIG : 'N U T, 0, 0, \
+        0',\n\tX = 836.0 mm,\tY = 82.4 mm,\tZ = 170.6 mm,\n\tW = 172.139 deg,\tP = 16.299 deg,\tR = \
+        75.405 deg\n};\n/END\n";
+    std::fs::write(&program, text).expect("scratch");
+    let (status, out, error) = run(&[
+        "check",
+        &program,
+        "--profile",
+        &profile,
+        "--start-joints",
+        "30,45,-11,21,-99,45",
+        "--max-path-error",
+        "0.002",
+    ]);
+    assert_eq!(status, 0, "{out}{error}");
+}

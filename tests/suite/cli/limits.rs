@@ -446,6 +446,21 @@ fn loads_beyond_the_payload_are_errors() {
         said.contains("-1.4") && said.contains("0 kg or more"),
         "{said}"
     );
+    // what effects of the profile add counts for the mass of the program
+    let heavier = |more: &str| {
+        let entry =
+            format!("effects:\n    - {{effect: payload_error, tool: rdkTool, mass_kg: 1.5{more}}}");
+        limited.replacen("effects:", &entry, 1)
+    };
+    assert!(heavier("").contains("payload_error"));
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &heavier(""), &[]);
+    assert!(
+        status == 1 && said.contains("1.4 kg, and 1.5 kg more by effects of the profile"),
+        "{said}"
+    );
+    let meant = heavier(", large: true, reason: \"a hose\"");
+    let (status, said, _) = compensated("a.mod", &text(DEBURR), &meant, &[]);
+    assert_eq!(status, 0, "{said}");
     let light = changed(THESIS, robot, "robot: {payload_kg: 2.5, manufacturer");
     let (status, said, _) = compensated("a.mod", &text(DEBURR), &light, &[]);
     assert!(status == 2 && said.contains("`artifact` is 2.6"), "{said}");

@@ -89,6 +89,12 @@ fn the_solution_near_joints_is_the_nearest_of_all_branches() {
         ("0,0,0,0,-40,0", "0,0,0,0,40,0", ["", ""]),
         ("0,0,0,0,2,0", "0,0,0,0,-1,0", ["", ""]),
         ("0,0,0,-155,40,0", "0,0,0,150,40,0", [",branch", ",0"]),
+        // the nominal arm has joint 5 on the other side there
+        (
+            "-49,12,-50.5,-2,-0.002,5",
+            "-49,12,-50.5,-2,-0.002,5",
+            ["", ""],
+        ),
     ] {
         let header = "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg";
         let joints_file = file("j.csv", format!("{header}\n{joints}\n"));

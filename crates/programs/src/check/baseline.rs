@@ -4,6 +4,8 @@
 //! the file's moves, so that a line inserted above changes nothing. A file is the same where its
 //! absolute path is, `.` and double slashes left out.
 
+use crate::geometry::Pose;
+use crate::geometry::units::DEG;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -342,7 +344,15 @@ fn compare_move(
         comparison.worse.push(difference("kind"));
     }
     let of_pose = |i: usize| if i < 3 { tolerances.mm } else { tolerances.deg };
-    if is_moved("target", &of_pose, &|i| i >= 3) {
+    // three other angles may be nearly the same rotation
+    let [old_pose, new_pose] = [&old["target"], &new["target"]].map(numbers);
+    let poses = old_pose.first_chunk::<6>().zip(new_pose.first_chunk::<6>());
+    let is_alike = poses.is_some_and(|(a, b)| {
+        let is_there = (0..3).all(|i| (a[i] - b[i]).abs() <= tolerances.mm);
+        let apart = rotation_of(a).separation(&rotation_of(b)).angle_rad;
+        is_there && apart <= tolerances.deg * DEG
+    });
+    if !is_alike && is_moved("target", &of_pose, &|i| i >= 3) {
         comparison.worse.push(difference("target"));
     } else if is_known("joints_deg") {
         let is_joints = new["joint_target"] == Value::Bool(true);
@@ -370,6 +380,12 @@ fn compare_move(
 }
 
 /// The numbers of a list; what is no number equals none.
+/// The rotation of a target as reports have it.
+fn rotation_of(target: &[f64; 6]) -> Pose {
+    let [rx, ry, rz] = [target[3], target[4], target[5]].map(|angle| angle * DEG);
+    Pose::from_xyz_rxryrz([0.0, 0.0, 0.0, rx, ry, rz])
+}
+
 fn numbers(list: &Value) -> Vec<f64> {
     let all = list.as_array().into_iter().flatten();
     all.map(|value| value.as_f64().unwrap_or(f64::MAX))
@@ -458,6 +474,26 @@ mod tests {
         let mut turned = base.clone();
         turned["moves"][0]["target"][3] = json!(-180.0);
         assert_eq!(compare(&turned).same, 1);
+        // nearly the same rotation by three other angles
+        let upright = |angles: [f64; 3]| {
+            let mut run = base.clone();
+            for (i, angle) in angles.into_iter().enumerate() {
+                run["moves"][0]["target"][3 + i] = json!(angle);
+            }
+            run
+        };
+        let found = super::compare(
+            &upright([0.0, 90.0, 0.0]),
+            &upright([-180.0, 89.99999, -180.0]),
+            Tolerances::default(),
+        );
+        assert_eq!(found.same, 1);
+        let found = super::compare(
+            &upright([0.0, 90.0, 0.0]),
+            &upright([-180.0, 89.99, -180.0]),
+            Tolerances::default(),
+        );
+        assert_eq!(found.worse[0].what, "target");
         turned["moves"] = json!([]);
         assert_eq!(compare(&turned).worse[0].what, "moves");
     }
