@@ -3,6 +3,8 @@
 mod affine;
 mod collada;
 mod gltf;
+mod obj;
+mod polygons;
 
 use super::{MeshError, Neighbour, Triangle, ending};
 use crate::geometry::Vector;
@@ -30,7 +32,7 @@ pub(super) fn triangles(
     found.map_err(|message| MeshError::Unreadable { message })
 }
 
-/// A polygon as triangles about its first corner.
+/// A fan of triangles about its first corner.
 fn fan(corners: &[Vector], out: &mut Vec<Triangle>) {
     if let [first, others @ ..] = corners {
         out.extend(others.windows(2).map(|pair| [*first, pair[0], pair[1]]));
@@ -69,7 +71,7 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     let scene = if is_stl {
         loader.load_stl_from_slice(small.as_deref().unwrap_or(bytes), name)
     } else {
-        loader.load_obj_from_slice(bytes, name)
+        loader.load_obj_from_slice(&obj::with_triangles(bytes), name)
     }
     .map_err(|error| error.to_string())?;
     let mut triangles = Vec::new();

@@ -14,6 +14,7 @@
 //! `trifans`.
 
 use super::affine::Affine;
+use super::polygons::cut;
 use super::{MOST, Triangle, fan};
 use crate::geometry::Vector;
 use crate::geometry::units::DEG;
@@ -296,7 +297,7 @@ impl Corners<'_> {
                 let mut rest = corners.as_slice();
                 for count in counts {
                     let (polygon, others) = rest.split_at(count);
-                    fan(polygon, out);
+                    put(polygon, out);
                     rest = others;
                 }
             }
@@ -305,7 +306,7 @@ impl Corners<'_> {
                 let plain = primitive.all("p");
                 let holed = primitive.all("ph").filter_map(|holed| holed.first("p"));
                 for list in plain.chain(holed) {
-                    fan(&self.of(list)?, out);
+                    put(&self.of(list)?, out);
                 }
             }
             "trifans" => {
@@ -405,4 +406,9 @@ fn local(node: &Element) -> Result<Affine, XmlError> {
         out = out.after(&step);
     }
     Ok(out)
+}
+/// A polygon as triangles.
+fn put(polygon: &[Vector], out: &mut Vec<Triangle>) {
+    let triangles = cut(polygon).into_iter();
+    out.extend(triangles.map(|of| of.map(|k| polygon[k])));
 }
