@@ -48,13 +48,13 @@ const ROUNDED: f64 = 1e-6;
 /// The least number with so many decimals that a bound from above is not beyond.
 pub(crate) fn at_most(bound: f64, decimals: i32) -> f64 {
     let unit = 10.0_f64.powi(decimals);
-    // what is such a number already stays
-    (bound * unit - ROUNDED).ceil() / unit
+    // what is such a number already stays; a zero has no sign
+    (bound * unit - ROUNDED).ceil() / unit + 0.0
 }
 
 /// The largest number with so many decimals that a bound from below is not below.
 pub(crate) fn at_least(bound: f64, decimals: i32) -> f64 {
-    -at_most(-bound, decimals)
+    -at_most(-bound, decimals) + 0.0
 }
 
 /// A number that may be none with so many decimals.

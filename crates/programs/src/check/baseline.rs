@@ -379,13 +379,13 @@ fn compare_move(
     }
 }
 
-/// The numbers of a list; what is no number equals none.
 /// The rotation of a target as reports have it.
 fn rotation_of(target: &[f64; 6]) -> Pose {
     let [rx, ry, rz] = [target[3], target[4], target[5]].map(|angle| angle * DEG);
     Pose::from_xyz_rxryrz([0.0, 0.0, 0.0, rx, ry, rz])
 }
 
+/// The numbers of a list; what is no number equals none.
 fn numbers(list: &Value) -> Vec<f64> {
     let all = list.as_array().into_iter().flatten();
     all.map(|value| value.as_f64().unwrap_or(f64::MAX))
