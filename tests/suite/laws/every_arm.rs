@@ -3,6 +3,7 @@
 
 use super::postures;
 use crate::support::{offset_wrist_arms, shipped_profiles};
+use nalgebra::SMatrix;
 use poseshift::geometry::{Pose, wrap};
 use poseshift::inverse::{Arm, Inverse, Method, Methods, Status};
 use poseshift::model::profile::Mounted;
@@ -173,6 +174,76 @@ fn the_pose_shift_alone_says_where_it_stalls() {
         }
     }
     assert!(stalled > 0 && 20 * stalled < tried, "{stalled} of {tried}");
+}
+
+/// How the joints move the tool: columns of a Jacobian by central differences.
+fn jacobian(real: &Model, q: &[f64; 6]) -> SMatrix<f64, 6, 6> {
+    let conditions = Conditions::default();
+    let here = real.forward(q, &conditions);
+    SMatrix::from_fn(|row, joint| {
+        let step = 1e-5;
+        let at = |by: f64| {
+            let mut q = *q;
+            q[joint] += by;
+            let pose = real.forward(&q, &conditions);
+            let turned = (pose.rotation * here.rotation.transpose()).vector();
+            [pose.translation, turned].concat()[row]
+        };
+        (at(step) - at(-step)) / (2.0 * step)
+    })
+}
+
+#[test]
+fn a_little_beyond_the_stretched_real_arm_is_out_of_reach() {
+    let mut tried = 0;
+    for (name, geometry, mechanism) in every_arm() {
+        let inverse = inverse_of(&geometry, &mechanism);
+        // the elbow at which the nominal arm is straight, then that of the real one
+        let elbow = |angle: f64| [0.1, 0.6, angle, 0.4, 0.9, 0.6];
+        let bent = |angle: &f64| inverse.arm.posture(&elbow(*angle)).1.elbow_rad;
+        let angles = (-30_000..30_000).map(|k| f64::from(k) * 1e-4);
+        let straight = angles.min_by(|a, b| bent(a).total_cmp(&bent(b)));
+        let straight = straight.expect("an angle");
+        let slope = |angle: f64| jacobian(&inverse.real, &elbow(angle)).determinant();
+        let (mut low, mut high) = (straight - 0.03, straight + 0.03);
+        if slope(low) * slope(high) > 0.0 {
+            continue;
+        }
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if slope(low) * slope(middle) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let q = elbow(low);
+        let decomposed = jacobian(&inverse.real, &q).svd(true, false);
+        let weakest = decomposed.u.expect("vectors").column(5).into_owned();
+        let reached = inverse.real.forward(&q, &inverse.conditions);
+        let long = weakest.fixed_rows::<3>(0).norm();
+        let pushed = |by_m: f64| {
+            let moved = std::array::from_fn(|i| reached.translation[i] + by_m * weakest[i] / long);
+            Pose {
+                translation: moved,
+                ..reached
+            }
+        };
+        tried += 1;
+        for by_m in [2e-5, 3e-4] {
+            let mut answers = [by_m, -by_m].map(|by_m| {
+                let near = elbow(low + 0.02);
+                let branch = inverse.arm.posture(&near).0;
+                inverse.solve(&pushed(by_m), branch, &near).status.id()
+            });
+            answers.sort_unstable();
+            let is_right = answers[1] == "out-of-reach"
+                && answers[0] != "not-converged"
+                && answers[0] != "out-of-reach";
+            assert!(is_right, "{name}, {by_m} m: {answers:?}");
+        }
+    }
+    assert!(tried > 5, "{tried}");
 }
 
 #[test]

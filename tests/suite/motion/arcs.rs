@@ -173,6 +173,45 @@ fn an_arc_on_which_the_tool_may_turn_the_longer_way_is_reported() {
 }
 
 #[test]
+fn an_arc_that_no_circle_defines_is_an_error() {
+    let start = "X 430,Y 0,Z 400,A 0,B 180,C 0";
+    let arc = |point: &str, end: &str| {
+        format!(
+            "DEF t()\n$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP {{A1 0,A2 0,A3 0,A4 0,A5 60,A6 0}}\nLIN \
+             {{{start}}}\nCIRC {{{point}}},{{{end}}}\nEND\n"
+        )
+    };
+    let (aside, end) = (
+        "X 400,Y 60,Z 420,A 0,B 180,C 0",
+        "X 370,Y 0,Z 440,A 0,B 180,C 0",
+    );
+    for text in [
+        arc(aside, start),
+        arc(start, end),
+        arc(end, end),
+        // behind the start, and beyond the end
+        arc(
+            "X 442,Y 0,Z 390,A 0,B 180,C 0",
+            end.replace("440", "450").as_str(),
+        ),
+        arc("X 340,Y 0,Z 460,A 0,B 180,C 0", end),
+    ] {
+        let done = done(&[PLAIN], &[("t.src", &text)]);
+        assert_eq!(
+            errors(&done),
+            ["arc-undefined"],
+            "{text}\n{:?}",
+            done.findings
+        );
+    }
+    // a point between the others is a straight line
+    for point in [aside, "X 400,Y 0,Z 420,A 0,B 180,C 0"] {
+        let done = done(&[PLAIN], &[("t.src", &arc(point, end))]);
+        assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    }
+}
+
+#[test]
 fn a_middle_whose_orientation_the_controller_takes_up_is_reported_where_it_differs() {
     let arc = |w: &str| {
         let point = |number: usize, xyz: [&str; 3], w: &str| {

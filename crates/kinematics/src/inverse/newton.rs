@@ -25,6 +25,9 @@ const STALLS: (f64, u32) = (0.01, 4);
 /// A posture with the tool nearer to the target than this is a start of its own, metres and
 /// radians.
 const NEAR_TARGET: (f64, f64) = (0.1, 0.3);
+/// Where the joints bring the tool nearer at less than this rate, metres and radians a radian, the
+/// descent is at its least error.
+const AT_REST: f64 = 0.03;
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e6;
 /// Larger steps could jump to another branch.
@@ -51,6 +54,8 @@ pub(super) struct Found {
     pub q: [f64; 6],
     pub residual: Separation,
     pub iterations: u32,
+    /// Whether no joint brings the tool nearer.
+    pub is_at_rest: bool,
 }
 
 impl Found {
@@ -256,13 +261,10 @@ fn descend(
         let there = linearize(&trial);
         iterations += 1;
         let (before, after) = (here.error.norm(), there.error.norm());
-        idle = if after < (1.0 - STALLS.0) * before {
-            0
-        } else {
-            idle + 1
-        };
         if after < before {
             let settled = within(here.gap.distance_m, here.gap.angle_rad);
+            let is_idle = after > (1.0 - STALLS.0) * before;
+            idle = if is_idle { idle + 1 } else { 0 };
             (q, here) = (trial, there);
             lambda = (0.1 * lambda).max(LEAST_DAMPING);
             if settled {
@@ -274,10 +276,12 @@ fn descend(
             lambda *= 10.0;
         }
     }
+    let slope = here.jacobian.transpose() * here.error;
     Found {
         q,
         residual: here.gap,
         iterations,
+        is_at_rest: slope.norm() < AT_REST * here.error.norm(),
     }
 }
 

@@ -34,6 +34,8 @@ const FAR_BEYOND: f64 = 0.05;
 /// tool of a metre.
 const HOPELESS_M: f64 = 0.01;
 const LEVER_M: f64 = 1.0;
+/// The nominal elbow at which that of the real arm may be straight.
+const STRETCHED_RAD: f64 = 0.05;
 
 /// The inverse of one arm with one tool under one set of conditions.
 #[derive(Clone, Debug)]
@@ -253,8 +255,8 @@ impl Inverse {
         shift: u32,
     ) -> Outcome {
         let q = self.controller(&start.turns, near);
-        let failed = |q: [f64; 6], residual: Separation, beyond: f64, newton: u32| {
-            let status = if beyond > 0.0 {
+        let failed = |q: [f64; 6], residual: Separation, is_beyond: bool, newton: u32| {
+            let status = if is_beyond {
                 Status::OutOfReach
             } else {
                 Status::NotConverged
@@ -277,7 +279,7 @@ impl Inverse {
             }
         };
         if methods == Methods::PoseShift {
-            return failed(q, start.missing(), start.beyond, 0);
+            return failed(q, start.missing(), start.beyond > 0.0, 0);
         }
         let mut newton = 0;
         if let Some(found) = newton::from_near(self, wanted, near) {
@@ -292,7 +294,7 @@ impl Inverse {
             }
         }
         if self.is_hopeless(start) {
-            return failed(q, start.missing(), start.beyond, newton);
+            return failed(q, start.missing(), start.beyond > 0.0, newton);
         }
         let nominal = self.arm.solve_branch(wanted, branch, near);
         let found = newton::solve(self, wanted, branch, near, &q, &nominal.q);
@@ -302,7 +304,14 @@ impl Inverse {
             let spent = Spent { shift, newton };
             return self.finish_newton(branch, q, &nominal.q, found.residual, spent);
         }
-        failed(q, found.residual, nominal.beyond, newton)
+        let is_stretched =
+            found.is_at_rest && self.stance_at(&q).margins().elbow_rad < STRETCHED_RAD;
+        failed(
+            q,
+            found.residual,
+            is_stretched || nominal.beyond > 0.0,
+            newton,
+        )
     }
 
     /// Whether the nominal arm ends so far from the target that the real one does not reach it

@@ -12,6 +12,8 @@ use std::sync::Arc;
 /// Angles below this, radians, are no rotation; circles whose three points are as near to a line
 /// are a line.
 const SMALL: f64 = 1e-9;
+/// Points as near to each other, metres, are one: no controller finds the plane of an arc from them.
+const SAME_POINT_M: f64 = 1e-6;
 /// Rotations as near to half a revolution are as long one way as the other.
 const EITHER_WAY_RAD: f64 = 0.02;
 
@@ -148,7 +150,17 @@ impl ToolCourse {
         }
     }
 
-    /// Length of the tool's way, metres.
+    /// Whether no arc leads from a point through another to a third: two of them are one, or all lie on a
+    /// line and the second not between the others.
+    pub(super) fn is_no_arc(from: Vector, via: Vector, to: Vector) -> bool {
+        let (u, v, w) = (sub(via, from), sub(to, from), sub(to, via));
+        let normal = cross(u, v);
+        let is_line = norm(normal) <= SMALL * norm(u) * norm(v);
+        [u, v, w].iter().any(|apart| norm(*apart) < SAME_POINT_M)
+            || is_line && (dot(u, v) < 0.0 || dot(v, w) < 0.0)
+    }
+
+    /// Length of the path of the tool, metres.
     #[must_use]
     pub(crate) fn length_m(&self) -> f64 {
         let carried = self.ride.as_ref().map_or(0.0, |ride| ride.lengths().0);
@@ -413,5 +425,31 @@ mod tests {
         let arc = ToolCourse::arc(&a, [0.4, 0.0, 0.0], &b, ToolRotation::Slerp);
         assert!(!arc.is_arc());
         assert!((arc.length_m() - 1.0).abs() < 1e-12);
+        assert!(!ToolCourse::is_no_arc(
+            [0.0; 3],
+            [0.4, 0.0, 0.0],
+            [1.0, 0.0, 0.0]
+        ));
+    }
+
+    #[test]
+    fn two_points_in_one_or_a_second_behind_the_others_are_no_arc() {
+        let (a, b, via) = ([0.1, 0.2, 0.3], [0.5, 0.2, 0.3], [0.3, 0.4, 0.3]);
+        for [from, via, to] in [
+            [a, a, b],
+            [a, b, b],
+            [a, via, a],
+            [a, a, a],
+            [a, [0.6, 0.2, 0.3], b],
+            [a, [0.0, 0.2, 0.3], b],
+        ] {
+            assert!(
+                ToolCourse::is_no_arc(from, via, to),
+                "{from:?} {via:?} {to:?}"
+            );
+        }
+        assert!(!ToolCourse::is_no_arc(a, via, b));
+        // nearly a whole circle
+        assert!(!ToolCourse::is_no_arc(a, via, [0.1, 0.2001, 0.3]));
     }
 }

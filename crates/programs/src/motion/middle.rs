@@ -61,14 +61,21 @@ pub(super) fn middle(
             None => [from, *wanted, *end],
         };
         let course = ToolCourse::arc(&from, via.translation, &end, walk_options.turning);
-        (course, via, end)
+        let [from, to] = [from, end].map(|pose| pose.translation);
+        let is_no_arc = ToolCourse::is_no_arc(from, via.translation, to);
+        (course, via, end, is_no_arc)
     };
-    let (course, via, end) = of(ends.first()?);
+    let (course, via, end, is_no_arc) = of(ends.first()?);
+    // with several beginnings or ends the text does not say which go together
+    let is_one = ends.len() == 1 && ground.program.before(motion).len() == 1;
+    if is_no_arc && is_one {
+        findings.push(no_arc(ground, motion));
+    }
     let there = course.rotation_at(via.translation);
     // as seen from the point: parts differ
     let middle = via.rotation.transpose() * there;
     let others = ends[1..].iter().map(|other| {
-        let (course, via, _) = of(other);
+        let (course, via, ..) = of(other);
         let other = via.rotation.transpose() * course.rotation_at(via.translation);
         (middle.transpose() * other).angle()
     });
@@ -221,6 +228,21 @@ pub(super) fn begins_unknown(ground: &Ground, motion: &Move) -> Finding {
         path has there";
     let severity = Severity::Warning;
     ground.at_move("arc-rotation", severity, motion, message.into(), hint)
+}
+
+/// That nobody knows on which circle a move is.
+fn no_arc(ground: &Ground, motion: &Move) -> Finding {
+    let message = "no arc leads from where this one begins through its point to its end: two of the \
+        three are one point, or they lie on a line and its point not between the others; \
+        controllers stop there, and on corrected points may take any circle";
+    let hint = "write the arc with three points apart, or a straight move";
+    ground.at_move(
+        "arc-undefined",
+        Severity::Error,
+        motion,
+        message.into(),
+        hint,
+    )
 }
 
 /// That an arc ends now here and now there, in other rotations at its middle.

@@ -63,7 +63,7 @@ impl Job<'_> {
                 }));
                 report.least_room = None;
                 let (a, b) = scene.names_of(&scene.watched[pair]);
-                let message = format!("{a} is inside {b}");
+                let message = format!("{a} is inside {b}, or around a part of it");
                 let hint = "is the cell in the robot's world frame?";
                 findings.push(self.subject.finding(
                     self.walk.motion(index),
