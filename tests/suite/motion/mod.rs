@@ -16,6 +16,7 @@ mod kawasaki;
 mod krl;
 mod led;
 mod listings;
+mod nearest;
 mod parts;
 mod registers;
 mod rotations;

@@ -45,6 +45,25 @@ fn moves_that_name_their_target_get_one_of_their_own() {
 }
 
 #[test]
+fn a_target_with_comments_between_its_numbers_is_written_out_on_one_line() {
+    let text = with_two_tools("", "MoveL p1,v100,fine,t;", "");
+    let text = text.replace("[[400,0,350],", "[[400, ! x, [1,2]\r\n0,350], ! here\n");
+    let done = split(&[("t.mod", &text)]);
+    assert_eq!(errors(&done), [""; 0], "{:?}", done.findings);
+    let written = String::from_utf8(done.edits[0].apply(text.as_bytes())).expect("text");
+    let moves = written.lines().filter(|line| line.starts_with("MoveL [[4"));
+    assert_eq!(moves.clone().count(), 2, "{written}");
+    assert!(
+        moves
+            .clone()
+            .all(|line| !line.contains('!') && line.ends_with(";")),
+        "{written}"
+    );
+    let again = split(&[("t.mod", &written)]);
+    assert_eq!(errors(&again), [""; 0], "{:?}", again.findings);
+}
+
+#[test]
 fn a_copy_that_each_routine_makes_for_itself_is_written_out() {
     let other = "PROC other()\nq:=p1;\nMoveL q,v100,fine,t;\nENDPROC";
     let text = with_two_tools(

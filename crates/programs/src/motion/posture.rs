@@ -5,14 +5,20 @@ use super::ground::Ground;
 use crate::finding::{Finding, Severity};
 use crate::geometry::Pose;
 use crate::geometry::units::{DEG, mm_from_m};
-use crate::inverse::{Ambiguous, Answer, Arm, Branch};
+use crate::inverse::{Ambiguous, Answer, Arm, Branch, Margins};
 use crate::model::JointSense;
 use crate::program::{BORDER_RAD, Configuration, TargetId};
+use std::cmp::Ordering;
 
 /// Likewise where another posture is on the side that is asked for: the controller takes that one.
 const ROUNDED_RAD: f64 = 0.01 * DEG;
 /// Likewise of the wrist centre at axis 1.
 const BORDER_M: f64 = 1e-5;
+/// Changes of joints that differ by less are equal.
+const SAME_CHANGE_RAD: f64 = 1e-4 * DEG;
+/// A wrist centre as far from its border at axis 1 has joint 1 more than 45 degrees from there, with
+/// links that are offset sideways by up to so much.
+const FAR_FROM_AXIS_1_M: f64 = 0.25;
 /// How far beyond its limits a joint of the nominal arm may stand; the real one is judged exactly.
 pub(super) const LIMIT_RAD: f64 = 2.0 * DEG;
 /// Name of the finding about a target that the nominal arm does not reach.
@@ -96,13 +102,15 @@ pub(crate) fn choose(
             }
         }
     }
-    // along a path the next posture is mostly on the branch of the last one; the others are tried
-    // where it does not fit
+    // mostly the nearest posture is on the branch of the last one; the others are tried where it
+    // does not fit, or one of them may be nearer
     let is_certain = !honoured || !configuration.partly_understood;
     if let Some(before) = start.as_ref().filter(|_| is_certain) {
-        let same = on_branch(arm, wanted, arm.posture(before).0, before, configuration);
+        let (branch, margins) = arm.posture(before);
+        let same = on_branch(arm, wanted, branch, before, configuration);
         let fits = |same: &Posture| same.configured && same.exactly;
-        if let Some(same) = same.filter(|same| fits(same) && is_close(&same.q, before)) {
+        let is_nearest = |same: &Posture| is_nearest(changes(&same.q, before)[0], &margins);
+        if let Some(same) = same.filter(|same| fits(same) && is_nearest(same)) {
             return Some(same);
         }
     }
@@ -111,10 +119,13 @@ pub(crate) fn choose(
         .iter()
         .filter_map(|&branch| on_branch(arm, wanted, branch, &near, configuration))
         .collect();
+    // the largest change of a joint, then the next one; equal ones but for rounding are equal
     let distance = |posture: &Posture| {
-        (0..6)
-            .map(|i| (posture.q[i] - near[i]).abs())
-            .fold(0.0, f64::max)
+        changes(&posture.q, &near).map(|change| (change / SAME_CHANGE_RAD).round())
+    };
+    let compared = |a: &Posture, b: &Posture| {
+        let pairs = distance(a).into_iter().zip(distance(b));
+        pairs.fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(&b)))
     };
     let kept = (asked.goes_on && start.is_none()).then(|| arm.posture(&near).0);
     let nearest = |accept: &dyn Fn(&Posture) -> bool| {
@@ -122,7 +133,7 @@ pub(crate) fn choose(
         let is_other = |posture: &Posture| kept.is_some_and(|kept| kept != posture.branch);
         accepted.min_by(|a, b| {
             let others = is_other(a).cmp(&is_other(b));
-            others.then(distance(a).total_cmp(&distance(b)))
+            others.then_with(|| compared(a, b))
         })
     };
     if postures.is_empty() {
@@ -157,8 +168,7 @@ pub(crate) fn choose(
     let in_ranges = postures.iter().filter(|posture| posture.in_ranges).copied();
     let agreeing = in_ranges.min_by(|a, b| {
         let [off_a, off_b] = [a, b].map(|posture| sides_off(configuration, posture.branch));
-        let farther = || distance(a).total_cmp(&distance(b));
-        off_a.cmp(&off_b).then_with(farther)
+        off_a.cmp(&off_b).then_with(|| compared(a, b))
     });
     let (taken, which) = match agreeing {
         Some(agreeing) => (agreeing, "the one that agrees with it most"),
@@ -305,9 +315,19 @@ fn nearest_assumed(ground: &Ground, target: TargetId, postures: [&Posture; 2]) -
     )
 }
 
-/// Whether a posture follows the one before without a change of branch or a turn in between.
-fn is_close(q: &[f64; 6], before: &[f64; 6]) -> bool {
-    (0..6).all(|i| (q[i] - before[i]).abs() < 45.0 * DEG)
+/// By how much each joint changes from one posture to another, the largest first.
+fn changes(q: &[f64; 6], before: &[f64; 6]) -> [f64; 6] {
+    let mut changes = std::array::from_fn(|i| (q[i] - before[i]).abs());
+    changes.sort_unstable_by(|a: &f64, b: &f64| b.total_cmp(a));
+    changes
+}
+
+/// Whether no posture on another branch is as near to the joints before, with these margins, as one
+/// on their own branch whose largest change of a joint is this: another one has joint 5 or the elbow
+/// as far on the other side of its border, or joint 1 elsewhere.
+fn is_nearest(change: f64, margins: &Margins) -> bool {
+    let border = margins.wrist_rad.min(margins.elbow_rad).min(45.0 * DEG);
+    change < border && margins.shoulder_m > FAR_FROM_AXIS_1_M
 }
 
 /// Whether a posture is the one that configuration data ask for; at a singularity it is on both of

@@ -144,12 +144,24 @@ pub(super) struct Manner {
     pub external: Option<External>,
     /// The longest line of the language in bytes.
     pub longest: usize,
+    /// What a comment to the end of a line begins with.
+    pub comment: u8,
 }
 
 impl Manner {
     /// See [`super::Language::insert`].
     pub(super) fn insert(&self, into: &Insertions) -> Inserted {
         Inserted::each(into.list, |one| self.one(into, one))
+    }
+
+    /// Makes one line of a target that is broken over several, without the comments between its numbers.
+    fn join_lines(&self, text: &mut Vec<u8>) {
+        let mut is_comment = false;
+        text.retain(|byte| {
+            let ends = matches!(byte, b'\n' | b'\r');
+            is_comment = !ends && (is_comment || *byte == self.comment);
+            !ends && !is_comment
+        });
     }
 
     /// The instruction again, with the target of its move written out.
@@ -181,8 +193,7 @@ impl Manner {
             let bytes = &sources[target.file as usize].bytes;
             let own = program.numbers_of(target);
             let mut text = with_numbers(bytes, &target.span(), own, numbers)?;
-            // what was broken over lines stays one line
-            text.retain(|b| !matches!(b, b'\n' | b'\r'));
+            self.join_lines(&mut text);
             Some(text)
         })
     }

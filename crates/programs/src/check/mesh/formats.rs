@@ -8,6 +8,7 @@ mod polygons;
 
 use super::{MeshError, Neighbour, Triangle, ending};
 use crate::geometry::Vector;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Most triangles of a file.
@@ -54,6 +55,25 @@ fn refuse_cut(bytes: &[u8]) -> Result<(), String> {
     ))
 }
 
+/// The text of an ASCII STL as the crate reads it: keywords in small letters, nothing before `solid`, and
+/// a blank behind it, where no name is. Others stay.
+fn plain_stl(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let text = text.trim_ascii_start();
+    let is_text = text
+        .get(..5)
+        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    // the header of a binary one may begin so
+    if !is_text || !text.is_ascii() || text.contains(&0) {
+        return bytes.into();
+    }
+    let mut plain = text.to_ascii_lowercase();
+    if matches!(plain.get(5), Some(b'\r' | b'\n')) {
+        plain.insert(5, b' ');
+    }
+    plain.into()
+}
+
 /// STL and OBJ.
 fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     // only this file's bytes are read: no material library or texture that it names
@@ -61,17 +81,12 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
         Err(std::io::ErrorKind::NotFound.into())
     }
     let loader = mesh_loader::Loader::default().custom_reader(none);
-    let is_stl = ending(name) == "stl";
-    if is_stl {
-        refuse_cut(bytes)?;
-    }
-    // keywords of an ASCII STL may be in capitals
-    let is_loud = is_stl && bytes.starts_with(b"SOLID") && bytes.is_ascii();
-    let small = is_loud.then(|| bytes.to_ascii_lowercase());
-    let scene = if is_stl {
-        loader.load_stl_from_slice(small.as_deref().unwrap_or(bytes), name)
+    let scene = if ending(name) == "stl" {
+        let bytes = plain_stl(bytes);
+        refuse_cut(&bytes)?;
+        loader.load_stl_from_slice(&bytes, name)
     } else {
-        loader.load_obj_from_slice(&obj::with_triangles(bytes), name)
+        loader.load_obj_from_slice(&obj::with_triangles(bytes)?, name)
     }
     .map_err(|error| error.to_string())?;
     let mut triangles = Vec::new();
@@ -93,6 +108,30 @@ fn by_crate(name: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_name_of_an_ascii_stl_may_be_missing_and_what_is_before_it_is_passed_over() {
+        let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 9 \
+                     0\nendloop\nendfacet\n";
+        let read = |bytes: &[u8]| triangles("a.stl", bytes, &|_| Err(String::new()));
+        for start in [
+            "solid",
+            "solid ",
+            "solid a",
+            "\n  solid",
+            "\u{feff}solid a",
+            "SOLID A",
+        ] {
+            for line in ["\n", "\r\n"] {
+                let text = format!("{start}\n{facet}endsolid\n").replace('\n', line);
+                assert_eq!(
+                    read(text.as_bytes()).map(|found| found.len()),
+                    Ok(1),
+                    "{text}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn a_binary_stl_that_is_cut_off_is_an_error() {

@@ -399,7 +399,17 @@ impl<'a> Positions<'a> {
             Coordinates::Rectangular if count < 6 => {
                 return Err(wrong("x, y, z, Rx, Ry and Rz"));
             }
-            Coordinates::Rectangular => ((Shape::Pose, header.variant), true),
+            Coordinates::Rectangular if count > 7 => {
+                return Err(wrong(
+                    "x, y, z, Rx, Ry and Rz, of a seven-axis arm Re, with decimal points",
+                ));
+            }
+            // Re that is not zero is the elbow angle of a seven-axis arm, or one of seven is behind a
+            // decimal comma
+            Coordinates::Rectangular => {
+                let is_six = count == 6 || self.numbers[start + 6].value == 0.0;
+                ((Shape::Pose, header.variant), is_six)
+            }
             Coordinates::Pulses => ((Shape::Joints, PULSES), count == 6 && self.pulses_known),
             Coordinates::Degrees => ((Shape::Joints, DEGREES), count == 6),
         };

@@ -119,8 +119,8 @@ impl Cause {
             ),
             Self::AxisCount => (
                 "target-not-six-axes",
-                "the position does not have six axes",
-                "only robots with six joints are compensated",
+                "the position does not have six numbers",
+                "only robots with six joints are compensated; decimals are behind a point, not a comma",
             ),
             Self::NotInFiles => (
                 "target-not-in-files",

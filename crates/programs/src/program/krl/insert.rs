@@ -11,6 +11,7 @@ pub(super) const MANNER: Manner = Manner {
     forbids: |text| (!starts_with_word(text, REPEATED)).then_some(DOES_MORE),
     external: Some(external),
     longest: LONGEST_LINE,
+    comment: b';',
 };
 
 /// Moves whose path is given by their targets alone.

@@ -9,6 +9,7 @@ pub(super) const MANNER: Manner = Manner {
     forbids,
     external: Some(external),
     longest: usize::MAX,
+    comment: b'!',
 };
 
 /// Instructions that do nothing but go to their target, or go on with their process on the way.

@@ -16,9 +16,17 @@ pub(super) enum Found {
     Bad(usize, usize, &'static str),
 }
 
+/// Behind blanks and comments.
 fn blanks(bytes: &[u8], mut at: usize) -> usize {
-    while matches!(bytes.get(at), Some(b' ' | b'\t' | b'\n' | b'\r')) {
-        at += 1;
+    while let Some(byte) = bytes.get(at) {
+        match byte {
+            b' ' | b'\t' | b'\n' | b'\r' => at += 1,
+            b'#' => {
+                let rest = &bytes[at..];
+                at += memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+            }
+            _ => break,
+        }
     }
     at
 }

@@ -100,6 +100,7 @@ const MANNER: Manner = Manner {
     forbids: |_| None,
     external: None,
     longest: usize::MAX,
+    comment: b'#',
 };
 
 impl Language for UrScript {

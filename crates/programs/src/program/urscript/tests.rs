@@ -152,6 +152,15 @@ fn every_move_and_every_form_of_its_target_is_read() {
 }
 
 #[test]
+fn comments_between_the_numbers_of_a_target_are_passed_over() {
+    let program = path("movel(p[.4, -.1, # height, [7]\n  .3,0,# rotation\r\n3.1,0 # end\n])");
+    assert_eq!(ids(&program), [""; 0]);
+    let numbers = program.numbers_of(program.targets.last().expect("a target"));
+    let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();
+    assert_eq!(values, [0.4, -0.1, 0.3, 0.0, 3.1, 0.0]);
+}
+
+#[test]
 fn targets_that_nobody_can_correct_are_errors() {
     for (lines, id, moves) in [
         (

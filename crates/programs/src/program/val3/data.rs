@@ -175,6 +175,13 @@ impl<'a> Element<'a> {
                 self.father = Father::of(attribute.value);
             } else if attribute.name == b"key" {
                 (self.key, behind) = (attribute.value, attribute.end);
+            } else if is_nearly(&attribute, kind, &names) {
+                let expected = if kind == Kind::Joint {
+                    "j1 to j6, in small letters, of an arm with six joints"
+                } else {
+                    "x, y, z, rx, ry and rz in small letters"
+                };
+                return Err(Fault::unexpected(attribute.start..attribute.end, expected));
             }
         }
         if has_numbers {
@@ -210,6 +217,14 @@ impl<'a> Element<'a> {
         });
         Ok(())
     }
+}
+
+/// Whether an attribute is a coordinate but for the case of its letters, or a joint more than six: what
+/// else there is says nothing of where the arm goes.
+fn is_nearly(attribute: &Attribute, kind: Kind, names: &[&str; 6]) -> bool {
+    let is = |name: &&str| attribute.name.eq_ignore_ascii_case(name.as_bytes());
+    let is_joint = || matches!(attribute.name, [b'j' | b'J', b'0'..=b'9', ..]);
+    names.iter().any(is) || kind == Kind::Joint && is_joint()
 }
 
 /// A value whose numbers stand in two tags: which of them the controller takes, nobody knows.

@@ -379,6 +379,20 @@ fn what_the_running_program_changes_is_refused_or_reported() {
 }
 
 #[test]
+fn coordinates_in_capitals_and_seventh_joints_are_errors() {
+    for (kind, value, said) in [
+        ("pointRx", "key=\"0\" X=\"60\" z=\"80\"", "in small letters"),
+        ("jointRx", "key=\"0\" J5=\"60\"", "in small letters"),
+        ("jointRx", "key=\"0\" j1=\"1\" j7=\"5\"", "six joints"),
+    ] {
+        let all = data("fA", "frame", &[FRAME]) + &data("pA", kind, &[value]);
+        let start = ("m/start.pgx", pgx("start", "", "movej(pA,flange,m)"));
+        let error = read_files(&[("m/m.dtx", dtx(&all)), start]).expect_err(value);
+        assert!(error.to_string().contains(said), "{error}");
+    }
+}
+
+#[test]
 fn a_change_of_a_frame_is_named_where_it_stands() {
     let points = data("pA", "pointRx", &["key=\"0\" x=\"1\" fatherId=\"fB[0]\""])
         + &data("fB", "frame", &["key=\"0\" fatherId=\"fA[0]\""])

@@ -80,7 +80,14 @@ pub(super) fn read(bytes: &[u8], neighbour: Neighbour) -> Result<Vec<Triangle>, 
             if node.skin.is_some() {
                 return Err("a skin bends a mesh, which is not read: export it without".into());
             }
-            for primitive in &at(&opened.meshes, mesh.value(), "mesh")?.primitives {
+            let mesh = at(&opened.meshes, mesh.value(), "mesh")?;
+            let weights = node.weights.as_ref().or(mesh.weights.as_ref());
+            if weights.is_some_and(|weights| weights.iter().any(|weight| *weight != 0.0)) {
+                let message = "weights of morph targets change a mesh, which is not read: export it \
+                    without";
+                return Err(message.into());
+            }
+            for primitive in &mesh.primitives {
                 opened.primitive(primitive, &world, &mut triangles)?;
             }
         }

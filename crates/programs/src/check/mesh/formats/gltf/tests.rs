@@ -142,6 +142,11 @@ fn a_number_that_fits_nothing_is_an_error() {
         (r#"{"mesh":0}"#, r#"{"mesh":0,"skin":0}"#, "a skin bends"),
         (
             r#"{"mesh":0}"#,
+            r#"{"mesh":0,"weights":[0.0,0.5]}"#,
+            "weights of morph targets",
+        ),
+        (
+            r#"{"mesh":0}"#,
             r#"{"mesh":0,"rotation":[0,0,0,0]}"#,
             "quaternion",
         ),
