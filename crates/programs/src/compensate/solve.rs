@@ -340,7 +340,11 @@ fn shifted(
     let world_from_tool = controller.forward(&outcome.q, &Conditions::default());
     let frame = &ground.placed(approach.frame as usize).nominal;
     let numbers = approach.numbers_for(frame.inverse() * world_from_tool);
-    let there = ground.placed(ground.frame_of(motion)).nominal * shift.apply(&numbers);
+    let mut there = ground.placed(ground.frame_of(motion)).nominal * shift.apply(&numbers);
+    // in the middle of an arc the tool is rotated as the path has it there
+    if let Some(middle) = arrival.middle.as_deref() {
+        there.rotation = there.rotation * *middle;
+    }
     let (q, is_reached) = equipped.controller_joints(&there, arrival.branch, &arrival.q);
     is_reached.then_some(q)
 }
