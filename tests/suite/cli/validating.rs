@@ -239,6 +239,20 @@ fn folds_identify_the_level_and_hold_to_the_priors_that_are_asked_for() {
     // the profile's own effects stay where no level seeks them
     assert!(frames < 0.1, "{frames}");
     assert!((geometry - held).abs() > 1e-6, "{geometry} {held}");
+    // but those of a calibrated profile may have seen the rows that are left out
+    let truth = std::fs::read_to_string(repository(TRUTH)).expect("a profile");
+    let calibrated = "calibration:\n  provenance: {measurements_sha256: [\"0\"]}\n  effects:\n";
+    let own = truth.replacen("calibration:\n  effects:\n", calibrated, 1);
+    assert_ne!(own, truth);
+    std::fs::write(folder.path().join("own.yaml"), own).expect("scratch");
+    let rest = " --folds 4 --level 0";
+    let (status, report, reported) = validate(folder.path(), "own.yaml", rest);
+    assert_eq!(status, Some(0), "{reported}");
+    let anew = report["folds"]["real"]["position"]["mean_mm"].as_f64();
+    assert!(
+        anew.is_some_and(|anew| anew > 5.0 * frames),
+        "{anew:?} {frames}"
+    );
     // some thirty parameters from 54 numbers: priors help
     assert!(held < geometry, "{held} {geometry}");
     let (status, _, reported) = validate(folder.path(), "TRUTH", " --level 2");

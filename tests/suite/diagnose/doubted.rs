@@ -53,6 +53,27 @@ fn a_block_of_wrong_rows_makes_nothing_of_the_robot() {
     }
 }
 
+/// Of three reflectors, measured in turn, one slips: between its rows stand those of the others.
+#[test]
+fn rows_of_one_point_in_a_row_that_fit_no_model_are_missing_something() {
+    let moved = moved(clean(4), |row, _| {
+        let is_moved = row % 3 == 1 && row >= 105;
+        [0.0, 0.0, if is_moved { 1.0 } else { 0.0 }]
+    });
+    let mut csv = String::new();
+    for (row, line) in moved.csv.lines().enumerate() {
+        let point = match row {
+            0 => "point",
+            _ => ["A", "B", "C"][(row - 1) % 3],
+        };
+        csv += &format!("{line},{point}\n");
+    }
+    let d = found(&with_csv(moved, csv), &Options::default());
+    assert_eq!(d.verdict, Verdict::Undetermined, "{:?}", d.reasons);
+    let is_said = |reason: &String| reason.contains("15 rows of point B one after another");
+    assert!(d.reasons.iter().any(is_said), "{:?}", d.reasons);
+}
+
 #[test]
 fn from_one_side_backlash_and_a_moved_zero_are_both_possible() {
     let base = clean(6);

@@ -56,7 +56,7 @@ fn a_target_with_comments_between_its_numbers_is_written_out_on_one_line() {
     assert!(
         moves
             .clone()
-            .all(|line| !line.contains('!') && line.ends_with(";")),
+            .all(|line| !line.contains('!') && line.ends_with(';')),
         "{written}"
     );
     let again = split(&[("t.mod", &written)]);

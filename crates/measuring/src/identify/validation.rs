@@ -468,6 +468,8 @@ fn cross_validate(
         begin(&problem, &mut begun, guess);
         contact::start(&mut problem, &mut begun)?;
     }
+    let provenance = profile.provenance.as_ref();
+    let is_calibrated = provenance.is_some_and(|it| it.get("measurements_sha256").is_some());
     let (mut full, mut alone) = (Vec::new(), Vec::new());
     let mut rows = Vec::new();
     let nominal = {
@@ -488,11 +490,11 @@ fn cross_validate(
         only_frames.parameters.clone_from(&frames);
         let solved = solve(&only_frames, nominal.clone(), Shape::Squares, true)?;
         alone.extend(misses(&test, &solved.estimate));
-        // what a level does not seek stays as the profile has it; else the profile's own effects
-        // are found again from nothing
+        // what a level does not seek stays as a profile has it that was never calibrated; else all is
+        // found again from nothing: what was identified may have seen the rows that are left out
         let from = match folds.level {
-            Some(_) => begun.clone(),
-            None => solved.estimate,
+            Some(_) if !is_calibrated => begun.clone(),
+            _ => solved.estimate,
         };
         let solved = solve(&training, from, Shape::Huber, true)?;
         full.extend(misses(&test, &solved.estimate));

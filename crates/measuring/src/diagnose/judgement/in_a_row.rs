@@ -11,6 +11,7 @@ use crate::identify::Line;
 use crate::identify::measurements::Measurements;
 use crate::identify::robust::limit;
 use crate::identify::start::align;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Fewer configurations one after another are single wrong rows: where one row in fifty is wrong,
@@ -24,7 +25,7 @@ const EXPLAINS: f64 = 0.5;
 /// Rows one after another that fit no model.
 pub(crate) struct InARow {
     /// Which.
-    pub rows: Range<usize>,
+    pub rows: Vec<usize>,
     /// Where they stand, how far they are off, and what that mostly is.
     pub words: String,
 }
@@ -61,6 +62,41 @@ fn stretches(wrong: &[bool], configuration: &[usize]) -> Vec<Range<usize>> {
     let chance = |rows: &Range<usize>| count * rate.powf(poses(rows) as f64);
     all.retain(|rows| chance(rows) < BY_CHANCE);
     all
+}
+
+fn is_of(measurements: &Measurements, row: usize, point: &str) -> bool {
+    measurements.rows[row].point.as_deref() == Some(point)
+}
+
+/// Stretches of all rows, and of those of one point where others stand between them: its reflector may
+/// have moved alone.
+fn of_points<'a>(
+    wrong: &[bool],
+    configuration: &[usize],
+    measurements: &'a Measurements,
+) -> Vec<(Vec<usize>, Option<&'a str>)> {
+    let all = stretches(wrong, configuration);
+    let mut found: Vec<(Vec<usize>, Option<&str>)> =
+        all.into_iter().map(|rows| (rows.collect(), None)).collect();
+    let points = measurements
+        .rows
+        .iter()
+        .filter_map(|row| row.point.as_deref());
+    let points: BTreeSet<&str> = points.collect();
+    for point in points {
+        let own = (0..wrong.len()).filter(|row| is_of(measurements, *row, point));
+        let own: Vec<usize> = own.collect();
+        let wrong: Vec<bool> = own.iter().map(|row| wrong[*row]).collect();
+        let configuration: Vec<usize> = own.iter().map(|row| configuration[*row]).collect();
+        for rows in stretches(&wrong, &configuration) {
+            let rows = own[rows].to_vec();
+            let is_known = |(known, _): &(Vec<usize>, _)| rows.iter().any(|r| known.contains(r));
+            if !found.iter().any(is_known) {
+                found.push((rows, Some(point)));
+            }
+        }
+    }
+    found
 }
 
 /// What is expected of a row, and what was seen.
@@ -125,13 +161,14 @@ pub(crate) fn in_a_row(
     let wrong: Vec<bool> = (0..layout.rows())
         .map(|row| beyond(layout, refit, row).is_some())
         .collect();
-    let all = stretches(&wrong, &measurements.configurations());
+    let all = of_points(&wrong, &measurements.configurations(), measurements);
     if all.is_empty() {
         return Vec::new();
     }
     let models = problem.models(&refit.estimate, &[]);
-    let of = |rows: Range<usize>| {
-        let each = problem.rows[rows.clone()].iter().map(|row| {
+    let of = |(rows, point): (Vec<usize>, Option<&str>)| {
+        let each = rows.iter().map(|row| {
+            let row = &problem.rows[*row];
             let pose = models[row.rig].evaluate(&row.q, &row.conditions, &mut []);
             let seen = problem.observe(&refit.estimate, row, pose);
             (pose, seen.expected_m(), seen.gap(), row)
@@ -154,16 +191,17 @@ pub(crate) fn in_a_row(
         });
         let points: Vec<Seen> = points.collect();
         let line = |row: usize| &measurements.rows[row].line;
-        let (first, last) = (line(rows.start), line(rows.end - 1));
-        let when = match (rows.start == 0, rows.end == layout.rows()) {
+        let (start, end) = (rows[0], rows[rows.len() - 1]);
+        let (first, last) = (line(start), line(end));
+        let is_same = |row: usize| point.is_none_or(|point| is_of(measurements, row, point));
+        let is_first = !(0..start).any(is_same);
+        let is_last = !(end + 1..layout.rows()).any(is_same);
+        let when = match (is_first, is_last) {
             (true, _) => format!("after {last}"),
             (_, true) => format!("before {first}"),
             _ => format!("before {first} and after {last}"),
         };
-        let sigmas = (
-            problem.rows[rows.start].sigma_m,
-            problem.rows[rows.start].sigma_rad,
-        );
+        let sigmas = (problem.rows[start].sigma_m, problem.rows[start].sigma_rad);
         let is_of_place = place / sigmas.0 >= turned / sigmas.1;
         let mut off = mm(place) + " mm";
         if turned / sigmas.1 > limit(3) * refit.scale {
@@ -204,9 +242,10 @@ pub(crate) fn in_a_row(
         };
         InARow {
             words: format!(
-                "{}, {} rows one after another, are {off} off{together} and fit no model: {what}",
+                "{}, {} rows{} one after another, are {off} off{together} and fit no model: {what}",
                 lines(first, last),
-                rows.len()
+                rows.len(),
+                point.map_or_else(String::new, |point| format!(" of point {point}"))
             ),
             rows,
         }

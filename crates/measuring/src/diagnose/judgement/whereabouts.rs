@@ -5,7 +5,6 @@ use crate::diagnose::estimator::table::Layout;
 use crate::identify::problem::{Estimate, PointRef, Problem};
 use crate::identify::robust::limit;
 use crate::model::JOINTS;
-use std::ops::Range;
 
 /// Groups that a column's values are sorted into.
 const GROUPS: usize = 8;
@@ -163,7 +162,7 @@ pub fn spots(
     used: &[bool],
     residual: &[f64],
     scale: f64,
-    together: &[Range<usize>],
+    together: &[Vec<usize>],
 ) -> Vec<Spot> {
     let cut: Vec<f64> = {
         let mut lengths: Vec<f64> = (0..layout.rows())

@@ -84,7 +84,7 @@ pub(super) enum Why {
 impl Why {
     /// The finding, what is wrong, and the way out.
     pub(super) fn remark(self) -> Remark {
-        let six = "only arms with six joints and a spherical wrist are compensated";
+        let six = "only arms with six joints are compensated";
         let moving = "moves in a moving frame are not compensated";
         let (id, text, hint) = match self {
             Self::Incremental => (
