@@ -343,12 +343,10 @@ fn differ(axis: &Listed, a: f64, b: f64) -> bool {
 /// The moves that end the arc through the point of a move.
 pub(crate) fn ends_of(program: &Program, via: usize) -> impl Iterator<Item = usize> {
     let moves = &program.moves;
-    let last = match moves[via].motion {
-        Motion::ArcVia => moves.len(),
-        _ => 0,
-    };
+    let is_via = moves[via].motion == Motion::ArcVia;
+    let end = if is_via { moves.len() } else { 0 };
     // moves of one statement follow each other, once for each state in which the robot comes there
-    let mut behind = (via + 1..last)
+    let mut behind = (via + 1..end)
         .skip_while(move |at| moves[*at].instruction == moves[via].instruction)
         .peekable();
     let last = behind.peek().map(|at| moves[*at].instruction);

@@ -11,7 +11,7 @@ use crate::identify::Line;
 use crate::identify::measurements::Measurements;
 use crate::identify::robust::limit;
 use crate::identify::start::align;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Fewer configurations one after another are single wrong rows: where one row in fifty is wrong,
@@ -64,10 +64,6 @@ fn stretches(wrong: &[bool], configuration: &[usize]) -> Vec<Range<usize>> {
     all
 }
 
-fn is_of(measurements: &Measurements, row: usize, point: &str) -> bool {
-    measurements.rows[row].point.as_deref() == Some(point)
-}
-
 /// Stretches of all rows, and of those of one point where others stand between them: its reflector may
 /// have moved alone.
 fn of_points<'a>(
@@ -75,23 +71,24 @@ fn of_points<'a>(
     configuration: &[usize],
     measurements: &'a Measurements,
 ) -> Vec<(Vec<usize>, Option<&'a str>)> {
-    let all = stretches(wrong, configuration);
-    let mut found: Vec<(Vec<usize>, Option<&str>)> =
-        all.into_iter().map(|rows| (rows.collect(), None)).collect();
-    let points = measurements
-        .rows
-        .iter()
-        .filter_map(|row| row.point.as_deref());
-    let points: BTreeSet<&str> = points.collect();
-    for point in points {
-        let own = (0..wrong.len()).filter(|row| is_of(measurements, *row, point));
-        let own: Vec<usize> = own.collect();
+    let mut found = Vec::new();
+    let mut is_found = vec![false; wrong.len()];
+    for rows in stretches(wrong, configuration) {
+        is_found[rows.clone()].fill(true);
+        found.push((rows.collect(), None));
+    }
+    let mut points: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (at, row) in measurements.rows.iter().enumerate() {
+        if let Some(point) = row.point.as_deref() {
+            points.entry(point).or_default().push(at);
+        }
+    }
+    for (point, own) in points {
         let wrong: Vec<bool> = own.iter().map(|row| wrong[*row]).collect();
         let configuration: Vec<usize> = own.iter().map(|row| configuration[*row]).collect();
         for rows in stretches(&wrong, &configuration) {
             let rows = own[rows].to_vec();
-            let is_known = |(known, _): &(Vec<usize>, _)| rows.iter().any(|r| known.contains(r));
-            if !found.iter().any(is_known) {
+            if !rows.iter().any(|row| is_found[*row]) {
                 found.push((rows, Some(point)));
             }
         }
@@ -193,7 +190,8 @@ pub(crate) fn in_a_row(
         let line = |row: usize| &measurements.rows[row].line;
         let (start, end) = (rows[0], rows[rows.len() - 1]);
         let (first, last) = (line(start), line(end));
-        let is_same = |row: usize| point.is_none_or(|point| is_of(measurements, row, point));
+        let own = |row: usize| measurements.rows[row].point.as_deref();
+        let is_same = |row: usize| point.is_none() || own(row) == point;
         let is_first = !(0..start).any(is_same);
         let is_last = !(end + 1..layout.rows()).any(is_same);
         let when = match (is_first, is_last) {

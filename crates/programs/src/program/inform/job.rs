@@ -404,11 +404,16 @@ impl<'a> Positions<'a> {
                     "x, y, z, Rx, Ry and Rz, of a seven-axis arm Re, with decimal points",
                 ));
             }
-            // Re that is not zero is the elbow angle of a seven-axis arm, or one of seven is behind a
-            // decimal comma
+            // Re that is not zero is the elbow angle of a seven-axis arm; a number without a point among
+            // seven may be one half of a number with a decimal comma
             Coordinates::Rectangular => {
-                let is_six = count == 6 || self.numbers[start + 6].value == 0.0;
-                ((Shape::Pose, header.variant), is_six)
+                let has_point = |number: &Number| {
+                    let at = number.start as usize;
+                    source.bytes[at..at + usize::from(number.length)].contains(&b'.')
+                };
+                let numbers = &self.numbers[start..];
+                let is_zero = || numbers[6].value == 0.0 && numbers.iter().all(has_point);
+                ((Shape::Pose, header.variant), count == 6 || is_zero())
             }
             Coordinates::Pulses => ((Shape::Joints, PULSES), count == 6 && self.pulses_known),
             Coordinates::Degrees => ((Shape::Joints, DEGREES), count == 6),

@@ -54,7 +54,7 @@ fn header_lines_hold_until_they_are_set_anew() {
     let positions = format!(
         "///NPOS 4,0,0,1,0,0\n///TOOL 0\n///POSTYPE \
          PULSE\n///PULSE\nC00000=0,10,-20,30,-40,50\n{USER}C00001={P6}\n\
-         ///USER 4\nC00002= 1, -2.5 ,3,.5,+20.,-30,0.0\n///TOOL 5\n///POSTYPE BASE\nC00003={P6}\nP00018={P6}"
+         ///USER 4\nC00002= 1, -2.5 ,3,.5,+20.,-30\n///TOOL 5\n///POSTYPE BASE\nC00003={P6}\nP00018={P6}"
     );
     let moves = "MOVJ C00000 VJ=0.78\n'MOVL C00009\n  MOVL C00001 V=100.0\n//MOVL C00007 V=1\nMOVJ \
         C00002 VJ=5\nMOVL C00003\nMOVL P018 V=5";
@@ -221,8 +221,15 @@ fn a_frame_that_the_header_does_not_tell_is_an_error() {
 fn a_rectangular_position_with_more_than_six_numbers_is_refused() {
     let position = |numbers: &str| job(&format!("{USER}C00000={numbers}"), "MOVL C00000");
     let six = "525.000,60.000,-84.000,180.00,-6.00,25.00";
-    // a decimal comma, and the elbow angle of a seven-axis arm
-    for numbers in [six.replace("-6.00", "-6,00"), format!("{six},30.0")] {
+    // a decimal comma, also where the last number is zero, and the elbow angle of a seven-axis arm
+    let zero = "525.000,60.000,-84.000,180.00,-6.00,0.00";
+    for numbers in [
+        six.replace("-6.00", "-6,00"),
+        zero.replace("525.000", "525,000"),
+        zero.replace("-6.00", "-6,00"),
+        zero.replace(",0.00", ",0,00"),
+        format!("{six},30.0"),
+    ] {
         let program = read(&position(&numbers));
         assert_eq!(ids(&program), ["target-not-six-axes"], "{numbers}");
         assert!(program.targets[0].blocked);
