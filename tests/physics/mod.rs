@@ -42,6 +42,8 @@ pub struct Moment {
     pub force: V3,
     pub temperature: f64,
     pub time: f64,
+    /// Which of the points on the tool, from 0.
+    pub point: Option<u32>,
     /// From 1.
     pub row: usize,
     pub rows: usize,
@@ -84,6 +86,8 @@ pub enum Fault {
     Shift(usize, [f64; 6]),
     /// First row, displacement in the tool's frame.
     Slip(usize, V3),
+    /// Of this point alone.
+    Reflector(u32, usize, V3),
     /// Joint, the part of its last move that is missing.
     Unsettled(usize, f64),
     /// Joint, rad/(N m) by the side it comes from.
@@ -262,6 +266,9 @@ pub fn tool_pose(robot: &Robot, faults: &[Fault], q: &[f64; 6], at: &Moment) -> 
     for fault in faults {
         match fault {
             Fault::Slip(row, by) if at.row >= *row => here = times(&here, &matrix::shift(*by)),
+            Fault::Reflector(point, row, by) if at.point == Some(*point) && at.row >= *row => {
+                here = times(&here, &matrix::shift(*by));
+            }
             Fault::BaseDrift(by, constant) => {
                 here = times(&matrix::shift(by.map(|x| x * warm(*constant))), &here);
             }

@@ -127,10 +127,12 @@ pub fn kinds(start: Start) -> Vec<Kind> {
     ];
     of_arm()
         .filter(|k| start != Start::Nominal || !absorbed.contains(k))
-        // cases have a clock and a thermometer
+        // cases have a clock and a thermometer, and no names of points
         .filter(|k| {
             let needs = k.definition().needs;
-            !needs.contains(&Need::NoTime) && !needs.contains(&Need::NoTemperature)
+            [Need::NoTime, Need::NoTemperature, Need::Points]
+                .iter()
+                .all(|n| !needs.contains(n))
         })
         .collect()
 }

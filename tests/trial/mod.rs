@@ -375,6 +375,7 @@ fn moment(c: &Conditions) -> Moment {
         force: c.force_n,
         temperature: c.temperature_c.unwrap_or(20.0),
         time: c.time_s.unwrap_or(0.0),
+        point: c.point,
         row: c.row.map_or(0, |r| r as usize),
         rows: c.rows as usize,
         moved: c.moved,

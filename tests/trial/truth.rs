@@ -67,6 +67,9 @@ pub fn faults(effect: &Effect) -> Fault {
         Kind::WarmUpDrift => Fault::JointDrift(i, p[0], p[4]),
         Kind::FrameShift => Fault::Shift(row, *p),
         Kind::ToolSlip => Fault::Slip(row, [p[0], p[1], p[2]]),
+        Kind::ReflectorSlip => {
+            Fault::Reflector(u32::try_from(i).expect("small"), row, [p[0], p[1], p[2]])
+        }
         Kind::Settling => Fault::Unsettled(i, p[0]),
         Kind::FrictionBacklash => Fault::Friction(i, p[0]),
         Kind::ToolCompliance => Fault::Adapter(p[0], p[1]),

@@ -96,6 +96,10 @@ fn iso_9283(found: &Validation, style: Style) -> String {
         let all: Vec<_> = std::iter::once(header).chain(rows).collect();
         aligned(&all, style.width)
     };
+    let more = |count: usize| match count.saturating_sub(most) {
+        0 => String::new(),
+        rest => format!("... and {rest} more (--verbose)\n"),
+    };
     out += "\nrepeated poses, ISO 9283, mm; AP: the mean from the commanded pose, and from the \
         real model's\n";
     let rows = found.iso_9283.iter().take(most).map(|r| {
@@ -117,6 +121,7 @@ fn iso_9283(found: &Validation, style: Style) -> String {
         &["line", "count", "AP", "AP real", "RP", "vAP"],
         rows.collect(),
     );
+    out += &more(found.iso_9283.len());
     if found.iso_9283_distances.is_empty() {
         return out;
     }
@@ -136,5 +141,6 @@ fn iso_9283(found: &Validation, style: Style) -> String {
         &["lines", "count", "distance", "AD", "AD real", "RD"],
         rows.collect(),
     );
+    out += &more(found.iso_9283_distances.len());
     out
 }

@@ -53,22 +53,57 @@ fn a_block_of_wrong_rows_makes_nothing_of_the_robot() {
     }
 }
 
-/// Of three reflectors, measured in turn, one slips: between its rows stand those of the others.
-#[test]
-fn rows_of_one_point_in_a_row_that_fit_no_model_are_missing_something() {
-    let moved = moved(clean(4), |row, _| {
-        let is_moved = row % 3 == 1 && row >= 105;
-        [0.0, 0.0, if is_moved { 1.0 } else { 0.0 }]
-    });
+/// The rows of a case as those of three reflectors, which are measured in turn.
+fn of_three(case: Case) -> Case {
     let mut csv = String::new();
-    for (row, line) in moved.csv.lines().enumerate() {
+    for (row, line) in case.csv.lines().enumerate() {
         let point = match row {
             0 => "point",
             _ => ["A", "B", "C"][(row - 1) % 3],
         };
         csv += &format!("{line},{point}\n");
     }
-    let d = found(&with_csv(moved, csv), &Options::default());
+    with_csv(case, csv)
+}
+
+/// Of three reflectors one slips: what it does is none of the robot, and the profile stays as good.
+#[test]
+fn a_reflector_that_slips_alone_is_named() {
+    for (seed, mm) in [(4, 0.1), (5, 0.4), (6, 1.5)] {
+        let base = clean(seed);
+        let name = base.profile.tools.keys().next().expect("its tool");
+        let tool = base.profile.tool(name).expect("its tool");
+        let model = base.profile.real_model(&tool, &Conditions::default());
+        let slipped = moved(base, |row, degrees| {
+            let pose = model.forward(&degrees.map(f64::to_radians), &Conditions::default());
+            let is_moved = row % 3 == 1 && row >= 80;
+            pose.rotation * [if is_moved { mm } else { 0.0 }, 0.0, 0.0]
+        });
+        let d = found(&of_three(slipped), &Options::default());
+        assert_eq!(d.verdict, Verdict::Explained, "{mm} mm: {:?}", d.reasons);
+        let [slip] = &d.found[..] else {
+            panic!("{mm} mm: {} effects", d.found.len());
+        };
+        assert_eq!(slip.effect.label(), "reflector_slip point 2 row 83");
+        assert_eq!(slip.standing, Standing::Certain);
+        assert!((1e3 * slip.effect.parameters[0] - mm).abs() < 0.03);
+        let sentence = slip.effect.sentence(&slip.seen);
+        assert!(
+            sentence.contains("reflector B slipped before row 83"),
+            "{sentence}"
+        );
+    }
+}
+
+/// Of three reflectors, measured in turn, one moves with the floor: between its rows stand those of
+/// the others.
+#[test]
+fn rows_of_one_point_in_a_row_that_fit_no_model_are_missing_something() {
+    let moved = moved(clean(4), |row, _| {
+        let is_moved = row % 3 == 1 && row >= 105;
+        [0.0, 0.0, if is_moved { 1.0 } else { 0.0 }]
+    });
+    let d = found(&of_three(moved), &Options::default());
     assert_eq!(d.verdict, Verdict::Undetermined, "{:?}", d.reasons);
     let is_said = |reason: &String| reason.contains("15 rows of point B one after another");
     assert!(d.reasons.iter().any(is_said), "{:?}", d.reasons);

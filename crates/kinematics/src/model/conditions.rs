@@ -24,6 +24,8 @@ pub struct Conditions {
     pub device_m: Vector,
     /// Row of the measurements, from 1; none outside a session of measurements.
     pub row: Option<u32>,
+    /// Index of the named point of the tool that a row is of; none where it is of none.
+    pub point: Option<u32>,
     /// How many rows there are; 0 outside a session of measurements.
     pub rows: u32,
 }

@@ -425,6 +425,7 @@ pub(super) fn identify(
         options.shape,
         solution.parameters.len(),
     ));
+    remarks.extend(plausibility::check_tool(&problem));
     let compliance = options.selection.level == Level::Compliance;
     remarks.extend(screening::check_masses(&problem, compliance));
     let base_replaced = sought && base_policy(options.base, profile, &mut solution)?;

@@ -6,7 +6,7 @@ use super::parameters::{Selection, Subject};
 use super::pick::Pick;
 use super::problem::{Problem, Row};
 use crate::model::Conditions;
-use crate::model::effects::{Effect, Kind, List, Need};
+use crate::model::effects::{Effect, Kind, List, Need, SiteKey};
 use crate::profile::{Mounted, Profile, is_of_profile};
 
 /// A joint's torque must change by this part of the largest change to tell its compliance.
@@ -98,6 +98,12 @@ pub(crate) fn too_even_c(rows: &[Row]) -> Option<f64> {
     (by < WARMER_C).then_some(by)
 }
 
+/// Whether the rows are of two named points of the tool or more.
+pub(crate) fn has_points(rows: &[Row]) -> bool {
+    let points = || rows.iter().filter_map(|row| row.conditions.point);
+    points().any(|point| Some(point) != points().next())
+}
+
 /// Refuses effects that begin at a row where none is named, or one that these rows do not show.
 fn refuse_other_rows(asked: &[Pick], rows: usize) -> Result<(), IdentifyError> {
     for pick in asked {
@@ -106,7 +112,9 @@ fn refuse_other_rows(asked: &[Pick], rows: usize) -> Result<(), IdentifyError> {
             continue;
         };
         let id = definition.id;
-        let message = match pick.places.first() {
+        let counted = definition.site.iter().filter(|key| key.numbers().is_some());
+        let before = counted.take_while(|key| **key != SiteKey::Row).count();
+        let message = match pick.places.get(before) {
             None => format!("`{id}` cannot be identified: it begins at a row, and none is named"),
             Some((first, last)) if *first < 2 || *last as usize > rows => {
                 format!(
@@ -119,7 +127,8 @@ fn refuse_other_rows(asked: &[Pick], rows: usize) -> Result<(), IdentifyError> {
         return Err(IdentifyError::Suspicious {
             message,
             hint: format!(
-                "`poseshift diagnose` finds the row; `{id}:{}` means from the row in the middle on",
+                "`poseshift diagnose` finds the row; `{id}:{}{}` means from the row in the middle on",
+                "1:".repeat(before),
                 (rows / 2).max(2)
             ),
         });
@@ -171,6 +180,7 @@ pub(super) fn check_needs(
                 Need::Order | Need::NoTime | Need::NoTemperature => true,
                 Need::Moves => problem.rows.iter().any(|r| r.conditions.moved != [0.0; 6]),
                 Need::Load => problem.tools.iter().any(|t| t.load.is_some()),
+                Need::Points => has_points(&problem.rows),
                 Need::Places => problem
                     .rows
                     .iter()

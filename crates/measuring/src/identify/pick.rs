@@ -292,7 +292,7 @@ impl Pick {
             .filter(|p| p.numbers().is_some());
         for (n, place) in counted.enumerate() {
             let default = match place {
-                SiteKey::Order | SiteKey::Row => (place.one(), place.one()),
+                SiteKey::Order | SiteKey::Row | SiteKey::Point => (place.one(), place.one()),
                 SiteKey::JointOrBase => (BASE_NUMBER, BASE_NUMBER),
                 SiteKey::Link | SiteKey::Joint | SiteKey::On => (1, 6),
                 other => other.numbers().unwrap_or_default(),
@@ -331,7 +331,7 @@ fn first_values(kind: Kind) -> [f64; MOST_PARAMETERS] {
 
 fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
     let index = match place {
-        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis | SiteKey::Point => {
             effect.site.index + 1
         }
         SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => effect.site.on + 1,
@@ -346,7 +346,7 @@ fn number(effect: &Effect, place: SiteKey) -> Option<u32> {
 fn with(site: &Site, place: SiteKey, value: u32) -> Site {
     let mut site = site.clone();
     match place {
-        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+        SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis | SiteKey::Point => {
             site.index = value as usize - 1;
         }
         SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => site.on = value as usize - 1,
@@ -383,6 +383,7 @@ mod tests {
             "warm_up_drift:base",
             "warm_up_drift:6",
             "tool_slip:77",
+            "reflector_slip:2:77",
         ] {
             let pick = Pick::parse(word).expect("a word of an effect");
             let effects = pick.effects();

@@ -225,10 +225,11 @@ impl Problem {
                 tools.push(tool);
                 tools.len() - 1
             });
-            let named = m.point.as_ref().map(|name| {
+            let at = m.point.as_ref().map(|name| {
                 let at = points.iter().position(|p| p.name == *name);
-                PointRef::Named(at.expect("every name was gathered"))
+                at.expect("every name was gathered")
             });
+            let named = at.map(PointRef::Named);
             sigma_assumed |= m.sigma_m.is_none();
             let sigma_m = m.sigma_m.unwrap_or(DEFAULT_SIGMA_M);
             rows.push(Row {
@@ -239,6 +240,7 @@ impl Problem {
                 point: named.unwrap_or(PointRef::Known(m.point_in_tool_m.unwrap_or_default())),
                 conditions: Conditions {
                     row: u32::try_from(index + 1).ok(),
+                    point: at.and_then(|at| u32::try_from(at).ok()),
                     rows: u32::try_from(measurements.rows.len()).unwrap_or(u32::MAX),
                     ..m.conditions
                 },

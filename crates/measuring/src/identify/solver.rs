@@ -20,8 +20,7 @@ pub const STEP_LIMIT: f64 = 1e-7;
 /// A sum of squares that falls by less than this part of itself ends the iteration, if it promised
 /// no more.
 const FALL_LIMIT: f64 = 1e-9;
-/// Passes that a loss may take that leaves rows out: its steps are those of weights, not of
-/// Newton.
+/// Passes that a loss may take that weighs rows: its steps are those of weights, not of Newton.
 const MOST_SLOW_PASSES: usize = 240;
 /// A step of it is small that is this part of the parameters' standard deviations.
 const SMALL_PART: f64 = 0.01;
@@ -184,9 +183,9 @@ impl Iteration<'_> {
     }
 
     /// The part of the loss that a full step promises still, where that step is a small part of the
-    /// parameters' standard deviations: what leaves rows out comes to rest slowly.
+    /// parameters' standard deviations: what weighs rows comes to rest slowly.
     fn nearly(&self, normal: &Normal) -> Option<f64> {
-        if self.loss.shape != Shape::Tukey {
+        if self.loss.shape == Shape::Squares {
             return None;
         }
         let step = normal.matrix.clone().cholesky()?.solve(&normal.gradient);
@@ -276,7 +275,7 @@ fn noise_of(problem: &Problem, normal: &Normal) -> f64 {
 ///
 /// # Errors
 /// Too few numbers for the parameters that the data determine; no rest within 60 passes (240 with
-/// [`Shape::Tukey`]).
+/// a shape that weighs rows).
 pub fn solve(
     problem: &Problem,
     start: Estimate,
@@ -347,8 +346,8 @@ pub fn solve_telling(
         };
         let own = match (rounds, loss.shape) {
             (0, _) => FIRST_PASSES,
-            (_, Shape::Tukey) => MOST_SLOW_PASSES,
-            _ => MOST_PASSES,
+            (_, Shape::Squares) => MOST_PASSES,
+            _ => MOST_SLOW_PASSES,
         };
         let rested = iteration.run(&mut estimate, &mut chosen.normal, passes + own);
         passes = iteration.passes;

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, joint};
+use super::words::{LAGS, deg, joint};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
@@ -37,7 +37,7 @@ impl Equation for Backlash {
         if effect.parameters[0] < 0.0 {
             format!("{} loses {}° when it reverses", joint(effect), deg(-effect.parameters[0]))
         } else {
-            format!("{} runs {}° ahead when it reverses", joint(effect), deg(effect.parameters[0]))
+            format!("{} runs {}° ahead when it reverses{LAGS}", joint(effect), deg(effect.parameters[0]))
         }
     }
 }

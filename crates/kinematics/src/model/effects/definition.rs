@@ -44,6 +44,12 @@ impl Definition {
         self.site.contains(&SiteKey::Row)
     }
 
+    /// Whether it belongs to one of the points that are measured.
+    #[must_use]
+    pub fn of_point(&self) -> bool {
+        self.site.contains(&SiteKey::Point)
+    }
+
     /// Whether it belongs to an external axis.
     #[must_use]
     pub fn of_external_axis(&self) -> bool {
@@ -128,6 +134,8 @@ pub enum SiteKey {
     Row,
     /// `tool: NAME`, optional: without it every tool
     Tool,
+    /// `point: 1…`, one of the points that the measurements name, in the order of their names
+    Point,
     /// `axis: 1…`, which of the profile's external axes in the order of the file
     Axis,
     /// `along: x`, one of these letters
@@ -206,6 +214,7 @@ impl SiteKey {
             Self::Order => "order",
             Self::Row => "row",
             Self::Tool => "tool",
+            Self::Point => "point",
             Self::Axis => "axis",
             Self::Along(_) => "along",
             Self::About(_) => "about",
@@ -235,7 +244,7 @@ impl SiteKey {
         match self {
             Self::Link | Self::Joint | Self::JointOrBase | Self::On => Some((1, 6)),
             Self::Order => Some((MILLI / 2, 1000 * MILLI)),
-            Self::Row => Some((1, 1_000_000_000)),
+            Self::Row | Self::Point => Some((1, 1_000_000_000)),
             Self::Axis => Some((1, MOST_EXTERNAL_AXES)),
             Self::Degree(low, high) => Some((low, high)),
             Self::Period => Some((1, MOST_PERIOD_MM * MILLI)),
@@ -377,6 +386,8 @@ pub enum Need {
     Load,
     /// Places or distances, not contacts.
     Places,
+    /// Column `point`, which names two points of the tool or more.
+    Points,
     /// Rows in order and no column `time_s`, which says more; unless it begins late.
     NoTime,
     /// Rows in order and no column `temperature_c`, which says more.
@@ -399,6 +410,7 @@ impl Need {
             }
             Self::Load => "the tool's mass_kg in the profile",
             Self::Places => "places or distances, not contacts",
+            Self::Points => "a column point that names two points or more",
             Self::NoTime => "rows in order and no column time_s",
             Self::NoTemperature => "rows in order and no column temperature_c",
         }

@@ -164,7 +164,11 @@ impl Effect {
                 }
                 (SiteKey::Tool, Some(value)) => site.tool = Some(name(definition, *place, value)?),
                 (
-                    SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis,
+                    SiteKey::Link
+                    | SiteKey::Joint
+                    | SiteKey::JointOrBase
+                    | SiteKey::Axis
+                    | SiteKey::Point,
                     Some(value),
                 ) => {
                     site.index = whole(definition, *place, value)? as usize - 1;
@@ -221,7 +225,11 @@ impl Effect {
         for place in definition.site {
             match place {
                 SiteKey::JointOrBase if self.site.index == BASE => {}
-                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+                SiteKey::Link
+                | SiteKey::Joint
+                | SiteKey::JointOrBase
+                | SiteKey::Axis
+                | SiteKey::Point => {
                     entry.push((place.key(), json!(self.site.index + 1)));
                 }
                 SiteKey::On => entry.push((place.key(), json!(self.site.on + 1))),
@@ -299,9 +307,11 @@ impl Effect {
     pub fn same_place(&self, other: &Self) -> bool {
         let (mine, others) = (&self.site, &other.site);
         let same = |place: &SiteKey| match place {
-            SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
-                mine.index == others.index
-            }
+            SiteKey::Link
+            | SiteKey::Joint
+            | SiteKey::JointOrBase
+            | SiteKey::Axis
+            | SiteKey::Point => mine.index == others.index,
             SiteKey::On | SiteKey::Along(_) | SiteKey::About(_) => mine.on == others.on,
             SiteKey::Order | SiteKey::Row | SiteKey::Degree(..) | SiteKey::Period => {
                 mine.order == others.order

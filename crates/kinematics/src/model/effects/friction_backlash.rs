@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{deg, joint};
+use super::words::{LAGS, deg, joint};
 use super::{Deflection, Effect, Equation, MOST_PARAMETERS, Seen, Site, State};
 use crate::geometry::Scalar;
 
@@ -39,10 +39,11 @@ impl Equation for FrictionBacklash {
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
         format!(
-            "{} {} {}° under 100 N m by the side it comes from",
+            "{} {} {}° under 100 N m by the side it comes from{}",
             joint(effect),
             if effect.parameters[0] < 0.0 { "is held back" } else { "runs ahead" },
-            deg(100.0 * effect.parameters[0].abs())
+            deg(100.0 * effect.parameters[0].abs()),
+            if effect.parameters[0] < 0.0 { "" } else { LAGS },
         )
     }
 }

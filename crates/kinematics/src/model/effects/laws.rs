@@ -20,6 +20,7 @@ fn conditions() -> Conditions {
         time_s: Some(300.0),
         gravity_m_s2: None,
         device_m: [0.4, -2.9, 1.1],
+        point: Some(3),
         row: Some(7),
         rows: 20,
         moved: [0.4, -0.9, 0.3, 1.2, -0.5, 2.0],
@@ -227,7 +228,11 @@ fn an_entry_written_is_read_as_the_same_effect() {
         let mut site = Site::default();
         for place in d.site {
             match place {
-                SiteKey::Link | SiteKey::Joint | SiteKey::JointOrBase | SiteKey::Axis => {
+                SiteKey::Link
+                | SiteKey::Joint
+                | SiteKey::JointOrBase
+                | SiteKey::Axis
+                | SiteKey::Point => {
                     site.index = 3;
                 }
                 SiteKey::On => site.on = 4,

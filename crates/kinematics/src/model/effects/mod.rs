@@ -24,6 +24,7 @@ use super::chain::Frames;
 use super::conditions::Conditions;
 use super::geometry::Geometry;
 use crate::geometry::{Scalar, Vector};
+use std::sync::Arc;
 
 /// [`Site::index`] of the base.
 pub const BASE: usize = 6;
@@ -81,7 +82,7 @@ trait Equation {
 }
 
 /// Where an effect was seen: what its sentence may need to know of the measurements.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Seen {
     /// Where the robot stands in the world, metres.
     pub base_m: Vector,
@@ -89,6 +90,8 @@ pub struct Seen {
     pub rows: usize,
     /// How long the session lasted, seconds; zero where nobody wrote it down.
     pub seconds: f64,
+    /// Names of the points measured, by [`Site::index`] of an effect that belongs to one.
+    pub points: Arc<[String]>,
 }
 
 /// Where an external axis stands.
@@ -228,6 +231,7 @@ registry! {
     warm_up_drift::WarmUpDrift,
     frame_shift::FrameShift,
     tool_slip::ToolSlip,
+    reflector_slip::ReflectorSlip,
     settling::Settling,
     friction_backlash::FrictionBacklash,
     tool_compliance::ToolCompliance,
@@ -281,7 +285,7 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Site {
     /// Index of the joint or link, 0 to 5; 6 is the base where an effect may belong to it; or
-    /// index of the external axis in the profile's list.
+    /// index of the external axis in the profile's list, or of the point that is measured.
     pub index: usize,
     /// Index of the joint it leaks from; of an external axis the direction: 0 is x, 1 is y, 2 is
     /// z.

@@ -2,7 +2,7 @@
 
 use super::definition::{Definition, Need, Parameter, SiteKey, Unit};
 use super::search::{Search, Shown};
-use super::words::{axis, mm};
+use super::words::{LAGS, axis, mm};
 use super::{AxisError, AxisState, Effect, Equation, MOST_PARAMETERS, Seen, Site};
 use crate::geometry::Scalar;
 
@@ -34,6 +34,10 @@ impl Equation for TrackBacklash {
     }
 
     fn sentence(effect: &Effect, _: &Seen) -> String {
-        format!("{} loses {} mm when it reverses", axis(effect), mm(effect.parameters[0]))
+        if effect.parameters[0] < 0.0 {
+            format!("{} loses {} mm when it reverses", axis(effect), mm(-effect.parameters[0]))
+        } else {
+            format!("{} runs {} mm ahead when it reverses{LAGS}", axis(effect), mm(effect.parameters[0]))
+        }
     }
 }

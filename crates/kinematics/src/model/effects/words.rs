@@ -7,6 +7,9 @@ use crate::geometry::units::{DEG, mm_from_m};
 /// Shorter constants count as this, rows.
 const SHORTEST: f64 = 0.1;
 
+/// Behind what says that a joint or axis runs ahead of its command.
+pub(super) const LAGS: &str = " (gears lag: is the sign of the directions right?)";
+
 /// The part of its last size that what grows exponentially with the row number has reached.
 #[inline(always)]
 pub(super) fn gone<S: Scalar>(row: f64, constant_rows: S) -> S {

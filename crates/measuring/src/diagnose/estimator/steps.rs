@@ -13,9 +13,13 @@ pub(crate) struct Steps {
     pub groups: Vec<Group>,
 }
 
-/// Rows in use that leave `margin` rows in use on both sides, the last first.
-fn firsts(fit: &Fit, layout: &Layout, margin: usize) -> Vec<usize> {
-    let is_used = |row: &usize| fit.roots[layout.row(*row)].iter().any(|r| *r > 0.0);
+/// Rows in use, of those that the columns show in, that leave `margin` such rows on both sides, the
+/// last first.
+fn firsts(fit: &Fit, layout: &Layout, columns: &[Column], margin: usize) -> Vec<usize> {
+    let is_used = |row: &usize| {
+        let mut numbers = layout.row(*row);
+        numbers.any(|n| fit.roots[n] > 0.0 && columns.iter().any(|c| c[n] != 0.0))
+    };
     let used: Vec<usize> = (0..layout.rows()).rev().filter(is_used).collect();
     let count = used.len();
     let inside = used.into_iter().enumerate();
@@ -34,7 +38,7 @@ impl Steps {
     ) -> Self {
         let count = columns.len();
         let columns: Vec<Column> = columns.iter().map(|c| fit.weighted(c)).collect();
-        let rows = firsts(fit, layout, margin);
+        let rows = firsts(fit, layout, &columns, margin);
         let mut slopes = vec![0.0; count];
         let mut gram = vec![vec![0.0; count]; count];
         let mut with_held = vec![vec![0.0; held.len()]; count];

@@ -303,10 +303,12 @@ fn effects(
 ) -> Vec<Found> {
     let refit = &attempt.refit;
     let rows = &attempt.session.problem.rows;
+    let points = attempt.session.problem.points.iter();
     let seen = Seen {
         base_m: refit.estimate.world_from_base.translation,
         rows: rows.len(),
         seconds: range(rows.iter().filter_map(|row| row.conditions.time_s)),
+        points: points.map(|point| point.name.clone()).collect(),
     };
     let of = |(i, chosen): (usize, &Chosen)| {
         let place = &refit.estimate.effects[refit.places[i]];
@@ -334,7 +336,7 @@ fn effects(
             before: spreads[1 + i],
             after: spreads[2 + i],
             found_again: proof.again[i],
-            seen,
+            seen: seen.clone(),
             in_profile: true,
             standing: Standing::Possible,
             against: Vec::new(),

@@ -11,7 +11,7 @@ use crate::diagnose::question::Session;
 use crate::diagnose::search::candidates::{MOST_ORDERS, columns_of};
 use crate::diagnose::search::waves::wave;
 use crate::diagnose::search::{Chosen, World};
-use crate::model::effects::{Kind, SiteKey};
+use crate::model::effects::{Effect, Kind, SiteKey};
 
 /// What may be in the place of an effect found.
 pub(crate) struct Instead {
@@ -31,9 +31,9 @@ pub(crate) fn instead(session: &Session, used: &[bool], chosen: &[Chosen]) -> Ve
         let effect = &own.candidate.effect;
         let one = SiteKey::Order.one();
         if effect.definition().begins_at_a_row() {
-            if !kinds.contains(&effect.kind) {
-                kinds.push(effect.kind);
-                all.extend(slow(session, &world, chosen, effect.kind));
+            if !kinds.contains(&(effect.kind, effect.site.index)) {
+                kinds.push((effect.kind, effect.site.index));
+                all.extend(slow(session, &world, chosen, effect));
             }
         } else if effect.definition().site.contains(&SiteKey::Order)
             && effect.site.order > MOST_ORDERS * one
@@ -48,10 +48,11 @@ pub(crate) fn instead(session: &Session, used: &[bool], chosen: &[Chosen]) -> Ve
 /// What moves at rows, moving slowly from the first row to the last instead: along a polynomial of
 /// the row, for which no row is chosen. Effects at rows of one kind are steps of one thing: one
 /// polynomial is in the place of them all.
-fn slow(session: &Session, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<Instead> {
+fn slow(session: &Session, world: &World, chosen: &[Chosen], of: &Effect) -> Vec<Instead> {
     let is_own = |c: &Chosen| {
         let effect = &c.candidate.effect;
-        effect.kind == kind && effect.definition().begins_at_a_row()
+        effect.definition().begins_at_a_row()
+            && (effect.kind, effect.site.index) == (of.kind, of.site.index)
     };
     let members: Vec<usize> = (0..chosen.len()).filter(|i| is_own(&chosen[*i])).collect();
     let Some(first) = members.first().map(|i| &chosen[*i].candidate) else {
@@ -103,8 +104,9 @@ fn slow(session: &Session, world: &World, chosen: &[Chosen], kind: Kind) -> Vec<
     let steps = gain(&own, &others).map(|gain| gain.gain - cost);
     let slowly = best(MOST_POWERS, &others);
     let together = steps.zip(slowly).map(|(steps, slowly)| steps - slowly);
-    let what = match kind {
+    let what = match of.kind {
         Kind::FrameShift => "a measuring device or a base that moves slowly",
+        _ if of.definition().of_point() => "a reflector that moves slowly",
         _ => "a tool that moves slowly",
     };
     let instead = |i: &usize| {

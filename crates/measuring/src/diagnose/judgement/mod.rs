@@ -273,7 +273,8 @@ fn twin(attempt: &Attempt, found: &Found) -> Option<&'static str> {
 /// The same effect: rows from which on one of the data holds, and orders of a wave, may lie a
 /// little apart.
 fn is_same(alternative: &Alternative, found: &Found) -> bool {
-    let is_step = alternative.effect.definition().begins_at_a_row();
+    let is_step = alternative.effect.definition().begins_at_a_row()
+        && alternative.effect.site.index == found.effect.site.index;
     alternative.effect.kind == found.effect.kind && is_step
         || near(&alternative.effect, &found.effect)
 }

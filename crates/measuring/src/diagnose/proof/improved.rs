@@ -13,11 +13,12 @@ use crate::profile::{DevicePlace, Mounted, Profile};
 /// Index of a joint's zero in its link's geometry.
 const THETA: usize = 3;
 
-/// What effects of the data have moved by the last row. What depends on where the tool is stays
-/// with the measurements.
-fn moved(effects: &[Effect], rows: usize) -> Deflection {
+/// What effects of the data have moved by the last row, for a named point or for none. What depends
+/// on where the tool is stays with the measurements.
+fn moved(effects: &[Effect], rows: usize, point: Option<usize>) -> Deflection {
     let conditions = Conditions {
         row: u32::try_from(rows).ok(),
+        point: point.and_then(|point| u32::try_from(point).ok()),
         ..Conditions::default()
     };
     let state = State {
@@ -89,10 +90,9 @@ pub(crate) fn improved(
     let sure = effects
         .iter()
         .filter(|e| !unsure.iter().any(|u| u.same_place(e)));
-    let moved = moved(
-        &sure.cloned().collect::<Vec<_>>(),
-        session.problem.rows.len(),
-    );
+    let sure: Vec<Effect> = sure.cloned().collect();
+    let moved_by = |point| moved(&sure, session.problem.rows.len(), point);
+    let moved = moved_by(None);
     effects.retain(|e| !(e.definition().of_data || keep_base && e.kind == Kind::BaseFrame));
     let world_from_base = Pose::from_xyz_rxryrz(moved.world) * estimate.world_from_base;
     if keep_base {
@@ -130,8 +130,12 @@ pub(crate) fn improved(
     effects.retain(|e| !e.is_zero());
     effects.sort_by_key(|e| REGISTRY.iter().position(|kind| *kind == e.kind));
     improved.effects = effects;
-    for (point, value) in session.problem.points.iter().zip(&estimate.points_m) {
-        improved.points.insert(point.name.clone(), *value);
+    let points = session.problem.points.iter().zip(&estimate.points_m);
+    for (index, (point, value)) in points.enumerate() {
+        // what all points moved by is in the tool's frame
+        let own = moved_by(Some(index)).tool;
+        let value = std::array::from_fn(|k| value[k] + own[k] - moved.tool[k]);
+        improved.points.insert(point.name.clone(), value);
     }
     improved
 }
@@ -157,7 +161,7 @@ mod tests {
             step(Kind::BaseFrame, 1, [0.1; 6]),
             step(Kind::MeasurementScale, 1, [1e-4, 0.0, 0.0, 0.0, 0.0, 0.0]),
         ];
-        let after = |rows| moved(&effects, rows);
+        let after = |rows| moved(&effects, rows, None);
         assert_eq!(after(9), Deflection::none());
         assert_eq!(after(20).world, [0.001, 0.0, 0.0, 0.0, 0.0, 0.002]);
         assert_eq!(after(20).tool, [0.0; 6]);

@@ -8,7 +8,7 @@ use crate::diagnose::estimator::table::{Numbers, Stored, dot, table_into};
 use crate::identify::clock::Late;
 use crate::identify::external::places;
 use crate::identify::measurements::{DIRECTION_COLUMNS, Measurements, Observed};
-use crate::identify::needs::too_even_c;
+use crate::identify::needs::{has_points, too_even_c};
 use crate::identify::parameters::{Parameter, Subject};
 use crate::identify::problem::{Estimate, Problem};
 use crate::model::effects::{
@@ -74,7 +74,8 @@ impl Candidate {
     #[must_use]
     pub fn same_effect(&self, other: &Self) -> bool {
         let (a, b) = (&self.effect, &other.effect);
-        a.kind == b.kind && (a.site == b.site || self.row.is_some())
+        let steps = self.row.is_some() && a.site.index == b.site.index;
+        a.kind == b.kind && (a.site == b.site || steps)
     }
 }
 
@@ -112,8 +113,8 @@ fn is_of_one_tool(kind: Kind, profile: &Profile, measured: usize) -> bool {
 }
 
 /// `tools`: names of the tools measured, where an effect is of each. `stood`: at how many places each
-/// axis of the track stood.
-fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
+/// axis of the track stood. `points`: how many of the tool are named.
+fn sites(kind: Kind, tools: &[String], stood: &[usize], points: usize) -> Vec<Site> {
     let mut all = vec![Site {
         order: 1,
         ..Site::default()
@@ -139,6 +140,7 @@ fn sites(kind: Kind, tools: &[String], stood: &[usize]) -> Vec<Site> {
                     .map(|t| with(&|s| s.tool = Some(t.clone())))
                     .collect(),
                 SiteKey::Tool | SiteKey::Row => vec![site.clone()],
+                SiteKey::Point => (0..points).map(|i| with(&|s| s.index = i)).collect(),
                 SiteKey::Axis => (0..stood.len()).map(|i| with(&|s| s.index = i)).collect(),
                 SiteKey::Along(_) | SiteKey::About(_) => {
                     let (low, high) = place.numbers().unwrap_or_default();
@@ -236,6 +238,7 @@ fn missing(kind: Kind, problem: &Problem, measurements: &Measurements) -> Option
                 let still = rows.iter().all(|r| r.conditions.moved == [0.0; 6]);
                 still.then(|| need.describe().to_owned())
             }
+            Need::Points => (!has_points(rows)).then(|| need.describe().to_owned()),
             Need::Load => {
                 let none = problem.tools.iter().all(|t| t.load.is_none());
                 none.then(|| need.describe().to_owned())
@@ -336,6 +339,7 @@ impl Candidates {
         // what a clock that begins late says is in the order of rows, too
         let has_time = length_s > 0.0 && Late::of(&measurements.rows).is_none();
         let has_temperature = measurements.has(&["temperature_c"]);
+        let has_points = has_points(&problem.rows);
         let track = problem.profile.external.track.len();
         let mut stood = places(&problem.profile.external, measurements);
         stood.truncate(track);
@@ -343,6 +347,7 @@ impl Candidates {
             let needs = kind.definition().needs;
             if has_time && needs.contains(&Need::NoTime)
                 || has_temperature && needs.contains(&Need::NoTemperature)
+                || !has_points && needs.contains(&Need::Points)
             {
                 continue;
             }
@@ -354,7 +359,7 @@ impl Candidates {
             let mut places = 0;
             let each = is_of_one_tool(kind, &problem.profile, tools.len());
             let of_tools = if each { &tools[..] } else { &[] };
-            for site in sites(kind, of_tools, &stood) {
+            for site in sites(kind, of_tools, &stood, problem.points.len()) {
                 let mut any = false;
                 let variants = variants(kind, &site, tried);
                 let mut sets: Vec<&[usize]> = variants.iter().map(|(s, _)| s.as_slice()).collect();

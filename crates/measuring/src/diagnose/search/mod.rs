@@ -107,7 +107,10 @@ fn with_row(effect: &Effect, row: Option<u32>) -> Effect {
 fn same(a: &Candidate, row: Option<u32>, b: &Candidate) -> bool {
     let kinds = a.effect.kind == b.effect.kind;
     match (row, b.row) {
-        (Some(x), Some(y)) => kinds && x.abs_diff(y) <= SAME_ROW,
+        (Some(x), Some(y)) => {
+            let of_one = a.effect.site.index == b.effect.site.index;
+            kinds && of_one && x.abs_diff(y) <= SAME_ROW
+        }
         _ => kinds && a.effect.site == b.effect.site,
     }
 }

@@ -7,7 +7,7 @@ use crate::identify::contact::Contact;
 use crate::identify::error::IdentifyError;
 use crate::identify::measurements::{Measurements, Observed};
 use crate::identify::parameters::{FIRST_PHYSICAL, Parameter, Subject};
-use crate::identify::problem::{Estimate, Problem};
+use crate::identify::problem::{Estimate, PointRef, Problem, Row};
 use crate::identify::robust::Shape;
 use crate::identify::statistics::{Miss, quantile};
 use crate::model::Slot;
@@ -59,6 +59,31 @@ fn usual(sizes: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| {
         let squares: f64 = sizes[..count].iter().map(|size| size * size).sum();
         (squares / count as f64).sqrt()
+    })
+}
+
+/// Says that no row shows where the tool is on the last link: all points are sought with everything
+/// else.
+pub(crate) fn check_tool(problem: &Problem) -> Option<Remark> {
+    let is_free = |row: &Row| match row.point {
+        PointRef::Named(point) => !problem.points[point].known && row.plate.is_none(),
+        PointRef::Known(_) => false,
+    };
+    let of_places = |row: &Row| !matches!(row.observed, Observed::Pose(_)) && is_free(row);
+    problem.rows.iter().all(of_places).then(|| {
+        let names = problem.points.iter().map(|point| point.name.as_str());
+        let names: Vec<&str> = names.collect();
+        remark(
+            "tool-not-measured",
+            WHOLE_FILE,
+            format!(
+                "nothing says where the measured points ({}) are on the tool: how far the flange, and each tool on it, is \
+                 from where the profile has it, is not identified",
+                names.join(", ")
+            ),
+            "give the points' places in the tool's frame (px_mm, py_mm, pz_mm), or measure the tool that programs use \
+             as well",
+        )
     })
 }
 
