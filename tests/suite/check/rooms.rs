@@ -116,3 +116,28 @@ fn the_clearance_is_that_of_the_nearest_pair_whatever_is_required_of_others() {
         assert_eq!(last["room"]["b"], "person", "{last}");
     }
 }
+
+#[test]
+fn the_clearance_of_what_is_beyond_the_horizon_does_not_fall_as_it_moves_away() {
+    // a bench below the tip, whose ball has 50 mm and is at z = 400
+    let least = |gap_mm: f64| {
+        let z_mm = 400.0 - 50.0 - gap_mm - 50.0;
+        let cell = format!(
+            "poseshift: cell/1\nclearance_mm: 20\nbodies:\n  - {{name: bench, box_mm: [100, 1000, 100], at: {{x_mm: 400, \
+             y_mm: 0, z_mm: {z_mm}, rx_deg: 0, ry_deg: 0, rz_deg: 0}}}}\nattached:\n  - {{name: tip, to: flange, \
+             sphere_mm: {{radius: 50}}}}\n"
+        );
+        let report = checked(PROGRAM, &cell, &["--horizon", "10"]).1;
+        let least = report["summary"]["min_clearance_mm"].as_f64();
+        least.expect("bodies")
+    };
+    let mut before = 0.0;
+    for gap_mm in [15.0, 22.0, 26.0, 29.0, 32.0, 36.0, 40.0, 300.0] {
+        let found = least(gap_mm);
+        let known: f64 = f64::min(gap_mm, 30.0);
+        // the real tip is not where it is wanted
+        assert!((found - known).abs() < 2.5, "{gap_mm}: {found}");
+        assert!(found >= before, "{gap_mm}: {found} after {before}");
+        before = found;
+    }
+}

@@ -1,7 +1,7 @@
 //! Targets between those of a program where an instruction is several moves, or one on which the
 //! tool rotates as the wrist does.
 
-use crate::support::{poseshift, repository, scratch};
+use crate::support::{poseshift, repository, run, scratch};
 
 /// Status, what was reported and the written program of `compensate --max-path-error`.
 fn refined(profile: &str, (name, text): (&str, &str)) -> (i32, String, Option<String>) {
@@ -191,4 +191,38 @@ fn a_path_on_which_the_wrist_leads_the_tool_is_not_certified() {
             assert_eq!(is_said, is_led, "{name}: {reported}");
         }
     }
+}
+
+/// A first move to joints before a tool is set, as most posts of KRL write it.
+#[test]
+fn moves_to_joints_before_any_tool_is_set_are_those_of_the_flange() {
+    let folder = scratch();
+    let program = "DEF home()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 10,A6 0}\n$TOOL={X 0,Y 0,Z 200,A 0,B 0,C 0}\n\
+        $BASE={X 1500,Y 0,Z 600,A 0,B 0,C 0}\nPTP {X 0,Y 0,Z 300,A 0,B 0,C 180,S 2,T 2}\n\
+        LIN {X 0,Y 100,Z 300,A 0,B 0,C 180}\nEND\n";
+    let (file, out) = (
+        folder.path().join("home.src"),
+        folder.path().join("out.src"),
+    );
+    std::fs::write(&file, program).expect("scratch");
+    let robot = crate::support::text("robots/kuka_kr210_r2700.yaml");
+    let robot = robot.replace(
+        "effects: []",
+        "effects: [{effect: link_geometry, link: 3, theta_deg: 0.1}]",
+    );
+    let profile = folder.path().join("p.yaml");
+    std::fs::write(&profile, robot).expect("scratch");
+    let [file, out, profile] = [&file, &out, &profile].map(|path| path.to_str().expect("UTF-8"));
+    let (status, said, error) = run(&["check", file, "--profile", profile]);
+    assert_eq!(status, 0, "{said}{error}");
+    assert!((said + &error).contains("warning[tool-not-set]"));
+    let compensate = ["compensate", file, "--profile", profile, "-o", out];
+    let (status, said, error) = run(&[&compensate[..], &["--max-path-error", "0.2"]].concat());
+    assert_eq!(status, 0, "{said}{error}");
+    // a move to a pose needs its tool
+    let program = program.replace("$TOOL={X 0,Y 0,Z 200,A 0,B 0,C 0}\n", "");
+    std::fs::write(file, program).expect("scratch");
+    let (status, said, error) = run(&["check", file, "--profile", profile]);
+    assert_eq!(status, 2);
+    assert!((said + &error).contains("where tool `$TOOL` is"));
 }

@@ -413,3 +413,108 @@ fn targets_are_inserted_where_the_rail_stands_and_refused_where_it_moves() {
     );
     assert!(!folder.path().join("moves.mod").exists());
 }
+
+/// The original says where the tool is wanted with the axis where it has it.
+#[test]
+fn an_axis_that_stands_elsewhere_than_in_the_original_is_an_error() {
+    let folder = scratch();
+    for (case, file, line, from, to) in [
+        ("rail", "Beam.mod", 16, "[700.00,", "[701.00,"),
+        ("positioner", "Pipe.mod", 16, "", ""),
+    ] {
+        let at = |part: &str| format!("programs/rapid/{case}/{part}");
+        let text = crate::support::text(&at(&format!("out/{file}")));
+        let own = text.lines().nth(line - 1).expect("a move");
+        let changed = if from.is_empty() {
+            // the second axis, which stands behind the first
+            let (head, tail) = own.rsplit_once(",9E9,9E9,9E9,9E9]").expect("external axes");
+            let (head, value) = head.rsplit_once(',').expect("two axes");
+            let value: f64 = value.parse().expect("a number");
+            format!("{head},{},9E9,9E9,9E9,9E9]{tail}", value - 1.0)
+        } else {
+            assert!(own.contains(from), "{own}");
+            own.replace(from, to)
+        };
+        let program = folder.path().join(file);
+        let name = program.to_str().expect("UTF-8");
+        let (nominal, profile) = (at(&format!("in/{file}")), at("profile.yaml"));
+        let check = |text: &str| {
+            std::fs::write(&program, text).expect("scratch");
+            let (status, out, error) =
+                crate::support::run(&["check", name, "--nominal", &nominal, "--profile", &profile]);
+            (status, out + &error)
+        };
+        assert_eq!(check(&text).0, 0, "{case}");
+        let (status, said) = check(&text.replace(own, &changed));
+        assert_eq!(status, 1, "{case}: {said}");
+        assert!(said.contains("external-not-original"), "{case}: {said}");
+        assert!(said.contains(&format!("{file}:{line}:")), "{case}: {said}");
+    }
+}
+
+/// What the base on a rail only comes near at home it may drive into: it is kept from all but what it
+/// stands on, and from that, too, where the cell says so.
+#[test]
+fn the_base_on_a_rail_drives_into_what_stood_next_to_it() {
+    let folder = scratch();
+    let profile = "external_axes:\n  track:\n    - {axis: eax_a, direction: [1, 0, 0], up: [0, 0, 1], \
+        zero_mm: 0, min_mm: 0, max_mm: 3000}\n";
+    let text = super::profile_text(
+        profile,
+        &["{effect: link_geometry, link: 3, theta_deg: 0.1}"],
+    );
+    let base = "base: {x_mm: 250, y_mm: -100, z_mm: 400, rx_deg: 0.5, ry_deg: -0.3, rz_deg: 30}";
+    let level = "base: {x_mm: 0, y_mm: 0, z_mm: 0, rx_deg: 0, ry_deg: 0, rz_deg: 0}";
+    std::fs::write(folder.path().join("p.yaml"), text.replace(base, level)).expect("scratch");
+    let program = "MODULE A\n  PROC main()\n    MoveAbsJ [[0,0,0,0,30,0],[0,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n    \
+        MoveAbsJ [[0,0,0,0,30,0],[500,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n  ENDPROC\nENDMODULE\n";
+    std::fs::write(folder.path().join("a.mod"), program).expect("scratch");
+    let place = "rx_deg: 0, ry_deg: 0, rz_deg: 0}}";
+    let checked = |gap_mm: f64, more: &str| {
+        let cell = format!(
+            "poseshift: cell/1\nbodies:\n  - {{name: cabinet, box_mm: [100, 300, 300], at: {{x_mm: {}, y_mm: 0, \
+             z_mm: 150, {place}\nattached:\n  - {{name: skirt, to: link0, box_mm: [400, 400, 200], at: {{x_mm: 0, \
+             y_mm: 0, z_mm: 100, {place}\n{more}",
+            250.0 + gap_mm
+        );
+        std::fs::write(folder.path().join("cell.yaml"), cell).expect("scratch");
+        let run = poseshift()
+            .current_dir(folder.path())
+            .args([
+                "check",
+                "a.mod",
+                "--profile",
+                "p.yaml",
+                "--cell",
+                "cell.yaml",
+            ])
+            .output()
+            .expect("the program starts");
+        let said = String::from_utf8(run.stdout).expect("UTF-8");
+        let error = String::from_utf8(run.stderr).expect("UTF-8");
+        let all = format!("{said}{error}");
+        let words: Vec<&str> = all.split_whitespace().collect();
+        let touches = words.join(" ").contains("skirt touches cabinet");
+        (run.status.code(), touches)
+    };
+    // the arm's own shape goes there, too
+    let foot = "pairs: [{a: link0, b: cabinet, allow: true}, {a: link1, b: cabinet, allow: true}, \
+        {a: link2, b: cabinet, allow: true}";
+    let pair = ", {a: skirt, b: cabinet, clearance_mm: 20}";
+    for (gap_mm, clearance, pair) in [
+        (6.0, "", ""),
+        (6.0, "clearance_mm: 5\n", ""),
+        (6.0, "clearance_mm: 20\n", ""),
+        (6.0, "", pair),
+        (0.5, "", pair),
+    ] {
+        let more = format!("{clearance}{foot}{pair}]\n");
+        assert_eq!(checked(gap_mm, &more), (Some(1), true), "{gap_mm} {more}");
+    }
+    // it stands on it, or the cell allows it
+    let allowed = ", {a: skirt, b: cabinet, allow: true}";
+    for (gap_mm, pair) in [(0.5, ""), (6.0, allowed)] {
+        let more = format!("{foot}{pair}]\n");
+        assert_eq!(checked(gap_mm, &more), (Some(0), false), "{gap_mm} {more}");
+    }
+}

@@ -266,3 +266,27 @@ fn files_that_share_what_they_read_or_write_are_refused_together() {
         assert_eq!(refused(body), [true, true], "{body}");
     }
 }
+
+/// Of many approaches the message names those that miss most: who accepts it decides by them.
+#[test]
+fn the_approaches_that_miss_most_are_named() {
+    let lengths = [100, 104, 108, 112, 116, 120, 124, 128, 160];
+    let tool = |mm: &i32| {
+        format!("PERS tooldata t{mm}:=[TRUE,[[0,0,{mm}],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]];")
+    };
+    let data = lengths.iter().map(tool).collect::<Vec<_>>().join("\n");
+    let data = format!("{data}\nCONST robtarget p1:=[[400,0,350],{P};");
+    let start = "MoveAbsJ [[0,10,10,0,60,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,t100;\n";
+    let to = |mm: &i32| format!("MoveL p1,v100,fine,t{mm};\n");
+    let body = start.to_owned() + &lengths.iter().map(to).collect::<String>();
+    let done = try_with(given(), &[PLAIN], &[("t.mod", &rapid(&data, &body))]).expect("read");
+    let shared = done.findings.iter().find(|f| f.id == "target-shared");
+    let message = &shared.expect("it is of several tools").message;
+    let misses: Vec<f64> = message
+        .split(" mm, ")
+        .filter_map(|before| before.rsplit(' ').next()?.parse().ok())
+        .collect();
+    assert_eq!(misses.len(), 6, "{message}");
+    assert!(misses.is_sorted_by(|a, b| a >= b), "{message}");
+    assert!(message.ends_with("and 3 more, by less"), "{message}");
+}

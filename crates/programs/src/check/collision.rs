@@ -142,15 +142,38 @@ pub(crate) fn near(
         nearest: one,
         least_room: one,
     };
+    // where nothing is near, all pairs are looked for as far as those of which most is required
+    let required_m = scene.watched.iter().map(|pair| pair.required_m);
+    let most_required_m = required_m.fold(0.0, f64::max);
+    let is_none = room.pair.is_none();
+    let (below_m, farthest_m) = if is_none {
+        let horizon_m = horizon_m.max(LEAST_HORIZON_M);
+        (most_required_m, horizon_m + most_required_m)
+    } else {
+        (room.required_m, room.sampled_m.max(LEAST_HORIZON_M))
+    };
+    let is_beyond = is_none && room.clearance_m >= horizon_m - CLOSE_M;
+    let room_m = if is_beyond {
+        farthest_m
+    } else {
+        room.clearance_m
+    };
     // as more room is left to it, only a pair of which less is required can be nearer
-    let is_less = |pair: &Watched| pair.required_m < room.required_m;
+    let is_less = |pair: &Watched| pair.required_m < below_m;
     if room.sampled_m <= 0.0 || !scene.watched.iter().any(is_less) {
-        return alike(room);
+        let nearest = Clearance {
+            clearance_m: room_m,
+            ..room
+        };
+        return Near {
+            nearest,
+            least_room: room,
+        };
     }
     let asked = Asked {
-        horizon_m: room.sampled_m.max(LEAST_HORIZON_M),
+        horizon_m: farthest_m,
         rooms: false,
-        below_m: room.required_m,
+        below_m,
     };
     let others = searched(scene, mover, leg, pieces, asked);
     if others.sampled_m <= 0.0 {
@@ -159,7 +182,7 @@ pub(crate) fn near(
     let is_nearer = others.sampled_m < room.sampled_m;
     Near {
         nearest: Clearance {
-            clearance_m: room.clearance_m.min(others.clearance_m),
+            clearance_m: room_m.min(others.clearance_m),
             certified: room.certified && others.certified,
             ..if is_nearer { others } else { room }
         },

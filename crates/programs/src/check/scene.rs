@@ -1,9 +1,10 @@
 //! All bodies of a check: what moves, what stands, and which pairs are looked at.
 
-use super::cell::{Carrier, Cell, LINKS, UnknownPositioner};
+use super::cell::{Carrier, Cell, LINKS, Pair, UnknownPositioner};
 use super::mesh::Mesh;
 use super::query::{Body, Triangles};
 use crate::finding::Finding;
+use crate::geometry::units::MM;
 use crate::geometry::{Pose, Vector};
 use crate::model::shape::{Form, Shape};
 use crate::motion::leg::Leg;
@@ -16,6 +17,8 @@ pub type Meshes = BTreeMap<String, Mesh>;
 /// Bodies whose links are nearer than this in the chain are kept apart by the joint limits, and
 /// their capsules overlap.
 const APART: usize = 3;
+/// What is no farther from the base at home is what it stands on, metres.
+const TOUCHING_M: f64 = 1.0 * MM;
 
 /// What a body moves with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,6 +239,11 @@ impl Scene {
                 .find(|p| (p.a == a && p.b == b) || (p.a == b && p.b == a));
             said.map_or(Some(cell.clearance_m), |pair| pair.clearance_m)
         };
+        let said = |a: usize, b: usize| {
+            let names = [&self.names[a], &self.names[b]];
+            let is_own = |pair: &Pair| names.contains(&&pair.a) && names.contains(&&pair.b);
+            cell.pairs.iter().any(is_own)
+        };
         let is_link = |name: usize| name < LINKS.len();
         let mut watched = Vec::new();
         for (i, one) in self.moving.iter().enumerate() {
@@ -248,10 +256,7 @@ impl Scene {
                     _ => (i, j, usize::MAX),
                 };
                 let own = is_link(one.name) && is_link(other.name);
-                let said = cell.pairs.iter().any(|pair| {
-                    let names = [&self.names[one.name], &self.names[other.name]];
-                    names.contains(&&pair.a) && names.contains(&&pair.b)
-                });
+                let said = said(one.name, other.name);
                 // what moves together cannot come nearer; neighbours touch; a cell file may name
                 // others
                 if apart == 0 || (apart < APART && !(said && apart > usize::from(own))) {
@@ -266,7 +271,8 @@ impl Scene {
                     });
                 }
             }
-            // the base stands where it was put, and on a track on what it is next to at home
+            // the base stands where it was put, and on a track on what it touches at home; a cell file
+            // may name others
             let stands = one.on == On::Link(0);
             if stands && profile.external.track.is_empty() {
                 continue;
@@ -274,7 +280,8 @@ impl Scene {
             for (k, fixed) in self.fixed.iter().enumerate() {
                 if let Some(required_m) = required(one.name, fixed.name) {
                     let home = &profile.world_from_base;
-                    if stands && fixed.form.is_within(&one.body, home, required_m) {
+                    let touches = || fixed.form.is_within(&one.body, home, TOUCHING_M);
+                    if stands && !said(one.name, fixed.name) && touches() {
                         continue;
                     }
                     watched.push(Watched {

@@ -11,6 +11,7 @@ use crate::geometry::{Pose, Vector};
 use crate::inverse::Branch;
 use crate::model::Conditions;
 use crate::motion::arms::Equipped;
+use crate::motion::bare;
 use crate::motion::course::{Course, ToolCourse, ToolRotation};
 use crate::motion::external;
 use crate::motion::ground::Ground;
@@ -197,13 +198,21 @@ impl Walk {
         if let Some(refused) = refused_place(&program, sources, &findings, has_numbers) {
             return Err(CompensateError::Refused(Box::new(refused.clone())));
         }
+        let given = bare::flange_for_joints(
+            language,
+            &program,
+            sources,
+            of_moves,
+            &mut findings,
+            has_numbers,
+        );
         let ground = Ground::new::<CompensateError>(
             language,
             &settings,
             &program,
             sources,
             profile,
-            &options.given,
+            &given,
             has_numbers,
         )?;
         plausibility::bounds(&ground)?;

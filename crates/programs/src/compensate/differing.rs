@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::approach::{Approach, SAME_RAD, Solved};
+use super::rewrite::ROUNDING_LIMIT;
 use crate::geometry::Separation;
 use crate::geometry::units::{DEG, mm_from_m};
 use crate::motion::walk::NOWHERE;
@@ -117,19 +118,28 @@ fn is_elsewhere(job: &Job, a: &Approach, b: &Approach) -> bool {
     }
 }
 
+/// How large a miss is, in the largest that rounding may leave.
+fn size(miss: &Separation) -> f64 {
+    (miss.distance_m / ROUNDING_LIMIT.distance_m).max(miss.angle_rad / ROUNDING_LIMIT.angle_rad)
+}
+
 /// In what the approaches of a target differ, and what each misses.
 pub(super) fn message(job: &Job, group: &[Solved], misses: &[Separation]) -> String {
     let differing = Differing::of(job, group);
     let each = group.iter().zip(misses);
-    let mut each: Vec<String> = each
-        .map(|(solved, miss)| one(job, solved.approach, group, miss, differing))
+    let mut each: Vec<(String, &Separation)> = each
+        .map(|(solved, miss)| (one(job, solved.approach, group, miss, differing), miss))
         .collect();
     let mut named = HashSet::default();
-    each.retain(|one| named.insert(one.clone()));
+    each.retain(|(one, _)| named.insert(one.clone()));
     let more = each.len().saturating_sub(MOST_NAMED);
-    each.truncate(MOST_NAMED);
     if more > 0 {
-        each.push(format!("and {more} more"));
+        each.sort_by(|(_, a), (_, b)| size(b).total_cmp(&size(a)));
+        each.truncate(MOST_NAMED);
+    }
+    let mut each: Vec<String> = each.into_iter().map(|(one, _)| one).collect();
+    if more > 0 {
+        each.push(format!("and {more} more, by less"));
     }
     format!(
         "the robot comes to {} by {} approaches that differ in {}, and one fake target cannot serve \

@@ -102,16 +102,14 @@ pub(super) fn check(
     let mut judged = Judged::default();
     let mut unknown = BTreeMap::new();
     let mut of_statements: BTreeMap<_, (&Move, Vec<Verdict>)> = BTreeMap::new();
-    let mut of_joints = BTreeSet::new();
+    let mut staying = BTreeSet::new();
     for (&at, arrivals) in arrivals {
         let motion = &ground.program.moves[at];
         let Some(target) = motion.target else {
             continue;
         };
         if stays(job, target) {
-            // what is blocked has a finding of its own
-            let shape = ground.program.targets[target].layout.shape;
-            if shape == Shape::Joints && of_joints.insert((motion.file, motion.offset, target)) {
+            if staying.insert((motion.file, motion.offset, target)) {
                 findings.push(uncorrected(job, motion, target));
             }
             continue;
@@ -168,16 +166,21 @@ pub(super) fn check(
     unknown
 }
 
-/// Of a point that is derived from joints which stay as they are: it is a pose all the same, and
-/// nothing corrects it.
+/// Of a point that is derived from a target or from joints which stay as they are: it is a pose all
+/// the same, and nothing corrects it.
 fn uncorrected(job: &Job, motion: &Move, target: TargetId) -> Finding {
     let message = format!(
         "a point derived from {}, which stays as it is, is not corrected",
         job.ground.name_of(target)
     );
-    let hint = "go to a target of its own if it must be exact, or correct joints, too \
-        (--joint-targets correct)";
     let ground = &job.ground;
+    let hint = match ground.program.targets[target].layout.shape {
+        Shape::Joints => {
+            "go to a target of its own if it must be exact, or correct joints, too \
+             (--joint-targets correct)"
+        }
+        Shape::Pose => "go to a target of its own if it must be exact",
+    };
     ground.at_use("displaced-target", Severity::Warning, motion, message, hint)
 }
 

@@ -29,7 +29,7 @@ pub(super) enum Atom {
 }
 
 /// Values that are distinguished.
-const MOST_VALUES: usize = 4;
+pub(super) const MOST_VALUES: usize = 4;
 /// Positions with numbers in the files that are distinguished: a routine may be called for each of
 /// an array.
 const MOST_TARGETS: usize = 64;

@@ -25,6 +25,7 @@
 
 pub(crate) mod arms;
 pub(crate) mod backlash;
+pub(crate) mod bare;
 mod before;
 pub(crate) mod course;
 mod crowds;

@@ -153,6 +153,11 @@ fn each_variable(
                 }
             }
         }
+        Expr::Product(product) => {
+            for factor in &script.products[product as usize].factors {
+                each_variable(script, *factor, lists, visit);
+            }
+        }
         Expr::Absent | Expr::Target(_) | Expr::Value(_) | Expr::Unknown(_) => {}
     }
 }

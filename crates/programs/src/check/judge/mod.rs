@@ -96,8 +96,10 @@ impl Job<'_> {
             clearance.certified &= self.walk.is_followed(index);
         }
         self.judge_path(index, &report, &mut findings);
-        findings.extend(self.is_another(index, &report));
+        let elsewhere = self.is_another(index, &report);
+        findings.extend(elsewhere.or_else(|| self.goes_elsewhere(index, &report)));
         findings.extend(self.has_another_tool(index));
+        findings.extend(self.stands_elsewhere(index));
         findings.extend(self.not_finite(index, &landed, &report));
         (Some(report), findings)
     }
@@ -153,6 +155,27 @@ impl Job<'_> {
         ))
     }
 
+    /// That a move goes to where the original has it by another path: joints rotate the other way, or
+    /// the arm stands otherwise.
+    fn goes_elsewhere(&self, index: usize, report: &MoveReport) -> Option<Finding> {
+        let (off, most) = (report.path.as_ref()?.sampled, MOST_SHIFT);
+        let is_far = off.distance_m > most.distance_m || off.angle_rad > most.angle_rad;
+        self.original.filter(|_| is_far)?;
+        let message = format!(
+            "on its path the real tool is up to {:.3} mm and {:.3} deg from where the original program wants it, though \
+             it ends there: joints rotate the other way, or the arm stands otherwise",
+            mm_from_m(off.distance_m),
+            off.angle_rad / DEG
+        );
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            "path-elsewhere",
+            Severity::Warning,
+            message,
+            "look at the joints of both moves; configuration data, or a target between, say which way it goes",
+        ))
+    }
+
     /// That a move has another tool than in the original: that tool comes to where the other one is
     /// wanted.
     fn has_another_tool(&self, index: usize) -> Option<Finding> {
@@ -179,6 +202,40 @@ impl Job<'_> {
             "tool-not-original",
             Severity::Error,
             format!("{message}: another tool comes to where that one is wanted"),
+            "is --nominal the original of this program? compensate the original again",
+        ))
+    }
+
+    /// That an external axis stands elsewhere than in the original: what is wanted is wanted with the
+    /// axis there.
+    fn stands_elsewhere(&self, index: usize) -> Option<Finding> {
+        let (original, part) = (self.original?, self.parts?[index]?);
+        if part.to < 1.0 {
+            // a target between those of the original
+            return None;
+        }
+        let ours = self.walk.program.stands_at(self.walk.index(index));
+        let theirs = original.program.stands_at(original.index(part.stop));
+        let each = self.subject.profile.external.listed();
+        let all = each.zip(ours.iter().zip(theirs));
+        let (axis, (here, there)) = all.into_iter().find(|(_, (here, there))| here != there)?;
+        let shown = |value: &Option<f64>| match (value, axis.is_linear()) {
+            (None, _) => "at a place that nobody knows".to_owned(),
+            (Some(value), true) => format!("at {:.4} mm", mm_from_m(*value)),
+            (Some(value), false) => format!("at {:.5} deg", value / DEG),
+        };
+        let message = format!(
+            "external axis {} stands {} at the end of this move, and {} in the original program: what that one wants is \
+             wanted with the axis there",
+            axis.name(),
+            shown(here),
+            shown(there)
+        );
+        Some(self.subject.finding(
+            self.walk.motion(index),
+            "external-not-original",
+            Severity::Error,
+            message,
             "is --nominal the original of this program? compensate the original again",
         ))
     }

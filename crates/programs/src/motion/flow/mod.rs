@@ -20,8 +20,8 @@ pub(super) use moved::OF_MOVE;
 use super::before::{Before, Sets, Stop};
 use super::holding::{Holding, Holdings, Site};
 use crate::program::script::{
-    DisplacementId, Expr, Held, Label, ModalId, Part, PartValue, RoutineId, Script, Start,
-    Statement, TableId, ValueId, VariableId, short,
+    DisplacementId, Expr, Factor, Held, Label, ModalId, Part, PartValue, RemarkId, RoutineId,
+    Script, Start, Statement, TableId, ValueId, VariableId, short,
 };
 use foldhash::{HashMap, HashMapExt, HashSet, HashSetExt};
 use std::collections::{BTreeSet, BinaryHeap};
@@ -40,6 +40,9 @@ const MOST_WRITES: usize = 1_000_000;
 const MOST_NEAR: usize = 1000;
 /// Statements gone through, times those of the instances, after which the flow gives up.
 const MOST_VISITS: usize = 200;
+
+/// Factors of a product of frames, those of its factors counted, that are followed.
+const MOST_FACTORS: usize = 8;
 
 /// No caller, or several.
 const NO_INSTANCE: u32 = u32::MAX;
@@ -154,6 +157,8 @@ pub(super) struct Flow<'a> {
     made_parts: HashMap<(ValueId, u32, u32), Option<ValueId>>,
     /// Records that writes of parts made, by what is in them: what comes round again is the same.
     made_records: HashMap<Content, ValueId>,
+    /// Products of frames, by what they are made of.
+    products: HashMap<(Box<str>, Vec<Factor>, RemarkId), ValueId>,
     /// Positions of the robot itself: what holds the tool and the work frame of each.
     reads: Vec<(ValueId, [Holding; 2])>,
     /// Such a position as long as nothing has written the variables that held its tool and its work
@@ -259,6 +264,7 @@ impl<'a> Flow<'a> {
             more_parts: Vec::new(),
             made_parts: HashMap::new(),
             made_records: HashMap::new(),
+            products: HashMap::new(),
             reads: Vec::new(),
             fresh: Vec::new(),
             stood: HashMap::new(),

@@ -439,7 +439,8 @@ impl<'a> Flow<'a> {
             Expr::Element { .. }
             | Expr::Any { .. }
             | Expr::Displaced { .. }
-            | Expr::DisplacedByCall { .. } => {
+            | Expr::DisplacedByCall { .. }
+            | Expr::Product(_) => {
                 is_anywhere = false;
                 self.evaluate(state, value, site)
             }
@@ -545,6 +546,10 @@ impl<'a> Flow<'a> {
             Expr::Any { first, end } => self.script.lists[first as usize..end as usize]
                 .iter()
                 .all(|inner| self.is_fixed(*inner)),
+            Expr::Product(product) => self.script.products[product as usize]
+                .factors
+                .iter()
+                .all(|factor| self.is_fixed(*factor)),
         }
     }
 }

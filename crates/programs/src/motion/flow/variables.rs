@@ -1,12 +1,12 @@
 //! What variables hold: which are followed, and the value of an expression.
 
-use super::{Flow, MOST_NEAR, MOST_WRITES, Modes, State};
+use super::{Flow, MOST_FACTORS, MOST_NEAR, MOST_WRITES, Modes, State};
 use crate::motion::before::{ANYWHERE, Stop};
-use crate::motion::holding::{Atom, DECLARED, Holding, NOTHING, Site};
+use crate::motion::holding::{Atom, DECLARED, Holding, MOST_VALUES, NOTHING, Site};
 use crate::program::Displacement;
 use crate::program::script::{
-    ByCall, DisplacementId, Expr, Held, How, NOT_DISPLACED, Statement, TableId, ValueId,
-    VariableId, Written, short,
+    ByCall, DisplacementId, Expr, Factor, Held, How, NOT_DISPLACED, Product, Statement, TableId,
+    ValueId, VariableId, Written, short,
 };
 use foldhash::{HashMap, HashMapExt};
 use std::rc::Rc;
@@ -185,6 +185,13 @@ impl Flow<'_> {
                 }
                 all
             }
+            Expr::Product(product) => {
+                let of = &script.products[product as usize];
+                let each: Vec<Holding> = (of.factors.iter())
+                    .map(|factor| of_variable(self, *factor))
+                    .collect();
+                self.product(of, &each, site)
+            }
             Expr::Variable(_) => of_variable(self, value),
             Expr::Element { table, number } => {
                 let numbers = of_variable(self, Expr::Variable(number));
@@ -216,6 +223,56 @@ impl Flow<'_> {
                 }
                 all
             }
+        }
+    }
+
+    /// The products of frames that these hold.
+    fn product(&mut self, of: &Product, each: &[Holding], site: Site) -> Holding {
+        let mut all: Vec<Vec<Factor>> = vec![Vec::new()];
+        for held in each {
+            let atoms = self.holdings.of(*held).iter();
+            let factors: Option<Vec<_>> = atoms.map(|(atom, _)| self.factors(*atom)).collect();
+            let factors = factors.unwrap_or_default();
+            let longer = |before: &Vec<Factor>| {
+                let one = |more: &Vec<Factor>| [&before[..], more].concat();
+                factors.iter().map(one).collect::<Vec<_>>()
+            };
+            all = all.iter().flat_map(longer).collect();
+            let is_long = |one: &Vec<Factor>| one.len() > MOST_FACTORS;
+            if all.is_empty() || all.len() > MOST_VALUES || all.iter().any(is_long) {
+                return self.holdings.one(Atom::Unknown(of.otherwise), site);
+            }
+        }
+        let atoms = all.into_iter().map(|factors| {
+            let made = self.script.values.len() + self.made.len();
+            let key = (of.name.clone(), factors, of.otherwise);
+            let value = *self.products.entry(key).or_insert_with_key(|key| {
+                self.made.push(Held::Product {
+                    name: key.0.clone(),
+                    of: key.1.clone().into(),
+                    otherwise: key.2,
+                });
+                short(made)
+            });
+            (Atom::Value(value), site)
+        });
+        let atoms = atoms.collect();
+        self.holdings.intern(atoms)
+    }
+
+    /// The factors of a frame; nothing where it is none that is known.
+    fn factors(&self, atom: Atom) -> Option<Vec<Factor>> {
+        match atom {
+            Atom::Target {
+                target,
+                displacement: NOT_DISPLACED,
+            } => Some(vec![Factor::Target(target)]),
+            Atom::Value(value) if value != ValueId::MAX => match self.value(value) {
+                Held::Frame(_) | Held::Record { .. } => Some(vec![Factor::Value(value)]),
+                Held::Product { of, .. } => Some(of.to_vec()),
+                _ => None,
+            },
+            _ => None,
         }
     }
 

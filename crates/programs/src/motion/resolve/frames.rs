@@ -1,8 +1,11 @@
 //! Tools and frames of moves.
 
 use super::{Refused, Resolver};
+use crate::geometry::Pose;
 use crate::motion::holding::Atom;
-use crate::program::script::{Expr, Held, NOT_DISPLACED, NamedFrame, Place, Remark, ValueId};
+use crate::program::script::{
+    Expr, Factor, Held, NOT_DISPLACED, NamedFrame, Place, Remark, ValueId,
+};
 use crate::program::{
     Frame, FrameId, Load, MOST_ANGLE_DEG, ReadError, Role, TargetId, Tool, ToolId, Value as Meaning,
 };
@@ -35,6 +38,14 @@ impl Resolver<'_, '_> {
                         }
                     }
                 }
+                Held::Product {
+                    name,
+                    of,
+                    otherwise,
+                } => match self.product(&of, is_tool)? {
+                    Some(pose) => Ok(NamedFrame::still(name, Some(pose))),
+                    None => Err(Refused::Said(otherwise)),
+                },
                 Held::Number(number) => Ok(NamedFrame {
                     name: number.to_string().into(),
                     ..nameless
@@ -60,6 +71,27 @@ impl Resolver<'_, '_> {
             }
             Atom::Unknown(remark) => Err(Refused::Said(remark)),
         })
+    }
+
+    /// The product of frames, where they stand still and are known.
+    fn product(&mut self, of: &[Factor], is_tool: bool) -> Result<Option<Pose>, ReadError> {
+        let mut product = Pose::identity();
+        for factor in of {
+            let atom = match *factor {
+                Factor::Value(value) => Atom::Value(value),
+                Factor::Target(target) => Atom::Target {
+                    target,
+                    displacement: NOT_DISPLACED,
+                },
+            };
+            let found = self.named(atom, is_tool)?.ok();
+            let still = found.filter(|frame| frame.on.is_empty());
+            let Some(pose) = still.and_then(|frame| frame.pose) else {
+                return Ok(None);
+            };
+            product = product * pose;
+        }
+        Ok(Some(product))
     }
 
     /// A position that stands for a tool or frame.

@@ -23,6 +23,10 @@ impl Resolver<'_, '_> {
             Expr::Target(target) => self.go_target(target, displacement, listed),
             Expr::Value(value) => self.go_to(Atom::Value(value), None, displacement, listed),
             Expr::Unknown(remark) => self.go_to(Atom::Unknown(remark), None, displacement, listed),
+            Expr::Product(product) => {
+                let remark = script.products[product as usize].otherwise;
+                self.go_to(Atom::Unknown(remark), None, displacement, listed);
+            }
             Expr::Displaced { base, by } => {
                 for by in self.flow.displaced_again(by, displacement, OF_MOVE) {
                     self.fixed(script.lists[base as usize], by, listed);

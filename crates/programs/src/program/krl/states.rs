@@ -2,12 +2,11 @@
 
 use super::aggregate;
 use super::data::{Carried, is_external, load};
-use super::frames::{Choice, State, Table, carried_record, part, pose_of, record, unit};
+use super::frames::{Choice, State, Table, carried_record, part, record, unit};
 use super::names::{DataKind, Index, Stored, Turning, whole};
 use super::reader::Reader;
-use super::remarks::{FRAME_ASSIGNED, LINKED, MOVING, carried};
+use super::remarks::{CHOSEN, FRAME_ASSIGNED, LINKED, MOVING, carried};
 use super::tokens::{Cursor, Kind, Read, Token, capitals};
-use crate::geometry::Pose;
 use crate::program::names::Symbol;
 use crate::program::number;
 use crate::program::script::{Expr, How, Part, PartValue, Place, VariableId, Written, short};
@@ -147,49 +146,23 @@ impl Reader {
     /// A tool or base up to a comma or the end of the line; one that is written out is called
     /// `name`.
     pub(super) fn frame(&mut self, table: Table, name: &str, cursor: &mut Cursor) -> Read<Expr> {
-        let factors = *cursor;
-        let found = self.plain_frame(table, name, cursor)?;
-        match cursor.blanks() {
-            0 | b',' | b';' => Ok(found),
-            b':' => {
-                super::moves::skip_value(cursor);
-                Ok(match self.frame_product(factors)? {
-                    Some(pose) => self.fixed_frame(name, &pose),
-                    None => self.chosen(),
-                })
-            }
-            // C_DIS behind the last WITH
-            _ if cursor.peek().kind == Kind::Name => Ok(found),
-            _ => {
-                super::moves::skip_value(cursor);
-                Ok(self.chosen())
-            }
+        // `BASE_DATA[3]:{X 10,...}`
+        let mut factors = vec![self.plain_frame(table, name, cursor)?];
+        while cursor.take(b':') {
+            factors.push(self.plain_frame(table, name, cursor)?);
         }
-    }
-
-    /// `BASE_DATA[3]:{X 10,...}` where nothing changes a factor.
-    fn frame_product(&mut self, mut cursor: Cursor) -> Read<Option<Pose>> {
-        let mut product = Pose::identity();
-        loop {
-            let factor = if cursor.blanks() == b'{' {
-                let numbers = aggregate::read(&mut cursor)?.frame();
-                numbers.map(|numbers| pose_of(numbers.map(|number| number.value)))
-            } else {
-                let word = cursor.next();
-                let at = cursor.brackets()?;
-                let name = self.symbol(&cursor, word);
-                self.constant_frame(name, Index::of(at, &cursor))
-            };
-            let Some(factor) = factor else {
-                return Ok(None);
-            };
-            product = product * factor;
-            if !cursor.take(b':') {
-                break;
-            }
-        }
+        // C_DIS behind the last WITH
         let ends = matches!(cursor.blanks(), 0 | b',' | b';') || cursor.peek().kind == Kind::Name;
-        Ok(ends.then_some(product))
+        if !ends {
+            super::moves::skip_value(cursor);
+            return Ok(self.chosen());
+        }
+        if let [one] = factors[..] {
+            return Ok(one);
+        }
+        let script = &mut self.builder.script;
+        let otherwise = script.remark(CHOSEN);
+        Ok(script.product(name, factors, otherwise))
     }
 
     fn plain_frame(&mut self, table: Table, called: &str, cursor: &mut Cursor) -> Read<Expr> {
@@ -543,6 +516,12 @@ impl Reader {
             Table::Load => self.load_expr(cursor)?,
             _ => match self.frame(table, &name, cursor)? {
                 Expr::Unknown(_) => self.unknown(FRAME_ASSIGNED),
+                Expr::Product(product) => {
+                    let script = &mut self.builder.script;
+                    let otherwise = script.remark(FRAME_ASSIGNED);
+                    script.products[product as usize].otherwise = otherwise;
+                    Expr::Product(product)
+                }
                 known => known,
             },
         };

@@ -2,8 +2,8 @@
 
 use super::{
     Argument, ByCall, DISPLACED_SOMEHOW, DisplacementId, Expr, Held, How, Modal, ModalId,
-    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Remark, RemarkId, Script, Table, TableId,
-    UNBOUNDED, ValueId, Variable, VariableId, short,
+    NOT_DISPLACED, NamedFrame, OVERWRITTEN, Place, Product, Remark, RemarkId, Script, Table,
+    TableId, UNBOUNDED, ValueId, Variable, VariableId, short,
 };
 use crate::geometry::Pose;
 use crate::program::{Displacement, Number, Source, Target, TargetId};
@@ -167,6 +167,16 @@ impl Script {
             first,
             end: short(self.lists.len()),
         }
+    }
+
+    /// A tool or a work frame of this name that is the product of others.
+    pub fn product(&mut self, name: &str, factors: Vec<Expr>, otherwise: RemarkId) -> Expr {
+        self.products.push(Product {
+            name: name.into(),
+            factors: factors.into(),
+            otherwise,
+        });
+        Expr::Product(short(self.products.len() - 1))
     }
 
     /// A position, displaced by what the call says.

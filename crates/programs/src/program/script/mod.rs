@@ -98,6 +98,8 @@ pub struct Script {
     pub displacements: Vec<Displacement>,
     /// What calls make moves add to their targets.
     pub by_calls: Vec<ByCall>,
+    /// Tools and work frames that are products of others.
+    pub products: Vec<Product>,
     /// Routines, by file and place; text outside routines is one too.
     pub routines: Vec<Routine>,
     /// What runs concurrently ends with the program that started it.
@@ -168,6 +170,7 @@ impl Default for Script {
                 Displacement::Within(Box::new([Stride::Turned(None)])),
             ],
             by_calls: Vec::new(),
+            products: Vec::new(),
             ends_what_runs: false,
             routines: Vec::new(),
             statements: Vec::new(),
@@ -254,6 +257,15 @@ pub enum Held {
         parts: Range<u32>,
         /// The mechanical unit that carries it, by all its names; none where it stands still.
         on: Box<[Box<str>]>,
+    },
+    /// The product of tools or work frames.
+    Product {
+        /// Its name in the program.
+        name: Box<str>,
+        /// The first one outermost.
+        of: Box<[Factor]>,
+        /// What is to be said where one of them is not known.
+        otherwise: RemarkId,
     },
     /// The load of the flange; none where it is set to nothing.
     Load(Option<Load>),
@@ -393,8 +405,30 @@ pub enum Expr {
         /// Index in [`Script::by_calls`].
         by: u32,
     },
+    /// The product of frames: an index of [`Script::products`].
+    Product(u32),
     /// Only the running program knows, or nobody does.
     Unknown(RemarkId),
+}
+
+/// A tool or a work frame that is the product of others, the first one outermost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Product {
+    /// Its name in the program.
+    pub name: Box<str>,
+    /// What is multiplied.
+    pub factors: Box<[Expr]>,
+    /// What is to be said where one of them is not known.
+    pub otherwise: RemarkId,
+}
+
+/// One factor of a product of frames whose factors are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Factor {
+    /// A frame or a record.
+    Value(ValueId),
+    /// A position with numbers in the files.
+    Target(u32),
 }
 
 impl Expr {

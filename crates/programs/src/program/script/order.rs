@@ -19,6 +19,9 @@ impl Script {
         for expr in &mut self.lists {
             visit(expr);
         }
+        for factor in self.products.iter_mut().flat_map(|of| &mut of.factors) {
+            visit(factor);
+        }
         for variable in &mut self.variables {
             visit(&mut variable.declared);
         }

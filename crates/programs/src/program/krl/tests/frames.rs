@@ -256,13 +256,17 @@ fn a_base_displaced_by_numbers_is_known() {
         assert!((found - wanted).abs() < 1e-12, "{base:?}");
     }
     assert!((base.rotation.0[1][0] - 1.0).abs() < 1e-12);
-    // not where the program writes entries, nor on a kinematic
-    for other in [
-        format!("BASE_DATA[i].X=5\n{set}"),
-        set.replace("[2]", "[7]"),
-    ] {
-        assert_eq!(blocked(&in_cell(&other)), ["XP1"], "{other}");
-    }
+    // not on a kinematic; where the program writes some entry it is one of two
+    let other = set.replace("[2]", "[7]");
+    assert_eq!(blocked(&in_cell(&other)), ["XP1"], "{other}");
+    let program = in_cell(&format!("BASE_DATA[i].X=5\n{set}"));
+    let x_mm = |motion: &crate::program::Move| -> f64 {
+        let base = program.frames[motion.frame].world_from_frame;
+        (1e3 * base.expect("it is known").translation[0]).round()
+    };
+    let mut all: Vec<f64> = program.moves.iter().map(x_mm).collect();
+    all.sort_by(f64::total_cmp);
+    assert_eq!(all, [5.0, 500.0]);
 }
 
 #[test]

@@ -56,22 +56,57 @@ fn products_of_frames_that_nothing_changes_are_tools_and_bases() {
             TOOL,
             [10, 0, 0],
         ),
+        // what the program has just assigned
+        (
+            "BF={X 0,Y 0,Z 25,A 0,B 0,C 0}\n$BASE=BASE_DATA[1]:BF",
+            TOOL,
+            [500, 0, 25],
+        ),
+        (
+            "BF={X 1,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=BASE_DATA[1]:BF\nBF={X 2,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=$BASE:BF",
+            TOOL,
+            [500, 3, 0],
+        ),
+        ("$BASE=$BASE:F", TOOL, [500, 10, 0]),
+        ("$TOOL=$TOOL:{X 1,Y 2,Z 3,A 0,B 0,C 0}", [101, -3, 2], BASE),
+        ("BASE_DATA[1].X=5\n$BASE=BASE_DATA[1]:F", TOOL, [5, 10, 0]),
+        (
+            "IF $IN[1] THEN\nBF=BASE_DATA[2]\nELSE\nBF=BASE_DATA[2]\nENDIF\n$BASE=BF:F",
+            TOOL,
+            [10, 200, 0],
+        ),
     ] {
         let program = with(&format!("{text}\nLIN XP1"), &Settings::default());
         assert_eq!(places(&program), [tool, base], "{text}");
         assert_eq!(reported(&program), [""; 0], "{text}");
     }
     for text in [
-        "$BASE=$BASE:F",
+        "WHILE $IN[1]\n$BASE=$BASE:F\nENDWHILE",
+        "FOR n=1 TO 3\n$BASE=$BASE:F\nENDFOR",
         "$BASE=BASE_DATA[n]:F",
-        "BASE_DATA[1].X=5\n$BASE=BASE_DATA[1]:F",
-        "BASE_DATA[n]=F\n$BASE=BASE_DATA[1]:F",
+        "$BASE=BASE_DATA[7]:F",
+        "$BASE=BASE_DATA[1]:BF",
+        "BF={X 1,Y 0,Z n,A 0,B 0,C 0}\n$BASE=BASE_DATA[1]:BF",
+        "$BASE=BASE_DATA[1]:$POS_ACT",
         "vision(BASE_DATA[1])\n$BASE=BASE_DATA[1]:F",
         "F.X=F.X+1\n$BASE=BASE_DATA[1]:F",
     ] {
         let program = with(&format!("{text}\nLIN XP1"), &Settings::default());
         assert_eq!(blocked(&program), ["XP1"], "{text}");
     }
+    // what the program may have written is one of two
+    let program = with(
+        "BASE_DATA[n]=F\n$BASE=BASE_DATA[1]:F\nLIN XP1",
+        &Settings::default(),
+    );
+    let mut all = program.moves.iter().map(|motion| {
+        let base = program.frames[motion.frame].world_from_frame;
+        base.expect("it is known")
+            .translation
+            .map(|m| (1e3 * m).round())
+    });
+    assert!(all.clone().any(|base| base == [500.0, 10.0, 0.0]));
+    assert!(all.any(|base| base == [20.0, 0.0, 0.0]));
 }
 
 #[test]
