@@ -15,7 +15,7 @@ use super::shifts::PER_MM;
 use crate::program::displacing::grown_by_any;
 use crate::program::quantity::Quantity;
 use crate::program::script::{
-    DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, UNBOUNDED, VariableId, Written,
+    DISPLACED_SOMEHOW, DisplacementId, Expr, How, RemarkId, TURNED, UNBOUNDED, VariableId, Written,
 };
 use crate::program::{Number, TargetId, number};
 use foldhash::{HashSet, HashSetExt};
@@ -301,6 +301,44 @@ impl Reader<'_> {
             let write = &mut self.builder.script.writes[added.write];
             if let How::PartNumber(remark) = write.how {
                 write.how = How::PartBy(remark, by);
+            }
+        }
+        self.displace_converted();
+    }
+
+    /// What displaces a position in the coordinates of another frame goes along the axes of that one,
+    /// which are not those of its target.
+    fn displace_converted(&mut self) {
+        if self.converted.is_empty() {
+            return;
+        }
+        let mut converted = std::mem::take(&mut self.converted);
+        loop {
+            let is_one = |of: &Expr| of.variable().is_some_and(|of| converted.contains(&of));
+            let copies = self.copies.iter();
+            let more = copies.filter(|(to, of)| !converted.contains(*to) && of.iter().any(is_one));
+            let more: Vec<VariableId> = more.map(|(to, _)| *to).collect();
+            if more.is_empty() {
+                break;
+            }
+            converted.extend(more);
+        }
+        let script = &mut self.builder.script;
+        for write in &mut script.writes {
+            let may_be = match write.variable {
+                Written::One(variable) => converted.contains(&variable),
+                Written::AnyOf(table) => {
+                    let mut entries = script.tables[table as usize].entries.values();
+                    entries.any(|entry| converted.contains(entry))
+                }
+            };
+            match &mut write.how {
+                How::PartBy(_, by) | How::PartOf { by, .. }
+                    if may_be && ![DISPLACED_SOMEHOW, TURNED].contains(by) =>
+                {
+                    *by = UNBOUNDED;
+                }
+                _ => {}
             }
         }
     }

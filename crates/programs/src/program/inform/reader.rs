@@ -62,6 +62,7 @@ pub(super) fn script<'a>(
         known_numbers: known_numbers(&lines),
         written_parts: HashSet::new(),
         written_any: HashSet::new(),
+        converted: HashSet::new(),
         added: Vec::new(),
         computed: Vec::new(),
         shifted: Vec::new(),
@@ -163,6 +164,8 @@ pub(super) struct Reader<'a> {
     /// Positions of which the text tells what is written into them.
     pub(super) written_parts: HashSet<VariableId>,
     pub(super) written_any: HashSet<TableId>,
+    /// What holds a position in the coordinates of another frame than that of its target (`CNVRT`).
+    pub(super) converted: HashSet<VariableId>,
     /// Writes that add one position to another.
     pub(super) added: Vec<Added>,
     /// Positions of which others are computed.
@@ -464,6 +467,9 @@ impl<'a> Reader<'a> {
         };
         if let Some(value) = value {
             self.note_copy(written, value);
+            if let (b"CNVRT", Written::One(to)) = (first, written) {
+                self.converted.insert(to);
+            }
             if let Written::One(to) = written {
                 for (to, of) in self.frames_given(to, value).into_iter().flatten() {
                     self.write(line, Written::One(to), How::Whole(of));

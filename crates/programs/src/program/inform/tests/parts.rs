@@ -49,6 +49,21 @@ fn a_position_of_the_files_displaces_a_copy_by_its_numbers() {
     }
 }
 
+/// In the coordinates of another frame it is displaced along the axes of that one.
+#[test]
+fn what_displaces_a_position_in_other_coordinates_has_no_bound() {
+    for text in [
+        "CNVRT LPX001 LPX001 BF\nADD LP001 P002",
+        "CNVRT LPX001 PX001 UF#(5)\nSUB LP001 P002",
+        "CNVRT PX009 PX001 RF\nSET LP001 P009\nADD LP001 P002",
+        "CNVRT LPX001 PX001 BF\nGETE D005 LP001 (3)\nADD D005 200000\nSETE LP001 (3) D005",
+    ] {
+        assert_eq!(displaced(text), Displacement::Unbounded, "{text}");
+    }
+    // another position in other coordinates
+    assert_eq!(displaced("CNVRT PX009 PX002 BF\nADD LP001 P002"), up(200.0));
+}
+
 #[test]
 fn a_number_of_a_position_and_something_more_displaces() {
     for text in [
