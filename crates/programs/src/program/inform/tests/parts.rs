@@ -61,7 +61,7 @@ fn what_displaces_a_position_in_other_coordinates_has_no_bound() {
         assert_eq!(displaced(text), Displacement::Unbounded, "{text}");
     }
     // another position in other coordinates
-    assert_eq!(displaced("CNVRT PX009 PX002 BF\nADD LP001 P002"), up(200.0));
+    assert_eq!(displaced("CNVRT PX009 PX004 BF\nADD LP001 P002"), up(200.0));
 }
 
 #[test]
