@@ -10,7 +10,7 @@ use crate::geometry::units::{DEG, mm_from_m};
 use crate::program::{Motion, Source};
 use crate::report::html::cell::{Along, Cell, Points, Robot, bodies};
 use crate::report::html::chart::{Axis, Chart, Kind, Series, Tone};
-use crate::report::html::numbers::{Column, Number, Table, fixed, significant};
+use crate::report::html::numbers::{Column, DIGITS, Number, Table, fixed, significant};
 use crate::report::html::page::{Level, Page, Section};
 use crate::report::text::{at_least, at_most};
 use crate::task::check::{Checking, Header};
@@ -201,6 +201,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
         sources: of.sources,
     };
     let mm = |value: f64| significant(mm_from_m(value), 5);
+    let far = |value: f64| significant(mm_from_m(value), DIGITS);
     let some = |of: &dyn Fn(usize) -> Option<Number>| -> Vec<Option<Number>> {
         rows.iter().map(|row| of(*row)).collect()
     };
@@ -276,13 +277,13 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
     let clearance = add(Column::numbers(
         "clearance",
         "mm",
-        some(&|r| moves[r].clearance.as_ref().map(|c| mm(c.clearance_m))),
+        some(&|r| moves[r].clearance.as_ref().map(|c| far(c.clearance_m))),
     )
     .to(3));
     let nominal = add(Column::numbers(
         "nominal clearance",
         "mm",
-        some(&|r| moves[r].nominal_clearance_m.map(|[along, _]| mm(along))),
+        some(&|r| moves[r].nominal_clearance_m.map(|[along, _]| far(along))),
     )
     .to(3)
     .in_detail());
@@ -294,7 +295,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
                 .clearance
                 .as_ref()
                 .filter(|c| c.pair.is_some())
-                .map(|c| mm(c.required_m))
+                .map(|c| far(c.required_m))
         }),
     )
     .to(3)
@@ -307,7 +308,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
             moves[r]
                 .limits
                 .as_ref()
-                .map(|l| significant(l.margin_rad / DEG, 4))
+                .map(|l| significant(l.margin_rad / DEG, 5))
         }),
     )
     .to(2));
@@ -318,7 +319,7 @@ fn move_table(of: &Checked, rows: &[usize]) -> (Table, Drawn) {
             moves[r]
                 .limits
                 .as_ref()
-                .map(|l| significant(l.margins.wrist_rad / DEG, 4))
+                .map(|l| significant(l.margins.wrist_rad / DEG, 5))
         }),
     )
     .to(2)
