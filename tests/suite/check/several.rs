@@ -219,10 +219,18 @@ fn moves_to_joints_before_any_tool_is_set_are_those_of_the_flange() {
     let compensate = ["compensate", file, "--profile", profile, "-o", out];
     let (status, said, error) = run(&[&compensate[..], &["--max-path-error", "0.2"]].concat());
     assert_eq!(status, 0, "{said}{error}");
-    // a move to a pose needs its tool
-    let program = program.replace("$TOOL={X 0,Y 0,Z 200,A 0,B 0,C 0}\n", "");
-    std::fs::write(file, program).expect("scratch");
-    let (status, said, error) = run(&["check", file, "--profile", profile]);
-    assert_eq!(status, 2);
-    assert!((said + &error).contains("where tool `$TOOL` is"));
+    // a move to a pose needs its tool, also where it carries something else by then
+    for loaded in [
+        "",
+        "$LOAD={M 5,CM {X 0,Y 0,Z 50,A 0,B 0,C 0},J {X 0,Y 0,Z 0}}\n",
+    ] {
+        let program = program.replace("$TOOL={X 0,Y 0,Z 200,A 0,B 0,C 0}\n", loaded);
+        std::fs::write(file, program).expect("scratch");
+        let (status, said, error) = run(&["check", file, "--profile", profile]);
+        assert_eq!(status, 2, "{loaded}");
+        assert!(
+            (said + &error).contains("where tool `$TOOL` is"),
+            "{loaded}"
+        );
+    }
 }

@@ -152,9 +152,9 @@ pub(crate) fn near(
     } else {
         (room.required_m, room.sampled_m.max(LEAST_HORIZON_M))
     };
-    let is_beyond = is_none && room.clearance_m >= horizon_m - CLOSE_M;
-    let room_m = if is_beyond {
-        farthest_m
+    // each pair has so much room, so that those of which most is required are so far apart
+    let room_m = if is_none {
+        room.clearance_m + most_required_m
     } else {
         room.clearance_m
     };

@@ -3,7 +3,7 @@
 use super::setting::{Given, Setting};
 use crate::finding::{Finding, Severity};
 use crate::profile::{Mounted, Profile};
-use crate::program::{Language, Move, Program, Source, ToolId};
+use crate::program::{Language, Move, Program, Source};
 use std::collections::BTreeSet;
 
 /// What is given for the tools of a program; the flange for tools that nobody knows and that no move
@@ -20,18 +20,19 @@ pub(crate) fn flange_for_joints(
     let mut given = given.clone();
     let walked = || program.moves.iter().filter(|motion| needs(motion));
     let unknown = |motion: &&Move| setting.tools[motion.tool].is_none();
-    let to_poses = walked().filter(|motion| program.goes_to_pose(motion));
-    let at_poses: BTreeSet<ToolId> = to_poses.map(|motion| motion.tool).collect();
-    let mut said: BTreeSet<ToolId> = BTreeSet::new();
+    let name = |motion: &Move| program.tools[motion.tool].name.as_str();
+    // what is given counts for every tool of the name, whatever its load
+    let to_poses = walked().filter(|motion| unknown(motion) && program.goes_to_pose(motion));
+    let mut left: BTreeSet<&str> = to_poses.map(name).collect();
     for motion in walked().filter(unknown) {
-        if at_poses.contains(&motion.tool) || !said.insert(motion.tool) {
+        if !left.insert(name(motion)) {
             continue;
         }
         let flange = Mounted {
             load: Some((0.0, [0.0; 3])),
             ..Mounted::flange()
         };
-        let name = program.tools[motion.tool].name.clone();
+        let name = name(motion).to_owned();
         let message = format!(
             "only moves to joints have tool `{name}`, and nothing says where it is: the flange goes along them, \
              without a tool and without a load"

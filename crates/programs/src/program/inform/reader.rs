@@ -467,8 +467,14 @@ impl<'a> Reader<'a> {
         };
         if let Some(value) = value {
             self.note_copy(written, value);
-            if let (b"CNVRT", Written::One(to)) = (first, written) {
-                self.converted.insert(to);
+            if first == b"CNVRT" {
+                match written {
+                    Written::One(to) => _ = self.converted.insert(to),
+                    Written::AnyOf(table) => {
+                        let entries = &self.builder.script.tables[table as usize].entries;
+                        self.converted.extend(entries.values());
+                    }
+                }
             }
             if let Written::One(to) = written {
                 for (to, of) in self.frames_given(to, value).into_iter().flatten() {
